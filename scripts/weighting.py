@@ -1,0 +1,33 @@
+"""Figure 2: the ISO 2631 weightings Wk and Wb, as filters and as the standard's table.
+
+Writes figure2.png and figure2.pdf, and figure2.csv with the factors at the table's frequencies, to a folder
+whose path is the last line printed.
+"""
+
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from typer import Option
+
+from suspension_ctrl import figures, files, terminal, weightings
+
+
+def main(out: Annotated[Path | None, Option(help="Folder for the results, absent or empty.")] = None) -> None:
+    """Draw the frequency weightings of vertical vibration."""
+    folder = files.results_folder(out)
+    bands = 10 ** (np.arange(-10, 21) / 10)
+    factors = {
+        f"{name} [-]": weightings.by_name(name).factor(bands) for name in weightings.FILTERS + weightings.TABLES
+    }
+    files.write_csv(folder / "figure2.csv", pd.DataFrame({"frequency [Hz]": bands, **factors}))
+    figure = Figure(figsize=(7, 4.6), layout="constrained")
+    figures.weighting_factors(figure.add_subplot(), ("Wk", "Wb"), ("Wk-table", "Wb-table"))
+    files.write_figure(folder / "figure2", figure)
+    print(folder)
+
+
+if __name__ == "__main__":
+    terminal.run_script(main)

@@ -1,0 +1,57 @@
+"""Checks of user input: a ValueError names the parameter, the value and what is allowed."""
+
+import math
+from collections.abc import Collection
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+def positive(name: str, value: float, unit: str = "") -> None:
+    """Raise ValueError unless `value` is a finite number above zero."""
+    if not (_is_real(value) and math.isfinite(value) and value > 0):
+        raise ValueError(f"{name} must be finite and > 0{' ' * bool(unit)}{unit}, got {value!r}")
+
+
+def at_least(name: str, value: int, minimum: int) -> None:
+    """Raise ValueError unless `value` is a whole number of at least `minimum`."""
+    if not (isinstance(value, int | np.integer) and not isinstance(value, bool) and value >= minimum):
+        raise ValueError(f"{name} must be a whole number >= {minimum}, got {value!r}")
+
+
+def within(name: str, value: float, lowest: float, highest: float) -> None:
+    """Raise ValueError unless `value` lies in the closed interval from `lowest` to `highest`."""
+    if not (_is_real(value) and lowest <= value <= highest):
+        raise ValueError(f"{name} must be a number from {lowest} to {highest}, got {value!r}")
+
+
+def one_of(name: str, value: object, allowed: Collection[object]) -> None:
+    """Raise ValueError unless `value` is one of `allowed`."""
+    if value not in allowed:
+        raise ValueError(f"{name} must be one of {', '.join(map(str, allowed))}, got {value!r}")
+
+
+def ordered(lower_name: str, upper_name: str, lower: ArrayLike, upper: ArrayLike) -> None:
+    """Raise ValueError unless both are finite, one-dimensional, of one length and lower < upper throughout."""
+    low, high = np.asarray(lower, dtype=float), np.asarray(upper, dtype=float)
+    if low.ndim != 1 or low.shape != high.shape or low.size == 0:
+        raise ValueError(
+            f"{lower_name} and {upper_name} must be one-dimensional and of one length, got {lower!r} and {upper!r}"
+        )
+    if not (np.isfinite(low).all() and np.isfinite(high).all() and (low < high).all()):
+        raise ValueError(
+            f"{lower_name} must be finite and below {upper_name} in every variable, "
+            f"got {low.tolist()} and {high.tolist()}"
+        )
+
+
+def designs(values: ArrayLike, variables: int) -> NDArray[np.float64]:
+    """Return `values` as a float array of shape (n, variables); ValueError where that is not what they are."""
+    array = np.asarray(values, dtype=float)
+    if array.ndim != 2 or array.shape[1] != variables:
+        raise ValueError(f"designs must have shape (n, {variables}), got {array.shape}")
+    return array
+
+
+def _is_real(value: object) -> bool:
+    return isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)

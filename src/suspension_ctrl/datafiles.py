@@ -1,0 +1,23 @@
+"""Where the data files are, in a checkout and in an installed wheel."""
+
+import csv
+from pathlib import Path
+
+_PACKAGE = Path(__file__).parent
+
+
+def path(name: str) -> Path:
+    """Path of the data file `name`, e.g. ``"paper/table1_vehicle.csv"``.
+
+    A wheel carries the top-level folder ``data`` inside the package; in a checkout it lies beside ``src``.
+    """
+    for folder in (_PACKAGE / "data", _PACKAGE.parents[1] / "data"):
+        if (folder / name).is_file():
+            return folder / name
+    raise FileNotFoundError(f"data file {name!r} is neither in the package nor in the checkout")
+
+
+def rows(name: str) -> list[dict[str, str]]:
+    """Rows of a CSV data file, each a dictionary by column name; lines that start with ``#`` name the source."""
+    with path(name).open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))

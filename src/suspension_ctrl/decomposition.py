@@ -1,0 +1,193 @@
+"""Decomposition of a multi-objective problem into scalar ones: the steps of MOEA/D-DRA on arrays.
+
+Source: Q. Zhang, W. Liu, H. Li, "The performance of a new version of MOEA/D on CEC09 unconstrained MOP test
+instances", IEEE Congress on Evolutionary Computation, 2009.
+"""
+
+from functools import lru_cache
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from .operators import draw_below
+
+ZERO_WEIGHT = 1e-4
+"""What stands for a weight of zero, so that no objective is left out of a subproblem altogether."""
+
+_SAMPLE_SEED = 2009  # equal sizes give equal weights: the sample is part of the definition
+
+
+@lru_cache
+def weight_vectors(size: int, objectives: int) -> NDArray[np.float64]:
+    """Return widely spread weight vectors.
+
+    The unit vectors come first; then, again and again, the candidate farthest from all those chosen, out of
+    a uniform sample of the simplex.
+
+    Parameters
+    ----------
+    size : int
+        Number of vectors N.
+    objectives : int
+        Number of objectives m, at most N.
+
+    Returns
+    -------
+    (N, m) ndarray
+        Non-negative vectors of sum one, read-only.
+    """
+    rng = np.random.default_rng(_SAMPLE_SEED)
+    candidates = rng.dirichlet(np.ones(objectives), max(5000, 5 * size))
+    weights = farthest_first(np.eye(objectives), candidates, size)
+    weights.flags.writeable = False
+    return weights
+
+
+@njit(cache=True)
+def farthest_first(start: NDArray[np.float64], candidates: NDArray[np.float64], size: int) -> NDArray[np.float64]:
+    """Return `size` points: those of `start`, then each time the candidate whose nearest one is farthest."""
+    chosen = np.empty((size, start.shape[1]))
+    chosen[: start.shape[0]] = start
+    nearest = np.full(candidates.shape[0], np.inf)
+    for i in range(size):
+        if i >= start.shape[0]:
+            chosen[i] = candidates[np.argmax(nearest)]
+        for c in range(candidates.shape[0]):
+            distance = 0.0
+            for j in range(candidates.shape[1]):
+                distance += (candidates[c, j] - chosen[i, j]) ** 2
+            nearest[c] = min(nearest[c], distance)
+    return chosen
+
+
+@lru_cache
+def neighbourhoods(size: int, objectives: int, neighbours: int) -> NDArray[np.int64]:
+    """Return for each of `weight_vectors` the indices of the nearest ones, itself first; (N, T), read-only."""
+    weights = weight_vectors(size, objectives)
+    _, nearest = cKDTree(weights).query(weights, k=neighbours)
+    nearest = np.ascontiguousarray(nearest, dtype=np.int64)
+    nearest.flags.writeable = False
+    return nearest
+
+
+def corner_subproblems(weights: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return the indices of the subproblems whose weights (N, m) are the unit vectors, in objective order."""
+    return np.array([np.flatnonzero(weights[:, j] == 1.0)[0] for j in range(weights.shape[1])])
+
+
+@njit(cache=True)
+def tchebycheff(
+    objectives: NDArray[np.float64],
+    weight: NDArray[np.float64],
+    ideal: NDArray[np.float64],
+    span: NDArray[np.float64],
+) -> float:
+    """Return g(F | lambda) = max_j lambda_j |F_j - z_j| / span_j; all arguments (m,), equation (14)."""
+    g = 0.0
+    for j in range(objectives.size):
+        g = max(g, weight[j] * abs(objectives[j] - ideal[j]) / span[j])
+    return g
+
+
+@njit(cache=True)
+def choose_subproblems(
+    rng: np.random.Generator,
+    utility: NDArray[np.float64],
+    corners: NDArray[np.int64],
+    size: int,
+    tournament: int,
+) -> NDArray[np.int64]:
+    """Return the subproblems (size,) to work on: the corners, then winners of tournaments by utility.
+
+    Each further one has the highest utility of `tournament` drawn from those not chosen yet; the first drawn
+    wins a tie.
+    """
+    open_ = np.arange(utility.size)
+    left = utility.size
+    chosen = np.empty(size, dtype=np.int64)
+    for c in range(corners.size):
+        chosen[c] = corners[c]
+        left -= 1
+        place = np.flatnonzero(open_[: left + 1] == corners[c])[0]
+        open_[place] = open_[left]
+    for c in range(corners.size, size):
+        best = draw_below(rng, left)
+        for _ in range(tournament - 1):
+            rival = draw_below(rng, left)
+            if utility[open_[rival]] > utility[open_[best]]:
+                best = rival
+        chosen[c] = open_[best]
+        left -= 1
+        open_[best] = open_[left]
+    return chosen
+
+
+@njit(cache=True)
+def mating_range(
+    rng: np.random.Generator, i: int, neighbours: NDArray[np.int64], probability: float
+) -> NDArray[np.int64]:
+    """Return where subproblem i finds mates and its child is put: its neighbours (T,) or, rarely, all (N,)."""
+    if rng.random() < probability:
+        return neighbours[i].copy()
+    return np.arange(neighbours.shape[0])
+
+
+@njit(cache=True)
+def replace_worse(
+    rng: np.random.Generator,
+    child: NDArray[np.float64],
+    child_objectives: NDArray[np.float64],
+    partners: NDArray[np.int64],
+    designs: NDArray[np.float64],
+    objectives: NDArray[np.float64],
+    weights: NDArray[np.float64],
+    ideal: NDArray[np.float64],
+    span: NDArray[np.float64],
+    limit: int,
+) -> None:
+    """Put a child in the place of partners that it betters, at most `limit` of them; everything in place.
+
+    The ideal point takes the child's objectives in before the first comparison. The partners, whose order is
+    lost, are visited in a random one.
+    """
+    for j in range(ideal.size):
+        ideal[j] = min(ideal[j], child_objectives[j])
+    replaced = 0
+    for left in range(partners.size, 0, -1):
+        if replaced == limit:
+            return
+        drawn = draw_below(rng, left)
+        p = partners[drawn]
+        partners[drawn] = partners[left - 1]
+        better = tchebycheff(child_objectives, weights[p], ideal, span)
+        if better < tchebycheff(objectives[p], weights[p], ideal, span):
+            designs[p] = child
+            objectives[p] = child_objectives
+            replaced += 1
+
+
+@njit(cache=True)
+def updated_utility(
+    utility: NDArray[np.float64],
+    before: NDArray[np.float64],
+    objectives: NDArray[np.float64],
+    weights: NDArray[np.float64],
+    ideal: NDArray[np.float64],
+    span: NDArray[np.float64],
+    threshold: float,
+) -> NDArray[np.float64]:
+    """Return the utilities (N,) after progress from `before` (N, m) to `objectives` (N, m).
+
+    Progress is the relative decrease of g, old and new value both taken at the present ideal point: above
+    the threshold a utility is 1, below it sinks, by 5 % where there was none.
+    """
+    updated = np.ones_like(utility)
+    for i in range(utility.size):
+        old = tchebycheff(before[i], weights[i], ideal, span)
+        new = tchebycheff(objectives[i], weights[i], ideal, span)
+        progress = max(0.0, (old - new) / old) if old > 0 else 0.0
+        if progress <= threshold:
+            updated[i] = (0.95 + 0.05 * progress / threshold) * utility[i]
+    return updated

@@ -1,0 +1,173 @@
+"""The paper's figures: data in, Axes or Figure out; nothing is saved here."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from .responses import phase_degrees
+from .weightings import by_name
+
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")  # Okabe and Ito: told apart by colour-blind readers
+
+
+def colours(count: int) -> Sequence[Any]:
+    """Return `count` colours: a palette for a few, a graded map for many."""
+    return COLOURS if count <= len(COLOURS) else list(colormaps["viridis"](np.linspace(0, 0.9, count)))
+
+
+def final_populations(populations: pd.DataFrame) -> Figure:
+    """Draw Figure 5: the final populations by their three objectives, a panel per configuration.
+
+    Parameters
+    ----------
+    populations : DataFrame
+        From `experiments.final_populations`.
+    """
+    panels = list(populations.groupby(["population", "iterations"]))
+    columns = min(2, len(panels))
+    rows = -(-len(panels) // columns)
+    figure = Figure(figsize=(5.0 * columns, 4.4 * rows + 0.4), layout="constrained")
+    places = figure.subfigures(rows, columns, squeeze=False).flat
+    for place, ((population, iterations), part) in zip(places, panels, strict=False):
+        acc, dtl = place.subplots(2, 1, sharex=True)
+        final_population_panel(acc, dtl, part)
+        acc.set_title(f"N = {population}, {iterations} iterations", fontsize=10)
+    handles, labels = acc.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=len(labels), markerscale=2, frameon=False)
+    return figure
+
+
+def final_population_panel(acc: Axes, dtl: Axes, populations: pd.DataFrame) -> None:
+    """Draw the populations of one configuration, a marker per algorithm: ACC and DTL over SWS."""
+    # Rings first, then small marks over them, so that neither population hides the other.
+    marks: list[dict[str, Any]] = [
+        {"marker": "o", "s": 22, "facecolors": "none", "linewidths": 0.5},
+        {"marker": "o", "s": 4, "linewidths": 0},
+        {"marker": "x", "s": 12, "linewidths": 0.6},
+        {"marker": "+", "s": 16, "linewidths": 0.6},
+    ]
+    groups = populations.groupby("algorithm", sort=False)
+    for colour, mark, (algorithm, part) in zip(COLOURS, marks, groups, strict=False):
+        style: dict[str, Any] = {"edgecolors": colour} if "facecolors" in mark else {"color": colour}
+        for ax, objective, scale in ((acc, "ACC [m/s^2]", 1.0), (dtl, "DTL [N]", 1e-3)):
+            ax.scatter(part["SWS [m]"], part[objective] * scale, label=algorithm, **mark, **style)
+    acc.set_ylabel("ACC [m/s²]")
+    dtl.set_ylabel("DTL [kN]")
+    dtl.set_xlabel("SWS [m]")
+
+
+def weighting_factors(ax: Axes, filters: Sequence[str], tables: Sequence[str]) -> None:
+    """Draw Figure 2: factors of ISO 2631 weightings over frequency, filters as lines, tables as marks."""
+    f = np.geomspace(0.1, 100, 400)
+    for colour, name in zip(COLOURS, filters, strict=False):
+        ax.loglog(f, by_name(name).factor(f), color=colour, label=f"{name}, filter")
+    for colour, name in zip(COLOURS, tables, strict=False):
+        bands = 10 ** (np.arange(-10, 21) / 10)
+        ax.loglog(
+            bands,
+            by_name(name).factor(bands),
+            "o",
+            ms=3.5,
+            color=colour,
+            label=f"{name.removesuffix('-table')}, table",
+        )
+    ax.set_xlabel("frequency [Hz]")
+    ax.set_ylabel("weighting factor [-]")
+    ax.grid(which="both", alpha=0.3)
+    ax.legend(frameon=False)
+
+
+@dataclass(frozen=True)
+class DesignCurves:
+    """What Figures 6 and 7 show of one design.
+
+    Parameters
+    ----------
+    label : str
+    f : (n,) ndarray
+        Frequencies [Hz].
+    responses : dict of str to (n,) complex ndarray
+        H(w) from the road by response.
+    densities : dict of str to (n,) ndarray
+        Their spectra on the road; ``weighted_acceleration`` beside them.
+    natural : (k,) ndarray
+        Natural frequencies [Hz].
+    """
+
+    label: str
+    f: NDArray[np.float64]
+    responses: Mapping[str, NDArray[np.complex128]]
+    densities: Mapping[str, NDArray[np.float64]]
+    natural: NDArray[np.float64]
+
+
+def bode(designs: Sequence[DesignCurves]) -> Figure:
+    """Draw Figure 6: magnitude and phase of the three responses to the road, a line per design."""
+    figure, axes = _three_columns(2)
+    for column, (response, panel) in zip(axes.T, PANELS.items(), strict=True):
+        magnitude, phase = column
+        for colour, design in zip(colours(len(designs)), designs, strict=False):
+            h = design.responses[response] * panel.scale
+            _marked_line(magnitude, design, np.abs(h), colour)
+            _marked_line(phase, design, phase_degrees(h), colour)
+        magnitude.set(title=panel.title, yscale="log", ylabel=f"magnitude [{panel.unit}/m]")
+        phase.set(ylabel="phase [deg]")
+    return _finished(figure, axes)
+
+
+def spectra(designs: Sequence[DesignCurves], weighting: str) -> Figure:
+    """Draw Figure 7: spectra of the three responses, a line per design; acceleration weighted too, dashed."""
+    figure, axes = _three_columns(1)
+    for ax, (response, panel) in zip(axes[0], PANELS.items(), strict=True):
+        for colour, design in zip(colours(len(designs)), designs, strict=False):
+            _marked_line(ax, design, design.densities[response] * panel.scale**2, colour)
+            if response == "body_acceleration":
+                ax.plot(design.f, design.densities["weighted_acceleration"], "--", color=colour, lw=1.2)
+        note = f", dashed: weighted with {weighting}" if response == "body_acceleration" else ""
+        ax.set(title=panel.title + note, yscale="log", ylabel=f"PSD [{panel.density_unit}]")
+    return _finished(figure, axes)
+
+
+@dataclass(frozen=True)
+class _Panel:
+    title: str
+    unit: str
+    density_unit: str
+    scale: float
+
+
+PANELS = {
+    "suspension_travel": _Panel("SWS: suspension travel", "m", "m²/Hz", 1.0),
+    "body_acceleration": _Panel("ACC: body acceleration", "m/s²", "(m/s²)²/Hz", 1.0),
+    "tyre_load": _Panel("DTL: tyre load", "kN", "kN²/Hz", 1e-3),
+}
+
+
+def _three_columns(rows: int) -> tuple[Figure, NDArray[Any]]:
+    figure = Figure(figsize=(11, 1.4 + 2.6 * rows), layout="constrained")
+    return figure, figure.subplots(rows, 3, sharex=True, squeeze=False)
+
+
+def _marked_line(ax: Axes, design: DesignCurves, values: NDArray[np.float64], colour: str) -> None:
+    """Draw a curve over frequency with a mark at each natural frequency."""
+    ax.plot(design.f, values, color=colour, lw=1.4, label=design.label)
+    ax.plot(design.natural, np.interp(design.natural, design.f, values), "o", color=colour, ms=4)
+
+
+def _finished(figure: Figure, axes: NDArray[Any]) -> Figure:
+    for ax in axes.flat:
+        ax.set_xscale("log")
+        ax.title.set_fontsize(10)
+        ax.grid(which="both", alpha=0.25)
+    for ax in axes[-1]:
+        ax.set_xlabel("frequency [Hz]")
+    handles, labels = axes[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=3, frameon=False)
+    return figure

@@ -1,0 +1,72 @@
+"""Results on disk: a folder that held nothing before, and files that appear whole or not at all."""
+
+import json
+import os
+from collections.abc import Callable
+from datetime import datetime
+from pathlib import Path
+from tempfile import NamedTemporaryFile
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
+
+def results_folder(out: Path | None) -> Path:
+    """Make and return the folder for the results of one command.
+
+    Parameters
+    ----------
+    out : Path, optional
+        Folder that is absent or empty; if not given, a new one ``results/<date-time>``.
+
+    Raises
+    ------
+    ValueError
+        If it is not a folder, is not empty or cannot be written.
+    """
+    folder = out or Path("results") / datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
+    try:
+        folder.mkdir(parents=True, exist_ok=out is not None)
+        if any(folder.iterdir()):
+            raise ValueError(
+                f"out must be a folder that is absent or empty, got {str(folder)!r}, which is not empty"
+            )
+        with NamedTemporaryFile(dir=folder):
+            return folder
+    except OSError as error:
+        raise ValueError(
+            f"out must be a folder that can be written, got {str(folder)!r}: {error.strerror}"
+        ) from error
+
+
+def write_whole(path: Path, write: Callable[[Path], object]) -> None:
+    """Let `write` fill a temporary file beside `path`, then put it in place in one step.
+
+    The temporary file has the ending of `path` and is gone again if `write` fails.
+    """
+    with NamedTemporaryFile(dir=path.parent, prefix=".", suffix=path.suffix, delete=False) as file:
+        temporary = Path(file.name)
+    try:
+        write(temporary)
+        temporary.chmod(0o644)
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def write_csv(path: Path, frame: "pd.DataFrame") -> None:
+    """Write a table without its index."""
+    write_whole(path, lambda temporary: frame.to_csv(temporary, index=False))
+
+
+def write_json(path: Path, content: dict[str, Any]) -> None:
+    """Write a JSON file, indented."""
+    write_whole(path, lambda temporary: temporary.write_text(json.dumps(content, indent=2) + "\n"))
+
+
+def write_figure(stem: Path, figure: "Figure") -> None:
+    """Write a figure as PNG and as PDF, named `stem` with the ending added."""
+    for suffix in (".png", ".pdf"):
+        write_whole(stem.with_name(stem.name + suffix), lambda temporary: figure.savefig(temporary, dpi=160))

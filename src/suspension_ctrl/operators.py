@@ -1,0 +1,202 @@
+"""Variation operators on real designs in a box, compiled; every draw comes from the generator handed in."""
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+
+def sample_uniform(
+    rng: np.random.Generator, size: int, lower: NDArray[np.float64], upper: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return `size` designs drawn uniformly from the box, shape (size, d)."""
+    return rng.uniform(lower, upper, (size, lower.size))
+
+
+@njit(cache=True)
+def draw_below(rng: np.random.Generator, count: int) -> int:
+    """Return a whole number drawn uniformly from 0 to count - 1."""
+    return int(rng.random() * count)
+
+
+@njit(cache=True)
+def crowded_tournament(
+    rng: np.random.Generator, objectives: NDArray[np.float64], crowding: NDArray[np.float64], size: int
+) -> NDArray[np.int64]:
+    """Return `size` parents, winners of binary tournaments: dominance first, then larger crowding distance.
+
+    Everyone meets a rival once in each pass through the population, in an order shuffled anew for each pass
+    (Deb et al. 2002; the rule of DEAP's ``selTournamentDCD`` without its need for multiples of four).
+    """
+    n = objectives.shape[0]
+    order = np.arange(n)
+    winners = np.empty(size, dtype=np.int64)
+    position = n
+    for w in range(size):
+        if position + 1 >= n:
+            shuffle(rng, order)
+            position = 0
+        a, b = int(order[position]), int(order[position + 1])
+        position += 2
+        winners[w] = crowded_winner(rng, a, b, objectives, crowding)
+    return winners
+
+
+@njit(cache=True)
+def crowded_winner(
+    rng: np.random.Generator, a: int, b: int, objectives: NDArray[np.float64], crowding: NDArray[np.float64]
+) -> int:
+    """Return the better of individuals a and b; chance decides where neither dominance nor crowding does."""
+    if dominates(objectives[a], objectives[b]):
+        return a
+    if dominates(objectives[b], objectives[a]):
+        return b
+    if crowding[a] != crowding[b]:
+        return a if crowding[a] > crowding[b] else b
+    return a if rng.random() < 0.5 else b
+
+
+@njit(cache=True)
+def dominates(f: NDArray[np.float64], g: NDArray[np.float64]) -> bool:
+    """Whether f (m,) is nowhere worse than g (m,) and somewhere better."""
+    better = False
+    for j in range(f.size):
+        if f[j] > g[j]:
+            return False
+        if f[j] < g[j]:
+            better = True
+    return better
+
+
+@njit(cache=True)
+def shuffle(rng: np.random.Generator, values: NDArray[np.int64]) -> None:
+    """Bring `values` into a random order, in place (Fisher and Yates)."""
+    for i in range(values.size - 1, 0, -1):
+        j = draw_below(rng, i + 1)
+        values[i], values[j] = values[j], values[i]
+
+
+@njit(cache=True)
+def simulated_binary_crossover(
+    rng: np.random.Generator,
+    parents: NDArray[np.float64],
+    lower: NDArray[np.float64],
+    upper: NDArray[np.float64],
+    eta: float,
+    probability: float,
+) -> NDArray[np.float64]:
+    """Return children (n, d) of consecutive pairs of parents (n, d), bounded SBX.
+
+    A pair mates with `probability`; then each variable is recombined with probability 1/2. A last parent
+    without a mate is copied.
+
+    References
+    ----------
+    K. Deb and R. B. Agrawal, "Simulated binary crossover for continuous search space", Complex Systems 9,
+    1995; in the bounded form of Deb's NSGA-II code.
+    """
+    children = parents.copy()
+    for first in range(0, parents.shape[0] - 1, 2):
+        if rng.random() >= probability:
+            continue
+        for v in range(parents.shape[1]):
+            low = min(parents[first, v], parents[first + 1, v])
+            high = max(parents[first, v], parents[first + 1, v])
+            if rng.random() < 0.5 or high - low <= 1e-14 * (upper[v] - lower[v]):
+                continue
+            u = rng.random()
+            down = sbx_spread(u, (low - lower[v]) / (high - low), eta)
+            up = sbx_spread(u, (upper[v] - high) / (high - low), eta)
+            a = max(lower[v], 0.5 * (low + high - down * (high - low)))
+            b = min(upper[v], 0.5 * (low + high + up * (high - low)))
+            swap = rng.random() < 0.5
+            children[first, v] = b if swap else a
+            children[first + 1, v] = a if swap else b
+    return children
+
+
+@njit(cache=True)
+def sbx_spread(u: float, room: float, eta: float) -> float:
+    """Spread factor of SBX for the draw u, with `room` to the bound in units of the parents' distance."""
+    alpha = 2.0 - (1.0 + 2.0 * room) ** -(eta + 1.0)
+    inside = u * alpha if u <= 1.0 / alpha else 1.0 / (2.0 - u * alpha)
+    return float(inside ** (1.0 / (eta + 1.0)))
+
+
+@njit(cache=True)
+def polynomial_mutation(
+    rng: np.random.Generator,
+    designs: NDArray[np.float64],
+    lower: NDArray[np.float64],
+    upper: NDArray[np.float64],
+    eta: float,
+    probability: float,
+) -> NDArray[np.float64]:
+    """Return mutants (n, d) of designs (n, d), row by row as in `mutate_design`."""
+    mutants = np.empty_like(designs)
+    for i in range(designs.shape[0]):
+        mutants[i] = mutate_design(rng, designs[i], lower, upper, eta, probability)
+    return mutants
+
+
+@njit(cache=True)
+def mutate_design(
+    rng: np.random.Generator,
+    design: NDArray[np.float64],
+    lower: NDArray[np.float64],
+    upper: NDArray[np.float64],
+    eta: float,
+    probability: float,
+) -> NDArray[np.float64]:
+    """Return a mutant (d,) of a design (d,) inside the box: bounded polynomial mutation.
+
+    Each variable mutates with `probability`.
+
+    References
+    ----------
+    K. Deb and M. Goyal, "A combined genetic adaptive search (GeneAS) for engineering design", 1996; in the
+    bounded form of Deb's NSGA-II code.
+    """
+    mutant = design.copy()
+    for v in range(design.size):
+        if rng.random() >= probability:
+            continue
+        width = upper[v] - lower[v]
+        u = rng.random()
+        if u < 0.5:
+            rest = (1.0 - (design[v] - lower[v]) / width) ** (eta + 1.0)
+            step = (2.0 * u + (1.0 - 2.0 * u) * rest) ** (1.0 / (eta + 1.0)) - 1.0
+        else:
+            rest = (1.0 - (upper[v] - design[v]) / width) ** (eta + 1.0)
+            step = 1.0 - (2.0 * (1.0 - u) + (2.0 * u - 1.0) * rest) ** (1.0 / (eta + 1.0))
+        mutant[v] = min(max(design[v] + step * width, lower[v]), upper[v])
+    return mutant
+
+
+@njit(cache=True)
+def differential_child(
+    rng: np.random.Generator, designs: NDArray[np.float64], i: int, partners: NDArray[np.int64], scale: float
+) -> NDArray[np.float64]:
+    """Return x_i + scale (x_r2 - x_r3), shape (d,), with different r2 and r3 drawn from `partners`."""
+    first = draw_below(rng, partners.size)
+    second = draw_below(rng, partners.size - 1)
+    if second >= first:
+        second += 1
+    return designs[i] + scale * (designs[partners[first]] - designs[partners[second]])
+
+
+@njit(cache=True)
+def redraw_outside(
+    rng: np.random.Generator,
+    child: NDArray[np.float64],
+    parent: NDArray[np.float64],
+    lower: NDArray[np.float64],
+    upper: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Return the child (d,) with what lies outside the box redrawn between that bound and the parent (d,)."""
+    repaired = child.copy()
+    for v in range(child.size):
+        if child[v] < lower[v]:
+            repaired[v] = lower[v] + rng.random() * (parent[v] - lower[v])
+        elif child[v] > upper[v]:
+            repaired[v] = upper[v] - rng.random() * (upper[v] - parent[v])
+    return repaired

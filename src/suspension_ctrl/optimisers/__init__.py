@@ -1,0 +1,6 @@
+"""Multi-objective optimisers as DEAP toolboxes over arrays."""
+
+from .minimise import Run as Run
+from .minimise import minimise as minimise
+from .moead_dra import MoeadDra as MoeadDra
+from .nsga2 import Nsga2 as Nsga2

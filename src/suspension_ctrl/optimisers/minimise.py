@@ -1,0 +1,143 @@
+"""Run an optimiser on a problem: budget, seed, timings and history in one place."""
+
+from collections.abc import Iterator, Sequence
+from copy import copy
+from dataclasses import dataclass
+from time import perf_counter, process_time
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+from deap.base import Toolbox
+from numpy.typing import NDArray
+
+from .. import checks
+from ..problems import Minimisable
+from .clock import PhaseClock
+from .state import State
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+class Optimiser(Protocol):
+    """Settings of an algorithm, the toolbox of its verbs, and the search made of them."""
+
+    @property
+    def population(self) -> int: ...  # noqa: D102
+
+    @property
+    def phases(self) -> tuple[str, ...]: ...  # noqa: D102
+
+    def evaluations_per_iteration(self, objectives: int) -> int: ...  # noqa: D102
+
+    def toolbox(self, problem: Minimisable) -> Toolbox: ...  # noqa: D102
+
+    def search(  # noqa: D102
+        self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator
+    ) -> Iterator[State]: ...
+
+
+@dataclass(frozen=True)
+class Run:
+    """Result of `minimise`.
+
+    Attributes
+    ----------
+    designs : (n, d) ndarray
+        Final population.
+    objectives : (n, m) ndarray
+        Its objectives.
+    evaluations : int
+        Designs evaluated, the start included.
+    seconds, cpu_seconds : float
+        Wall-clock and processor time of the search alone [s].
+    seed : int
+        Seed that gives this run again.
+    history : pandas.DataFrame
+        One row per iteration, everything counted from the start of the run: ``iteration``, ``evaluations``,
+        ``seconds``, ``<phase>_seconds`` for each phase, ``ideal_<objective>`` for each objective.
+    """
+
+    designs: NDArray[np.float64]
+    objectives: NDArray[np.float64]
+    evaluations: int
+    seconds: float
+    cpu_seconds: float
+    seed: int
+    history: "pd.DataFrame"
+
+
+def minimise(
+    problem: Minimisable,
+    optimiser: Optimiser,
+    *,
+    iterations: int | None = None,
+    evaluations: int | None = None,
+    seed: int | None = None,
+    toolbox: Toolbox | None = None,
+) -> Run:
+    """Search for the Pareto-optimal designs of a problem.
+
+    Parameters
+    ----------
+    problem : Problem or RideProblem
+        What to minimise.
+    optimiser : Nsga2 or MoeadDra
+        The algorithm with its settings.
+    iterations, evaluations : int
+        Exactly one of them: iterations after the start, or a number of evaluations, of which as many whole
+        iterations are made as it allows.
+    seed : int, optional
+        Seed of every random draw; a fresh one, kept in the result, if not given.
+    toolbox : deap.base.Toolbox, optional
+        The optimiser's toolbox for this problem with some verbs exchanged.
+
+    Returns
+    -------
+    Run
+        Same seed, same machine, same versions: identical arrays.
+
+    Raises
+    ------
+    ValueError
+        If the budget is not one of the two or too small, the seed is negative, or the problem's evaluation
+        returns a wrong shape or a value that is not finite.
+    """
+    per_iteration = optimiser.evaluations_per_iteration(len(problem.objectives))
+    count = _iteration_count(optimiser.population, per_iteration, iterations, evaluations)
+    if seed is None:
+        seed = int(np.random.SeedSequence().generate_state(1)[0])
+    checks.at_least("seed", seed, 0)
+    toolbox = copy(toolbox or optimiser.toolbox(problem))
+    clock = PhaseClock(toolbox, optimiser.phases)
+    search = optimiser.search(problem, toolbox, np.random.default_rng(seed))
+    rows = []
+    wall = cpu = 0.0
+    for iteration in range(count + 1):
+        wall_start, cpu_start = perf_counter(), process_time()
+        state = next(search)
+        wall, cpu = wall + perf_counter() - wall_start, cpu + process_time() - cpu_start
+        spent = optimiser.population + iteration * per_iteration
+        rows.append((iteration, spent, wall, *clock.seconds.values(), *state.ideal))
+    history = _history(rows[1:], list(clock.seconds), problem.objectives)
+    return Run(state.designs, state.objectives, spent, wall, cpu, int(seed), history)
+
+
+def _iteration_count(start: int, per_iteration: int, iterations: int | None, evaluations: int | None) -> int:
+    if iterations is not None and evaluations is None:
+        checks.at_least("iterations", iterations, 1)
+        return iterations
+    if evaluations is not None and iterations is None:
+        checks.at_least("evaluations", evaluations, start + per_iteration)
+        return (evaluations - start) // per_iteration
+    raise ValueError(
+        f"exactly one of iterations and evaluations must be given, got {iterations!r} and {evaluations!r}"
+    )
+
+
+def _history(rows: list[tuple[float, ...]], phases: list[str], objectives: Sequence[str]) -> "pd.DataFrame":
+    import pandas as pd  # a third of a second: not at import of the package
+
+    seconds = [f"{phase}_seconds" for phase in phases]
+    ideal = [f"ideal_{name}" for name in objectives]
+    return pd.DataFrame(rows, columns=["iteration", "evaluations", "seconds", *seconds, *ideal])

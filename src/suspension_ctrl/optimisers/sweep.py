@@ -1,0 +1,159 @@
+"""One iteration of MOEA/D-DRA over the chosen subproblems: from mating range to replacement."""
+
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import chain
+from typing import Any
+
+import numpy as np
+from deap.base import Toolbox
+from numba import njit
+from numba.core.registry import CPUDispatcher
+from numpy.typing import NDArray
+
+from ..problems import Minimisable, evaluate_checked
+from .clock import untimed
+from .state import State
+
+Verb = tuple[Callable[..., Any], tuple[Any, ...]]
+"""A function and the settings that follow its arguments in a call."""
+
+
+@dataclass(frozen=True)
+class Decomposed:
+    """A population with one individual per subproblem; its arrays change in place as the search goes on.
+
+    Parameters
+    ----------
+    designs : (N, d) ndarray
+    objectives : (N, m) ndarray
+    ideal : (m,) ndarray
+        Least value seen of each objective.
+    span : (m,) ndarray
+        What each objective is divided by inside the scalar problems.
+    weights : (N, m) ndarray
+        Weight vectors, none of them zero anywhere.
+    neighbours : (N, T) ndarray
+        Nearest subproblems of each, itself first.
+    """
+
+    designs: NDArray[np.float64]
+    objectives: NDArray[np.float64]
+    ideal: NDArray[np.float64]
+    span: NDArray[np.float64]
+    weights: NDArray[np.float64]
+    neighbours: NDArray[np.int64]
+
+    def arrays(self) -> tuple[NDArray[Any], ...]:
+        """Return the arrays in the order in which `work_on` takes them."""
+        return self.designs, self.objectives, self.ideal, self.span, self.weights, self.neighbours
+
+    def state(self) -> State:
+        """Return a copy of what the search shows of itself."""
+        return State(self.designs.copy(), self.objectives.copy(), self.ideal.copy())
+
+    def normalised(self) -> "Decomposed":
+        """Return the same population with the span from the ideal point to the worst of each objective."""
+        span = self.objectives.max(axis=0) - self.ideal
+        return replace(self, span=np.where(span > 0, span, 1.0))
+
+
+def sweep_sequential(
+    rng: np.random.Generator,
+    chosen: NDArray[np.int64],
+    population: Decomposed,
+    toolbox: Toolbox,
+    problem: Minimisable,
+) -> None:
+    """Work on the chosen subproblems in order, each child seeing every replacement before it.
+
+    Runs compiled if every verb is compiled and the problem has a kernel; otherwise as plain Python with
+    whatever the toolbox holds. The same draws are made either way.
+    """
+    compiled = [compiled_verb(getattr(toolbox, name)) for name in VERBS]
+    compiled.append(compiled_evaluation(toolbox, problem))
+    verbs = [verb for verb in compiled if verb is not None]
+    function: Callable[..., None] = work_on
+    if len(verbs) < len(compiled):
+        function = work_on.py_func
+        verbs = [(getattr(toolbox, name), ()) for name in VERBS]
+        verbs.append((lambda child: toolbox.evaluate(child[None])[0], ()))
+    function(rng, chosen, *population.arrays(), *chain.from_iterable(verbs))
+
+
+def sweep_batch(
+    rng: np.random.Generator,
+    chosen: NDArray[np.int64],
+    population: Decomposed,
+    toolbox: Toolbox,
+    problem: Minimisable,  # noqa: ARG001
+) -> None:
+    """Make the children of all chosen subproblems, evaluate them in one call, then replace in order."""
+    designs, objectives, ideal, span, weights, neighbours = population.arrays()
+    ranges = [toolbox.mating_range(rng, i, neighbours) for i in chosen]
+    children = np.empty((chosen.size, designs.shape[1]))
+    for row, (i, partners) in enumerate(zip(chosen, ranges, strict=True)):
+        child = toolbox.reproduce(rng, designs, i, partners)
+        children[row] = toolbox.mutate(rng, toolbox.repair(rng, child, designs[i]))
+    for child, value, partners in zip(children, toolbox.evaluate(children), ranges, strict=True):
+        toolbox.update(rng, child, value, partners, designs, objectives, weights, ideal, span)
+
+
+VERBS = ("mating_range", "reproduce", "repair", "mutate", "update")
+"""The verbs inside a sweep, in the order in which `work_on` takes them."""
+
+
+@njit(cache=True)
+def work_on(
+    rng: np.random.Generator,
+    chosen: NDArray[np.int64],
+    designs: NDArray[np.float64],
+    objectives: NDArray[np.float64],
+    ideal: NDArray[np.float64],
+    span: NDArray[np.float64],
+    weights: NDArray[np.float64],
+    neighbours: NDArray[np.int64],
+    mating_range: Callable[..., NDArray[np.int64]],
+    range_settings: tuple[Any, ...],
+    reproduce: Callable[..., NDArray[np.float64]],
+    reproduce_settings: tuple[Any, ...],
+    repair: Callable[..., NDArray[np.float64]],
+    repair_settings: tuple[Any, ...],
+    mutate: Callable[..., NDArray[np.float64]],
+    mutate_settings: tuple[Any, ...],
+    update: Callable[..., None],
+    update_settings: tuple[Any, ...],
+    evaluate: Callable[..., NDArray[np.float64]],
+    evaluate_settings: tuple[Any, ...],
+) -> None:
+    """Make, evaluate and place one child for each chosen subproblem, in order; arrays as in `Decomposed`."""
+    for i in chosen:
+        partners = mating_range(rng, i, neighbours, *range_settings)
+        child = reproduce(rng, designs, i, partners, *reproduce_settings)
+        child = repair(rng, child, designs[i], *repair_settings)
+        child = mutate(rng, child, *mutate_settings)
+        value = evaluate(child, *evaluate_settings)
+        if not np.isfinite(value).all():
+            raise ValueError("evaluate must return finite objectives, got one that is not")
+        update(rng, child, value, partners, designs, objectives, weights, ideal, span, *update_settings)
+
+
+def compiled_verb(verb: partial[Any]) -> Verb | None:
+    """Return a toolbox verb's compiled function with its settings in order, None if it is not compiled."""
+    function = untimed(verb.func)
+    if verb.args or not isinstance(function, CPUDispatcher):
+        return None
+    names = list(inspect.signature(function.py_func).parameters)
+    trailing = names[len(names) - len(verb.keywords) :]
+    if set(trailing) != set(verb.keywords):
+        return None
+    return function, tuple(verb.keywords[name] for name in trailing)
+
+
+def compiled_evaluation(toolbox: Toolbox, problem: Minimisable) -> Verb | None:
+    """Return the problem's kernel, or None if it has none or the toolbox evaluates in another way."""
+    evaluate = toolbox.evaluate
+    own = untimed(evaluate.func) is evaluate_checked and evaluate.args == (problem,) and not evaluate.keywords
+    return problem.kernel if own else None

@@ -1,0 +1,100 @@
+"""The best strut within a limit of suspension travel: exact, and picked from a Pareto set (Table 5)."""
+
+import numpy as np
+from scipy.optimize import brentq, minimize_scalar
+
+from . import checks
+from .indicators import non_dominated
+from .objectives import RideProblem
+from .optimisers import Run
+
+_TRAVEL_DIGIT = 1e-4
+"""Last digit in which the paper gives SWS [m]."""
+
+_SPRINGS = 200
+"""Spring stiffnesses tried along the curve before the best one is refined."""
+
+
+def damper_at_limit(problem: RideProblem, spring: float, limit: float) -> float:
+    """Return the damper [N s/m] that brings SWS to `limit` [m] with this spring [N/m].
+
+    Travel falls as damping rises; NaN where no damper within the bounds meets the limit.
+    """
+
+    def excess(damper: float) -> float:
+        return float(problem.evaluate([[spring, damper]])[0, 1]) - limit
+
+    low, high = problem.lower[1], problem.upper[1]
+    if excess(low) < 0 or excess(high) > 0:
+        return float("nan")
+    return float(brentq(excess, low, high, xtol=1e-9, rtol=1e-14))
+
+
+def best_at_limit(problem: RideProblem, limit: float, objective: str) -> tuple[float, float]:
+    """Return the design with the least `objective` on the curve SWS = `limit`.
+
+    Parameters
+    ----------
+    problem : RideProblem
+        Bounds and objectives.
+    limit : float
+        Suspension working space [m].
+    objective : {"ACC", "DTL"}
+        What is least.
+
+    Returns
+    -------
+    (float, float)
+        Spring [N/m] and damper [N s/m].
+
+    Raises
+    ------
+    ValueError
+        If no design within the bounds has this travel.
+    """
+    checks.positive("sws_limit", limit, "m")
+    column = problem.objectives.index(objective)
+
+    def along_curve(spring: float) -> float:
+        damper = damper_at_limit(problem, spring, limit)
+        return float(problem.evaluate([[spring, damper]])[0, column])
+
+    springs = np.linspace(problem.lower[0], problem.upper[0], _SPRINGS)
+    values = np.array([along_curve(spring) for spring in springs])
+    if np.isnan(values).all():
+        corners = problem.evaluate([problem.lower, problem.upper])[:, 1]
+        raise ValueError(
+            f"sws_limit must be a travel that a design within the bounds has, about {corners.min():.4f} to "
+            f"{corners.max():.4f} m, got {limit} m"
+        )
+    best = int(np.nanargmin(values))
+    around = springs[max(best - 1, 0)], springs[min(best + 1, _SPRINGS - 1)]
+    refined = minimize_scalar(
+        lambda k: np.nan_to_num(along_curve(k), nan=np.inf),
+        bounds=around,
+        method="bounded",
+        options={"xatol": 1e-6},
+    )
+    spring = float(refined.x) if refined.fun < values[best] else float(springs[best])
+    return spring, damper_at_limit(problem, spring, limit)
+
+
+def pick_at_limit(problem: RideProblem, run: Run, limit: float, objective: str) -> tuple[float, float]:
+    """Return the design (spring, damper) of a run's Pareto set with the least `objective` at SWS = `limit`.
+
+    At the limit is what rounds to it at a tenth of a millimetre, the paper's digits.
+
+    Raises
+    ------
+    ValueError
+        If the Pareto set has no design there.
+    """
+    sws = run.objectives[:, problem.objectives.index("SWS")]
+    there = np.flatnonzero(non_dominated(run.objectives) & (np.abs(sws - limit) <= _TRAVEL_DIGIT / 2))
+    if there.size == 0:
+        raise ValueError(
+            f"sws_limit must be met to {_TRAVEL_DIGIT / 2} m by a design of the Pareto set, which has "
+            f"{sws.min():.4f} to {sws.max():.4f} m in {len(sws)} designs, got {limit} m"
+        )
+    best = there[run.objectives[there, problem.objectives.index(objective)].argmin()]
+    return float(run.designs[best, 0]), float(run.designs[best, 1])

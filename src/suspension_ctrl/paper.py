@@ -1,0 +1,77 @@
+"""The experiment of Yuen and Ramli (2010): its vehicle, road and bounds, and the tables it printed.
+
+T. J. Yuen and R. Ramli, "Comparison of computational efficiency of MOEA/D and NSGA-II for passive vehicle
+suspension optimization", 2010.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+from . import datafiles
+from .objectives import RideProblem
+from .roads import PowerLawRoad
+from .vehicles import QuarterCar
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+POPULATIONS = (500, 1000)
+ITERATIONS = (10, 20)
+REPEATS = 5
+SWS_LIMIT = 0.0287
+"""Design limit of the suspension working space [m]."""
+
+
+def ride_problem(**changes: Any) -> RideProblem:
+    """Return the problem of Table 1; keyword arguments take the place of `RideProblem`'s, e.g. ``weighting``."""
+    rows = _table1()
+    value = {symbol: float(row["value"]) for symbol, row in rows.items() if row["value"]}
+    car = QuarterCar(body_mass=value["Mb"], wheel_mass=value["Mw"], tyre_stiffness=value["Kt"])
+    road = PowerLawRoad(roughness=value["G"], exponent=value["kappa"])
+    settings: dict[str, Any] = {
+        "speed": value["V"],
+        "band": (float(rows["f"]["lower"]), float(rows["f"]["upper"])),
+        "lower": tuple(float(rows[symbol]["lower"]) for symbol in ("Ks", "Cs")),
+        "upper": tuple(float(rows[symbol]["upper"]) for symbol in ("Ks", "Cs")),
+    }
+    return RideProblem(car, road, **settings | changes)
+
+
+def reference_design() -> tuple[float, float]:
+    """Return spring [N/m] and damper [N s/m] of the reference car, Table 1."""
+    rows = _table1()
+    return float(rows["Ks"]["value"]), float(rows["Cs"]["value"])
+
+
+def optimised_design() -> tuple[float, float]:
+    """Return spring [N/m] and damper [N s/m] of the published optimum, Table 5."""
+    column = table5()["optimised"]
+    return column["Ks"], column["Cs"]
+
+
+def table5() -> dict[str, dict[str, float]]:
+    """Return the columns ``reference`` and ``optimised`` of Table 5 by quantity.
+
+    Ks [N/m], Cs [N s/m], SWS [m], ACC [m/s^2], DTL [N].
+    """
+    rows = datafiles.rows("paper/table5_optimum.csv")
+    return {
+        column: {row["quantity"]: float(row[column]) * (1e3 if row["unit"].startswith("k") else 1) for row in rows}
+        for column in ("reference", "optimised")
+    }
+
+
+def published_seconds() -> "pd.DataFrame":
+    """Return Tables 2 and 3: columns algorithm, population, iterations, repeat, published_seconds."""
+    import pandas as pd
+
+    tables = {"nsga2": "paper/table2_nsga2_seconds.csv", "moead-dra": "paper/table3_moead_seconds.csv"}
+    frames = [
+        pd.read_csv(datafiles.path(name), comment="#").assign(algorithm=algorithm)
+        for algorithm, name in tables.items()
+    ]
+    columns = ["algorithm", "population", "iterations", "repeat", "published_seconds"]
+    return pd.concat(frames).rename(columns={"seconds": "published_seconds"})[columns]
+
+
+def _table1() -> dict[str, dict[str, str]]:
+    return {row["symbol"]: row for row in datafiles.rows("paper/table1_vehicle.csv")}

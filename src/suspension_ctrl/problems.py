@@ -1,0 +1,115 @@
+"""What the optimisers work on: objectives to be minimised over a box. They know no cars."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import checks
+
+Kernel = tuple[Callable[..., NDArray[np.float64]], tuple[Any, ...]]
+"""A numba-compiled function of one design (d,) to its objectives (m,), and its further arguments."""
+
+
+class Minimisable(Protocol):
+    """The part of a problem that the optimisers use; `Problem` and `RideProblem` both have it."""
+
+    @property
+    def lower(self) -> Sequence[float]: ...  # noqa: D102
+
+    @property
+    def upper(self) -> Sequence[float]: ...  # noqa: D102
+
+    @property
+    def objectives(self) -> Sequence[str]: ...  # noqa: D102
+
+    @property
+    def kernel(self) -> Kernel | None: ...  # noqa: D102
+
+    @property
+    def evaluate(self) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]: ...  # noqa: D102
+
+
+class Described(Minimisable, Protocol):
+    """A problem whose variables and units have names, so that tables can have headers."""
+
+    @property
+    def variables(self) -> Sequence[str]: ...  # noqa: D102
+
+    @property
+    def units(self) -> Mapping[str, str]: ...  # noqa: D102
+
+
+@dataclass(frozen=True, kw_only=True)
+class Problem:
+    """Two or more objectives to be minimised over a box of real variables.
+
+    Parameters
+    ----------
+    evaluate : callable
+        From designs (n, d) to objectives (n, m), row by row and without changing its argument.
+    lower, upper : (d,) sequence of float
+        Bounds of the variables.
+    objectives : (m,) sequence of str
+        Names of the objectives, m >= 2.
+    variables : (d,) sequence of str, optional
+        Names of the variables, ``x1 .. xd`` if not given.
+    units : mapping, optional
+        Unit of a variable or an objective by name.
+    kernel : (callable, tuple), optional
+        The objectives of a single design as a function compiled by numba, and its further arguments;
+        optimisers that go design by design then need not leave compiled code.
+
+    Raises
+    ------
+    ValueError
+        If the bounds are not finite or not lower < upper, or the names do not fit.
+    """
+
+    evaluate: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+    lower: Sequence[float]
+    upper: Sequence[float]
+    objectives: Sequence[str]
+    variables: Sequence[str] = ()
+    units: Mapping[str, str] = field(default_factory=dict)
+    kernel: Kernel | None = None
+
+    def __post_init__(self) -> None:
+        checks.ordered("lower", "upper", self.lower, self.upper)
+        if isinstance(self.objectives, str) or len(set(self.objectives)) < max(2, len(self.objectives)):
+            raise ValueError(f"objectives must be 2 or more different names, got {self.objectives!r}")
+        if not self.variables:
+            names = tuple(f"x{i + 1}" for i in range(len(self.lower)))
+            object.__setattr__(self, "variables", names)
+        elif len(set(self.variables)) != len(self.lower):
+            raise ValueError(f"variables must be {len(self.lower)} different names, got {self.variables!r}")
+
+
+def evaluate_checked(problem: Minimisable, designs: ArrayLike) -> NDArray[np.float64]:
+    """Return ``problem.evaluate(designs)`` as floats (n, m).
+
+    Raises
+    ------
+    ValueError
+        If the problem returned another shape, or a value that is not finite.
+    """
+    x = checks.designs(designs, len(problem.lower))
+    objectives = np.asarray(problem.evaluate(x), dtype=float)
+    expected = (x.shape[0], len(problem.objectives))
+    if objectives.shape != expected:
+        raise ValueError(f"evaluate must return shape {expected} for designs {x.shape}, got {objectives.shape}")
+    bad = ~np.isfinite(objectives).all(axis=1)
+    if bad.any():
+        first = int(bad.argmax())
+        raise ValueError(
+            f"evaluate must return finite objectives, got {objectives[first].tolist()} "
+            f"for design {x[first].tolist()}"
+        )
+    return objectives
+
+
+def column_headers(names: Sequence[str], units: Mapping[str, str]) -> list[str]:
+    """Return each name with its unit in brackets, as in the header of a table: ``"SWS [m]"``."""
+    return [f"{name} [{units[name]}]" if units.get(name) else name for name in names]
