@@ -23,7 +23,7 @@ def main(
         Path | None, Option(help="CSV with the columns 'spring [N/m]' and 'damper [N s/m]'.")
     ] = None,
     weighting: Annotated[str, Option(help="ISO 2631 weighting of the dashed spectra.")] = "Wk",
-    points: Annotated[int, Option(help="Frequencies on each curve.")] = 800,
+    points: Annotated[int, Option(parser=terminal.whole_number, help="Frequencies on each curve.")] = 800,
     out: Annotated[Path | None, Option(help="Folder for the results, absent or empty.")] = None,
 ) -> None:
     """Draw the frequency responses and response spectra of any number of designs."""

@@ -29,13 +29,19 @@ def main(
     populations: Annotated[str, Option(help="Population sizes.")] = "500,1000",
     iterations: Annotated[str, Option(help="Iterations after the start.")] = "10,20",
     repeats: Annotated[
-        int, Option(help="Runs of each algorithm at each population and iterations.")
+        int, Option(parser=terminal.whole_number, help="Runs of each algorithm at each population and iterations.")
     ] = paper.REPEATS,
     algorithms: Annotated[
         str, Option(help=f"Of {', '.join(experiments.ALGORITHMS)}; the first is the baseline.")
     ] = "nsga2,moead-dra",
     weighting: Annotated[str, Option(help="ISO 2631 weighting of ACC: Wk, Wb, Wb-table, ...")] = "Wk",
-    seed: Annotated[int, Option(help="Seed of the first repeat; the next has the next.")] = 0,
+    seed: Annotated[
+        int,
+        Option(
+            parser=terminal.whole_number,
+            help="Seed of the first repeat; the next has the next.",
+        ),
+    ] = 0,
     out: Annotated[Path | None, Option(help="Folder for the results, absent or empty.")] = None,
     quick: Annotated[bool, Option("--quick", help="Populations 60,100, iterations 5,10, two repeats.")] = False,
 ) -> None:

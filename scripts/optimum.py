@@ -16,11 +16,15 @@ WEIGHTINGS = ("Wk", "Wb", "Wb-table")
 
 
 def main(
-    sws_limit: Annotated[float, Option(help="Suspension working space [m].")] = paper.SWS_LIMIT,
-    population: Annotated[int, Option(help="Subproblems of MOEA/D-DRA.")] = 4000,
-    iterations: Annotated[int, Option(help="Iterations of MOEA/D-DRA.")] = 25,
-    low_frequency: Annotated[float, Option(help="Lower end of the frequency band [Hz].")] = 0.0,
-    seed: Annotated[int, Option(help="Seed of MOEA/D-DRA.")] = 0,
+    sws_limit: Annotated[
+        float, Option(parser=terminal.number, help="Suspension working space [m].")
+    ] = paper.SWS_LIMIT,
+    population: Annotated[int, Option(parser=terminal.whole_number, help="Subproblems of MOEA/D-DRA.")] = 4000,
+    iterations: Annotated[int, Option(parser=terminal.whole_number, help="Iterations of MOEA/D-DRA.")] = 25,
+    low_frequency: Annotated[
+        float, Option(parser=terminal.number, help="Lower end of the frequency band [Hz].")
+    ] = 0.0,
+    seed: Annotated[int, Option(parser=terminal.whole_number, help="Seed of MOEA/D-DRA.")] = 0,
     out: Annotated[Path | None, Option(help="Folder for the results, absent or empty.")] = None,
 ) -> None:
     """Find the best spring and damper within a limit of suspension travel."""

@@ -8,8 +8,8 @@ from .indicators import non_dominated
 from .objectives import RideProblem
 from .optimisers import Run
 
-_TRAVEL_DIGIT = 1e-4
-"""Last digit in which the paper gives SWS [m]."""
+_AT_LIMIT = 0.01
+"""How far below the limit, as a fraction of it, the travel of a picked design may be."""
 
 _SPRINGS = 200
 """Spring stiffnesses tried along the curve before the best one is refined."""
@@ -80,9 +80,25 @@ def best_at_limit(problem: RideProblem, limit: float, objective: str) -> tuple[f
 
 
 def pick_at_limit(problem: RideProblem, run: Run, limit: float, objective: str) -> tuple[float, float]:
-    """Return the design (spring, damper) of a run's Pareto set with the least `objective` at SWS = `limit`.
+    """Return the design of a run's Pareto set with the least `objective` among those at SWS = `limit`.
 
-    At the limit is what rounds to it at a tenth of a millimetre, the paper's digits.
+    At the limit are those within the last percent of it, and none beyond.
+
+    Parameters
+    ----------
+    problem : RideProblem
+        The problem of the run.
+    run : Run
+        Its final population.
+    limit : float
+        Suspension working space [m].
+    objective : {"ACC", "DTL"}
+        What is least.
+
+    Returns
+    -------
+    (float, float)
+        Spring [N/m] and damper [N s/m].
 
     Raises
     ------
@@ -90,11 +106,12 @@ def pick_at_limit(problem: RideProblem, run: Run, limit: float, objective: str) 
         If the Pareto set has no design there.
     """
     sws = run.objectives[:, problem.objectives.index("SWS")]
-    there = np.flatnonzero(non_dominated(run.objectives) & (np.abs(sws - limit) <= _TRAVEL_DIGIT / 2))
+    at_limit = ((1 - _AT_LIMIT) * limit <= sws) & (sws <= limit)
+    there = np.flatnonzero(non_dominated(run.objectives) & at_limit)
     if there.size == 0:
         raise ValueError(
-            f"sws_limit must be met to {_TRAVEL_DIGIT / 2} m by a design of the Pareto set, which has "
-            f"{sws.min():.4f} to {sws.max():.4f} m in {len(sws)} designs, got {limit} m"
+            f"sws_limit must be a travel within {100 * _AT_LIMIT:g} % of which the Pareto set has a design, its "
+            f"{sws.size} have {sws.min():.4f} to {sws.max():.4f} m, got {limit} m"
         )
     best = there[run.objectives[there, problem.objectives.index(objective)].argmin()]
     return float(run.designs[best, 0]), float(run.designs[best, 1])

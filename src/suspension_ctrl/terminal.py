@@ -42,6 +42,22 @@ def _fail(message: str, status: int) -> None:
     sys.exit(status)
 
 
+def whole_number(text: str) -> int:
+    """Return the whole number that an option's text stands for."""
+    try:
+        return int(text)
+    except ValueError:
+        raise typer.BadParameter(f"must be a whole number, got {text!r}") from None
+
+
+def number(text: str) -> float:
+    """Return the number that an option's text stands for."""
+    try:
+        return float(text)
+    except ValueError:
+        raise typer.BadParameter(f"must be a number, got {text!r}") from None
+
+
 def whole_numbers(name: str, text: str) -> list[int]:
     """Return the whole numbers of a comma-separated list, each once; ValueError naming `name` otherwise."""
     try:

@@ -105,7 +105,7 @@ VERBS = ("mating_range", "reproduce", "repair", "mutate", "update")
 """The verbs inside a sweep, in the order in which `work_on` takes them."""
 
 
-@njit(cache=True)
+@njit  # not cached on disk: numba cannot store the types of functions passed as arguments
 def work_on(
     rng: np.random.Generator,
     chosen: NDArray[np.int64],

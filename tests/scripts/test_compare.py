@@ -1,0 +1,110 @@
+import json
+import struct
+
+import numpy as np
+import pandas as pd
+import pytest
+
+
+@pytest.fixture(scope="module")
+def quick(script, tmp_path_factory):
+    """The main job in its short form, with every algorithm, run once."""
+    out = tmp_path_factory.mktemp("compare") / "results"
+    algorithms = "nsga2,nsga2-standard-sort,moead-dra,moead-dra-raw"
+    done = script("compare", "--quick", "--algorithms", algorithms, "--weighting", "Wb", "--seed", 5, "--out", out)
+    assert done.returncode == 0, done.stderr
+    return out, done
+
+
+def test_prints_tables_and_last_the_folder(quick):
+    out, done = quick
+    for title in ("Table 2: nsga2", "Table 2: nsga2-standard-sort", "Table 3: moead-dra", "Table 4:"):
+        assert title in done.stdout
+    assert "ACC is weighted with Wb" in done.stdout
+    assert done.stdout.splitlines()[-1] == str(out)
+
+
+def test_writes_everything(quick):
+    out, _ = quick
+    names = {path.name for path in out.iterdir()}
+    tables = {"runs.csv", "table2.csv", "table3.csv", "table4.csv"}
+    assert names == tables | {"environment.json", "figure5.png", "figure5.pdf", "fronts"}
+    runs = pd.read_csv(out / "runs.csv")
+    assert len(list((out / "fronts").iterdir())) == len(runs) == 2 * 2 * 2 * (4 + 2)
+    assert json.loads((out / "environment.json").read_text())["arguments"]["seed"] == 5
+
+
+def test_identical_runs_by_both_selections(quick):
+    """The same seed gives the same fronts by our selection and by DEAP's, which only takes longer."""
+    out, _ = quick
+    ours = pd.read_csv(out / "fronts" / "nsga2_n100_i10_r2.csv")
+    deaps = pd.read_csv(out / "fronts" / "nsga2-standard-sort_n100_i10_r2.csv")
+    pd.testing.assert_frame_equal(ours, deaps)
+    runs = pd.read_csv(out / "runs.csv").groupby("algorithm").seconds.sum()
+    assert runs["nsga2"] < runs["nsga2-standard-sort"]
+
+
+def test_figure_is_a_picture_of_its_size(quick):
+    out, _ = quick
+    head = (out / "figure5.png").read_bytes()[:24]
+    assert head.startswith(b"\x89PNG")
+    assert min(struct.unpack(">II", head[16:24])) > 1000
+    assert (out / "figure5.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_same_seed_same_results_but_for_the_times(quick, script, tmp_path):
+    out, _ = quick
+    again = script(
+        "compare", "--populations", "60,100", "--iterations", "5,10", "--repeats", 2, "--seed", 5,
+        "--weighting", "Wb", "--out", tmp_path / "again",
+    )  # fmt: skip
+    assert again.returncode == 0, again.stderr
+    quality = [
+        "algorithm",
+        "population",
+        "iterations",
+        "budget",
+        "repeat",
+        "evaluations",
+        "hypervolume",
+        "igd_plus",
+    ]
+    first, second = (pd.read_csv(folder / "runs.csv")[quality] for folder in (out, tmp_path / "again"))
+    shared = first.merge(second, on=quality)
+    assert len(shared) == len(second)
+
+
+def test_default_folder_is_new_and_below_results(script, tmp_path):
+    done = script("compare", "--populations", "20", "--iterations", "1", "--repeats", "1", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    folder = tmp_path / done.stdout.splitlines()[-1]
+    assert folder.parent == tmp_path / "results"
+    assert np.isnan(pd.read_csv(folder / "table2.csv").published_seconds).all()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--populations", "3"], "population must be a whole number >= 4, got 3"),
+        (["--populations", "12"], "population must be >= 15 for 3 objectives"),
+        (["--populations", "500,x"], "populations must be whole numbers separated by commas, got '500,x'"),
+        (["--iterations", "0"], "iterations must be a whole number >= 1, got 0"),
+        (["--repeats", "0"], "repeats must be a whole number >= 1, got 0"),
+        (["--repeats", "two"], "Invalid value for '--repeats': must be a whole number, got 'two'"),
+        (["--algorithms", "nsga3"], "algorithms must be one of nsga2, "),
+        (["--weighting", "Wz"], "weighting must be one of Wk, "),
+        (["--seed", "-1"], "seed must be a whole number >= 0, got -1"),
+        (["--speed", "3"], "--speed"),
+        (["--out", "/proc/results"], "out must be a folder that can be written, got '/proc/results'"),
+        (["--out", "."], "out must be a folder that is absent or empty, got '.', which is not empty"),
+    ],
+)
+def test_bad_input_is_one_line_and_status_2(script, tmp_path, arguments, message):
+    (tmp_path / "mine.txt").write_text("kept")
+    done = script("compare", *arguments, cwd=tmp_path)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.count("\n") == 1
+    assert done.stderr.startswith("error: ")
+    assert message in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]

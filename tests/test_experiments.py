@@ -1,0 +1,127 @@
+import numpy as np
+import pandas as pd
+import pytest
+
+from suspension_ctrl import experiments, paper, tables
+from suspension_ctrl.indicators import ReferenceFront
+
+CONFIGURATION = {"populations": [20, 30], "iterations": [2, 4], "repeats": 2, "seed": 7}
+
+
+@pytest.fixture(scope="module")
+def problem():
+    return paper.ride_problem()
+
+
+@pytest.fixture(scope="module")
+def plan(problem):
+    return experiments.plan(problem, ["nsga2", "moead-dra"], **CONFIGURATION)
+
+
+@pytest.fixture(scope="module")
+def results(problem, plan):
+    return list(experiments.carry_out(problem, plan))
+
+
+@pytest.fixture(scope="module")
+def runs(problem, results):
+    return experiments.tidy(results, ReferenceFront.on_grid(problem, 40))
+
+
+def test_plan_has_every_run_once_and_algorithms_take_turns(plan):
+    names = [run.name for run in plan]
+    assert (
+        len(set(names)) == len(names) == 2 * 2 * 2 * 3
+    )  # NSGA-II, MOEA/D at equal iterations, at equal evaluations
+    assert [run.algorithm for run in plan[:6]] == ["nsga2", "moead-dra", "moead-dra"] * 2
+    assert {run.seed for run in plan if run.repeat == 2} == {8}
+
+
+def test_runs_spend_what_was_planned(plan, results):
+    for (planned, run), expected in zip(results, plan, strict=True):
+        assert planned is expected
+        assert run.evaluations == planned.evaluations
+    equal = [p.evaluations for p in plan if p.population == 30 and p.iterations == 4 and p.budget == "evaluations"]
+    assert equal == [150, 150]
+
+
+def test_tidy_table_has_a_row_per_run(runs, plan):
+    assert len(runs) == len(plan)
+    keys = ["algorithm", "population", "iterations", "budget", "repeat"]
+    assert not runs.duplicated(keys).any()
+    assert (runs.hypervolume > 0.5).all()
+    assert (runs.igd_plus > 0).all()
+    nsga2 = runs[runs.algorithm == "nsga2"]
+    assert nsga2.select_seconds.gt(0).all()
+    assert nsga2.sweep_seconds.isna().all()
+    phases = [name for name in runs.columns if name.endswith("_seconds") and name != "cpu_seconds"]
+    assert (runs[phases].sum(axis=1) <= runs.seconds).all()
+
+
+def test_tables_2_and_3_put_published_beside_measured(runs):
+    published = paper.published_seconds().replace(
+        {"population": {500: 20, 1000: 30}, "iterations": {10: 2, 20: 4}}
+    )
+    table2 = tables.seconds_by_repeat(runs, published, "nsga2")
+    assert len(table2) == 8
+    row = table2[(table2.population == 30) & (table2.iterations == 4) & (table2.repeat == 2)].iloc[0]
+    assert row.published_seconds == 549.3
+    assert row.microseconds_per_evaluation == pytest.approx(1e6 * row.seconds / 150)
+    printed = tables.as_printed(table2)
+    assert printed["repeat"].tolist() == ["1", "2", "mean", "evaluations", "µs per evaluation"]
+    assert printed["N=30, 4 iterations"][1].startswith("549.3 / 0.")
+    assert tables.seconds_by_repeat(runs, paper.published_seconds(), "moead-dra").published_seconds.isna().all()
+
+
+def test_table_4_compares_with_the_first_algorithm():
+    """By hand, two repeats each: mean seconds 3 / 1.5 at equal iterations, 3 / 6 at equal evaluations."""
+    common = {"population": 500, "iterations": 10, "igd_plus": 0.1}
+    columns = ("algorithm", "budget", "repeat", "evaluations", "seconds", "hypervolume")
+    runs = pd.DataFrame(
+        [
+            common | dict(zip(columns, row, strict=True))
+            for row in [
+                ("nsga2", "iterations", 1, 5500, 2.0, 0.9), ("nsga2", "iterations", 2, 5500, 4.0, 0.8),
+                ("moead-dra", "iterations", 1, 1500, 1.0, 0.7), ("moead-dra", "iterations", 2, 1500, 2.0, 0.7),
+                ("moead-dra", "evaluations", 1, 5500, 5.0, 0.7), ("moead-dra", "evaluations", 2, 5500, 7.0, 0.7),
+            ]
+        ]
+    )  # fmt: skip
+    table = tables.comparison(runs, paper.published_seconds())
+    np.testing.assert_allclose(table.ratio_percent, [100, 200, 50])
+    np.testing.assert_allclose(table.published_ratio_percent[:2], [100, 239], rtol=2e-3)
+    assert np.isnan(table.published_ratio_percent[2])
+    np.testing.assert_allclose(table.microseconds_per_evaluation, [3e6 / 5500, 1e3, 6e6 / 5500])
+    assert table.hypervolume[0] == pytest.approx(0.85)
+
+
+def test_fronts_are_non_dominated_and_named_with_units(problem, results):
+    frame = experiments.front(problem, results[0][1])
+    assert list(frame.columns) == ["spring [N/m]", "damper [N s/m]", "ACC [m/s^2]", "SWS [m]", "DTL [N]"]
+    np.testing.assert_allclose(problem.evaluate(frame.iloc[:, :2]), frame.iloc[:, 2:], rtol=1e-12)
+    populations = experiments.final_populations(problem, results)
+    assert set(populations.algorithm) == {"nsga2", "moead-dra"}
+    assert len(populations) == 2 * (20 + 20 + 30 + 30)
+
+
+def test_raw_moead_takes_the_papers_units():
+    assert experiments.optimiser("moead-dra-raw", 30).units == (1.0, 1.0, 1e3)
+    assert not experiments.optimiser("moead-dra-raw", 30).normalise
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (
+            {"algorithms": ["nsga3"]},
+            "algorithms must be one of nsga2, nsga2-standard-sort, moead-dra, moead-dra-raw",
+        ),
+        ({"populations": [3]}, "population must be a whole number >= 4, got 3"),
+        ({"iterations": [0]}, "iterations must be a whole number >= 1, got 0"),
+        ({"repeats": 0}, "repeats must be a whole number >= 1, got 0"),
+        ({"seed": -1}, "seed must be a whole number >= 0, got -1"),
+    ],
+)
+def test_rejects_bad_plans(problem, change, message):
+    with pytest.raises(ValueError, match=f"^{message}"):
+        experiments.plan(problem, **{"algorithms": ["nsga2"], **CONFIGURATION, **change})

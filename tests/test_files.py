@@ -1,0 +1,54 @@
+import os
+import sys
+
+import pandas as pd
+import pytest
+
+from suspension_ctrl import files
+
+
+def test_a_file_appears_whole_or_not_at_all(tmp_path):
+    target = tmp_path / "table.csv"
+    target.write_text("before")
+
+    def fails_halfway(temporary):
+        temporary.write_text("half")
+        raise OSError(28, "No space left on device")
+
+    with pytest.raises(OSError, match="No space left"):
+        files.write_whole(target, fails_halfway)
+    assert target.read_text() == "before"
+    assert os.listdir(tmp_path) == ["table.csv"]
+    files.write_csv(target, pd.DataFrame({"a [m]": [1.5]}))
+    assert target.read_text() == "a [m]\n1.5\n"
+    assert os.listdir(tmp_path) == ["table.csv"]
+
+
+def test_new_folders_are_made_and_empty_ones_taken(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert files.results_folder(tmp_path / "a" / "b").is_dir()
+    (tmp_path / "empty").mkdir()
+    assert files.results_folder(tmp_path / "empty") == tmp_path / "empty"
+    assert files.results_folder(None).parent.name == "results"
+
+
+def test_folders_that_cannot_serve_are_named(tmp_path):
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "mine.txt").write_text("kept")
+    with pytest.raises(
+        ValueError, match=r"^out must be a folder that is absent or empty, got '.*full', which is not"
+    ):
+        files.results_folder(tmp_path / "full")
+    with pytest.raises(
+        ValueError, match=r"^out must be a folder that can be written, got '.*mine.txt.*': Not a dir"
+    ):
+        files.results_folder(tmp_path / "full" / "mine.txt" / "deeper")
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="/proc is Linux's")
+def test_folders_that_cannot_be_written_are_named():
+    """No one may create a folder in /proc, not even root."""
+    from pathlib import Path
+
+    with pytest.raises(ValueError, match=r"^out must be a folder that can be written, got '/proc/results'"):
+        files.results_folder(Path("/proc/results"))

@@ -1,0 +1,77 @@
+import numpy as np
+import pytest
+from scipy.optimize import minimize
+
+from suspension_ctrl import MoeadDra, minimise, optimum, paper
+
+
+@pytest.mark.parametrize(
+    ("weighting", "spring", "acc"),
+    # DESIGN figures of the least ACC along SWS = 0.0287 m: about 12 kN/m and 2.160, about 14 kN/m and 2.0726
+    [("Wk", 12e3, 2.160), ("Wb", 14.0e3, 2.0726)],
+)
+def test_least_acc_at_the_papers_travel(weighting, spring, acc):
+    problem = paper.ride_problem(weighting=weighting)
+    design = optimum.best_at_limit(problem, 0.0287, "ACC")
+    objectives = problem.evaluate([design])[0]
+    assert objectives[1] == pytest.approx(0.0287, rel=1e-9)
+    assert objectives[0] == pytest.approx(acc, abs=6e-4)
+    assert design[0] == pytest.approx(spring, rel=0.03)
+
+
+@pytest.mark.parametrize("objective", ["ACC", "DTL"])
+def test_agrees_with_a_constrained_minimiser(objective):
+    """SLSQP on both variables at once, scaled to their bounds."""
+    problem = paper.ride_problem()
+    column = problem.objectives.index(objective)
+    scale = np.array(problem.upper)
+    typical = problem.evaluate([paper.reference_design()])[0]
+    found = minimize(
+        lambda x: problem.evaluate([x * scale])[0, column] / typical[column],
+        x0=np.array([0.4, 0.3]),
+        constraints={"type": "eq", "fun": lambda x: problem.evaluate([x * scale])[0, 1] / 0.0287 - 1},
+        bounds=list(zip(problem.lower / scale, problem.upper / scale, strict=True)),
+        options={"ftol": 1e-12},
+    )
+    design = optimum.best_at_limit(problem, 0.0287, objective)
+    ours, theirs = problem.evaluate([design, found.x * scale])[:, column]
+    assert ours == pytest.approx(theirs, rel=1e-6)
+
+
+def test_damper_at_limit_meets_it_or_is_nan():
+    problem = paper.ride_problem()
+    damper = optimum.damper_at_limit(problem, 12e3, 0.0287)
+    assert problem.evaluate([[12e3, damper]])[0, 1] == pytest.approx(0.0287, rel=1e-10)
+    assert np.isnan(optimum.damper_at_limit(problem, 12e3, 0.09))
+    assert np.isnan(optimum.damper_at_limit(problem, 12e3, 0.001))
+
+
+@pytest.mark.parametrize("limit", [0.001, 1.0])
+def test_unreachable_limits_are_named(limit):
+    with pytest.raises(ValueError, match=rf"^sws_limit must be .* 0\.0147 to 0\.0450 m, got {limit} m$"):
+        optimum.best_at_limit(paper.ride_problem(), limit, "ACC")
+
+
+def test_picks_the_least_objective_of_the_set_at_the_limit():
+    problem = paper.ride_problem()
+    run = minimise(problem, MoeadDra(population=500), iterations=20, seed=0)
+    acc, sws, dtl = run.objectives.T
+    at_limit = (sws >= 0.99 * 0.0287) & (sws <= 0.0287)
+    for objective, values, column in (("ACC", acc, 0), ("DTL", dtl, 2)):
+        picked = problem.evaluate([optimum.pick_at_limit(problem, run, 0.0287, objective)])[0]
+        assert 0.99 * 0.0287 <= picked[1] <= 0.0287
+        assert picked[column] == pytest.approx(values[at_limit].min(), rel=1e-12)
+    with pytest.raises(
+        ValueError, match=r"^sws_limit must be a travel within 1 % of which the Pareto set has a design"
+    ):
+        optimum.pick_at_limit(problem, run, 0.001, "ACC")
+
+
+def test_no_picked_design_is_better_than_the_exact_one():
+    """Within the limit; least ACC is at the limit itself, since ACC falls as travel is given away."""
+    problem = paper.ride_problem()
+    run = minimise(problem, MoeadDra(population=500), iterations=20, seed=0)
+    exact = optimum.best_at_limit(problem, 0.0287, "ACC")
+    picked = optimum.pick_at_limit(problem, run, 0.0287, "ACC")
+    exact_acc, picked_acc = problem.evaluate([exact, picked])[:, 0]
+    assert exact_acc <= picked_acc < 1.02 * exact_acc

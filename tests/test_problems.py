@@ -1,0 +1,46 @@
+import re
+
+import numpy as np
+import pytest
+
+from suspension_ctrl import Problem
+from suspension_ctrl.problems import column_headers, evaluate_checked
+
+GOOD = {"evaluate": lambda x: x, "lower": (0.0, 0.0), "upper": (1.0, 1.0), "objectives": ("a", "b")}
+
+
+def test_variables_get_names():
+    assert Problem(**GOOD).variables == ("x1", "x2")
+    assert Problem(**GOOD, variables=("k", "c")).variables == ("k", "c")
+
+
+def test_headers_carry_units():
+    assert column_headers(["SWS", "f1"], {"SWS": "m"}) == ["SWS [m]", "f1"]
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (
+            {"lower": (1.0, 0.0)},
+            "lower must be finite and below upper in every variable, got [1.0, 0.0] and [1.0, 1.0]",
+        ),
+        ({"lower": (0.0,)}, "lower and upper must be one-dimensional and of one length"),
+        ({"upper": (1.0, float("inf"))}, "lower must be finite and below upper"),
+        ({"lower": (), "upper": ()}, "lower and upper must be one-dimensional and of one length"),
+        ({"objectives": ("a",)}, "objectives must be 2 or more different names, got ('a',)"),
+        ({"objectives": ("a", "a")}, "objectives must be 2 or more different names, got ('a', 'a')"),
+        ({"objectives": "ab"}, "objectives must be 2 or more different names, got 'ab'"),
+        ({"variables": ("k",)}, "variables must be 2 different names, got ('k',)"),
+    ],
+)
+def test_rejects_bad_problems(change, message):
+    with pytest.raises(ValueError, match="^" + re.escape(message)):
+        Problem(**GOOD | change)
+
+
+def test_checked_evaluation_names_the_first_bad_design():
+    problem = Problem(**GOOD | {"evaluate": lambda x: np.where(x > 0.5, np.nan, x)})
+    assert evaluate_checked(problem, [[0.1, 0.2]]).tolist() == [[0.1, 0.2]]
+    with pytest.raises(ValueError, match=r"got \[0.2, nan\] for design \[0.2, 0.9\]$"):
+        evaluate_checked(problem, [[0.1, 0.2], [0.2, 0.9]])
