@@ -47,7 +47,7 @@ def ordered(lower_name: str, upper_name: str, lower: ArrayLike, upper: ArrayLike
 
 def designs(values: ArrayLike, variables: int) -> NDArray[np.float64]:
     """Return `values` as a float array of shape (n, variables); ValueError where that is not what they are."""
-    array = np.asarray(values, dtype=float)
+    array = np.ascontiguousarray(values, dtype=float)
     if array.ndim != 2 or array.shape[1] != variables:
         raise ValueError(f"designs must have shape (n, {variables}), got {array.shape}")
     return array

@@ -77,17 +77,12 @@ def corner_subproblems(weights: NDArray[np.float64]) -> NDArray[np.int64]:
     return np.array([np.flatnonzero(weights[:, j] == 1.0)[0] for j in range(weights.shape[1])])
 
 
-@njit(cache=True)
-def tchebycheff(
-    objectives: NDArray[np.float64],
-    weight: NDArray[np.float64],
-    ideal: NDArray[np.float64],
-    span: NDArray[np.float64],
-) -> float:
-    """Return g(F | lambda) = max_j lambda_j |F_j - z_j| / span_j; all arguments (m,), equation (14)."""
+@njit(cache=True, inline="always")  # a call for each comparison would cost more than what it compares
+def tchebycheff(objectives: NDArray[np.float64], weight: NDArray[np.float64], ideal: NDArray[np.float64]) -> float:
+    """Return g(F | lambda) = max_j lambda_j |F_j - z_j|; all arguments (m,), equation (14)."""
     g = 0.0
     for j in range(objectives.size):
-        g = max(g, weight[j] * abs(objectives[j] - ideal[j]) / span[j])
+        g = max(g, weight[j] * abs(objectives[j] - ideal[j]))
     return g
 
 
@@ -130,7 +125,7 @@ def mating_range(
 ) -> NDArray[np.int64]:
     """Return where subproblem i finds mates and its child is put: its neighbours (T,) or, rarely, all (N,)."""
     if rng.random() < probability:
-        return neighbours[i].copy()
+        return neighbours[i]
     return np.arange(neighbours.shape[0])
 
 
@@ -144,28 +139,28 @@ def replace_worse(
     objectives: NDArray[np.float64],
     weights: NDArray[np.float64],
     ideal: NDArray[np.float64],
-    span: NDArray[np.float64],
     limit: int,
 ) -> None:
     """Put a child in the place of partners that it betters, at most `limit` of them; everything in place.
 
-    The ideal point takes the child's objectives in before the first comparison. The partners, whose order is
-    lost, are visited in a random one.
+    The ideal point takes the child's objectives in before the first comparison. To replace the first `limit`
+    that it betters of partners visited in random order is to replace as many, drawn from all that it betters:
+    whether it betters one does not depend on the others.
     """
     for j in range(ideal.size):
         ideal[j] = min(ideal[j], child_objectives[j])
-    replaced = 0
-    for left in range(partners.size, 0, -1):
-        if replaced == limit:
-            return
+    bettered = np.empty_like(partners)
+    count = 0
+    for p in partners:
+        if tchebycheff(child_objectives, weights[p], ideal) < tchebycheff(objectives[p], weights[p], ideal):
+            bettered[count] = p
+            count += 1
+    for left in range(count, max(count - limit, 0), -1):
         drawn = draw_below(rng, left)
-        p = partners[drawn]
-        partners[drawn] = partners[left - 1]
-        better = tchebycheff(child_objectives, weights[p], ideal, span)
-        if better < tchebycheff(objectives[p], weights[p], ideal, span):
-            designs[p] = child
-            objectives[p] = child_objectives
-            replaced += 1
+        p = bettered[drawn]
+        bettered[drawn] = bettered[left - 1]
+        designs[p] = child
+        objectives[p] = child_objectives
 
 
 @njit(cache=True)
@@ -175,7 +170,6 @@ def updated_utility(
     objectives: NDArray[np.float64],
     weights: NDArray[np.float64],
     ideal: NDArray[np.float64],
-    span: NDArray[np.float64],
     threshold: float,
 ) -> NDArray[np.float64]:
     """Return the utilities (N,) after progress from `before` (N, m) to `objectives` (N, m).
@@ -185,8 +179,8 @@ def updated_utility(
     """
     updated = np.ones_like(utility)
     for i in range(utility.size):
-        old = tchebycheff(before[i], weights[i], ideal, span)
-        new = tchebycheff(objectives[i], weights[i], ideal, span)
+        old = tchebycheff(before[i], weights[i], ideal)
+        new = tchebycheff(objectives[i], weights[i], ideal)
         progress = max(0.0, (old - new) / old) if old > 0 else 0.0
         if progress <= threshold:
             updated[i] = (0.95 + 0.05 * progress / threshold) * utility[i]

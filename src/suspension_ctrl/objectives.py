@@ -4,18 +4,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
 from itertools import product
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import checks, weightings
 from .quadrature import frequency_nodes
-from .responses import Road, StrutLoop, root_mean_squares
+from .responses import Road, StrutLoop, root_mean_squares, root_mean_squares_of_all
 from .vehicles import QuarterCar
-
-_ROWS_AT_ONCE = 256
-"""Designs evaluated in one product: half a megabyte of intermediate results, which stays in cache."""
 
 _RESOLVED = 1e-6
 """Largest relative change of an objective that twice the nodes may make at a corner of the box."""
@@ -93,17 +90,12 @@ class RideProblem:
         ValueError
             If `designs` does not have two columns.
         """
-        x = checks.designs(designs, len(self.variables))
-        objectives = np.empty((x.shape[0], len(self.objectives)))
-        for start in range(0, x.shape[0], _ROWS_AT_ONCE):
-            rows = slice(start, start + _ROWS_AT_ONCE)
-            objectives[rows] = np.sqrt(self._loop.mean_squares(x[rows]))
-        return objectives
+        return root_mean_squares_of_all(checks.designs(designs, len(self.variables)), *self._loop.arrays())
 
-    @cached_property
-    def kernel(self) -> tuple[Callable[..., NDArray[np.float64]], tuple[NDArray[np.float64], ...]]:
+    @property
+    def kernel(self) -> tuple[Callable[..., NDArray[np.float64]], tuple[NDArray[Any], ...]]:
         """The objectives (3,) of a single design (2,) as a compiled function and its further arguments."""
-        return root_mean_squares, (self._loop.denominator.T.copy(), self._loop.numerators)
+        return root_mean_squares, self._loop.arrays()
 
     @cached_property
     def _loop(self) -> StrutLoop:
@@ -120,8 +112,8 @@ class RideProblem:
     def _check_resolution(self) -> None:
         """Hold the corners of the box, where resonances are sharpest, against twice the nodes."""
         corners = np.array(list(product(*zip(self.lower, self.upper, strict=True))), dtype=float)
-        fine = self._loop_at(2 * self.nodes).mean_squares(corners)
-        change = np.abs(self._loop.mean_squares(corners) / fine - 1).max() / 2  # of the root mean square
+        fine = root_mean_squares_of_all(corners, *self._loop_at(2 * self.nodes).arrays())
+        change = np.abs(self.evaluate(corners) / fine - 1).max()
         if not change < _RESOLVED:
             raise ValueError(
                 f"nodes must resolve every resonance in the box to {_RESOLVED:g}, got {self.nodes}, "

@@ -1,7 +1,7 @@
 """Responses of a vehicle to a random road: spectra of one design, and the strut loop of many at once."""
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import control
 import numpy as np
@@ -71,23 +71,27 @@ def natural_frequencies(closed: control.StateSpace) -> NDArray[np.float64]:
 
 @dataclass(frozen=True)
 class StrutLoop:
-    """Mean-square responses of any number of designs of one strut, from one frequency response of the plant.
+    """Mean-square responses of any design of one strut, from one frequency response of the plant.
 
     With the strut D = K + jwC around the ports of the plant P, a response is
     ``P11 + P12 D (1 - P22 D)^-1 P21 = (a + b D) / (1 + c D)``, where a = P11, b = P12 P21 - P11 P22 and
-    c = -P22. Both |a + b D|^2 and |1 + c D|^2 are linear in the terms 1, K, C, K^2, C^2 of a design, so that
-    the integrals of all designs are two matrix products with one reciprocal between them.
+    c = -P22. Both |a + b D|^2 and |1 + c D|^2 are linear in the terms 1, K, C, K^2, C^2 of a design. Only
+    numerators that are not zero at every frequency are kept.
 
     Parameters
     ----------
     denominator : (5, n) ndarray
         Coefficients of |1 + c D|^2 at n frequencies.
-    numerators : (n, 5 m) ndarray
-        Coefficients of |a + b D|^2 for m responses, each times the density to integrate it with.
+    numerators : (q, n) ndarray
+        Coefficients of |a + b D|^2, each times the density to integrate it with.
+    response, term : (q,) ndarray
+        Number of the response and of the term to which a numerator belongs.
     """
 
     denominator: NDArray[np.float64]
     numerators: NDArray[np.float64]
+    response: NDArray[np.int64]
+    term: NDArray[np.int64]
 
     @classmethod
     def around(
@@ -99,46 +103,85 @@ class StrutLoop:
         the road's spectrum, times the squared weighting, times the quadrature weight.
         """
         omega = 2 * np.pi * f
-        response = plant.frequency_response(omega)
+        frequency_response = plant.frequency_response(omega)
 
         def path(output: str, source: str) -> NDArray[np.complex128]:
-            return response[output, source].frdata[0, 0]
+            return frequency_response[output, source].frdata[0, 0]
 
         p21, p22 = path("deflection", "road"), path("deflection", "strut")
-        numerators = [
-            density * _square_of_line(path(r, "road"), path(r, "strut") * p21 - path(r, "road") * p22, omega)
-            for r, density in densities.items()
-        ]
-        return cls(_square_of_line(np.ones_like(p22), -p22, omega), np.concatenate(numerators).T.copy())
+        numerators = np.array(
+            [
+                density * _square_of_line(path(r, "road"), path(r, "strut") * p21 - path(r, "road") * p22, omega)
+                for r, density in densities.items()
+            ]
+        )
+        response, term = np.nonzero(numerators.any(axis=2))
+        return cls(_square_of_line(np.ones_like(p22), -p22, omega), numerators[response, term], response, term)
 
-    def mean_squares(self, designs: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the mean squares (n, m) of designs (K [N/m], C [N s/m]) of shape (n, 2)."""
-        k, c = designs[:, 0], designs[:, 1]
-        terms = np.stack([np.ones_like(k), k, c, k * k, c * c], axis=1)
-        sums = (1 / (terms @ self.denominator)) @ self.numerators
-        return np.einsum("nt,nmt->nm", terms, sums.reshape(len(terms), -1, terms.shape[1]))
+    def arrays(self) -> tuple[NDArray[Any], ...]:
+        """Return the arrays as `root_mean_squares` takes them."""
+        return self.denominator, self.numerators, self.response, self.term
+
+
+# The sums over frequencies may be taken in whatever order suits the processor, the same one for every design.
+@njit(cache=True, fastmath={"reassoc", "contract", "nsz"})
+def fill_root_mean_squares(
+    design: NDArray[np.float64],
+    denominator: NDArray[np.float64],
+    numerators: NDArray[np.float64],
+    response: NDArray[np.int64],
+    term: NDArray[np.int64],
+    gain: NDArray[np.float64],
+    result: NDArray[np.float64],
+) -> None:
+    """Put the root mean squares (m,) of a design (K [N/m], C [N s/m]) in `result`; `gain` (n,) is for its use.
+
+    The arrays between them are those of `StrutLoop`.
+    """
+    k, c = design[0], design[1]
+    kk, cc = k * k, c * c
+    d = denominator
+    for i in range(gain.size):
+        gain[i] = 1.0 / (d[0, i] + d[1, i] * k + d[2, i] * c + d[3, i] * kk + d[4, i] * cc)
+    result[:] = 0.0
+    for q in range(response.size):
+        integral = 0.0
+        for i in range(gain.size):
+            integral += gain[i] * numerators[q, i]
+        result[response[q]] += integral * (1.0, k, c, kk, cc)[term[q]]
+    for r in range(result.size):
+        result[r] = np.sqrt(result[r])
 
 
 @njit(cache=True)
 def root_mean_squares(
-    design: NDArray[np.float64], denominator: NDArray[np.float64], numerators: NDArray[np.float64]
+    design: NDArray[np.float64],
+    denominator: NDArray[np.float64],
+    numerators: NDArray[np.float64],
+    response: NDArray[np.int64],
+    term: NDArray[np.int64],
 ) -> NDArray[np.float64]:
-    """Return the root mean squares (m,) of one design (K [N/m], C [N s/m]), compiled.
-
-    `denominator` (n, 5) is that of a `StrutLoop` with the frequencies down the rows, `numerators` (n, 5 m).
-    """
-    k, c = design[0], design[1]
-    sums = np.zeros(numerators.shape[1])
-    for i in range(denominator.shape[0]):
-        d = denominator[i]
-        gain = 1.0 / (d[0] + d[1] * k + d[2] * c + d[3] * k * k + d[4] * c * c)
-        for j in range(sums.size):
-            sums[j] += gain * numerators[i, j]
-    result = np.empty(sums.size // 5)
-    for r in range(result.size):
-        s = sums[5 * r : 5 * r + 5]
-        result[r] = np.sqrt(s[0] + s[1] * k + s[2] * c + s[3] * k * k + s[4] * c * c)
+    """Return the root mean squares (m,) of one design (2,)."""
+    result = np.empty(response[-1] + 1)
+    gain = np.empty(denominator.shape[1])
+    fill_root_mean_squares(design, denominator, numerators, response, term, gain, result)
     return result
+
+
+@njit(cache=True)
+def root_mean_squares_of_all(
+    designs: NDArray[np.float64],
+    denominator: NDArray[np.float64],
+    numerators: NDArray[np.float64],
+    response: NDArray[np.int64],
+    term: NDArray[np.int64],
+) -> NDArray[np.float64]:
+    """Return the root mean squares (p, m) of designs (p, 2), to the last bit those of each one alone."""
+    results = np.empty((designs.shape[0], response[-1] + 1))
+    gain = np.empty(denominator.shape[1])
+    for design, result in zip(designs, results):  # noqa: B905  (numba knows no strict)
+        fill_root_mean_squares(design, denominator, numerators, response, term, gain, result)
+    return results
 
 
 def _square_of_line(

@@ -1,12 +1,15 @@
 """NSGA-II's survivor selection on arrays: ranks by moocore, survivors exactly those of DEAP's ``selNSGA2``.
 
 Where several points have equal claims, DEAP's answer follows from the order in which it lists a front. That
-order is worked out (`deap_listing`) only where it decides something.
+order is worked out (`deap_order`) only where it decides something.
 """
 
 import moocore
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
+
+from .operators import dominates
 
 
 def select_survivors(objectives: NDArray[np.float64], size: int) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
@@ -32,55 +35,109 @@ def select_survivors(objectives: NDArray[np.float64], size: int) -> tuple[NDArra
     NSGA-II", IEEE Trans. Evol. Comput. 6(2), 2002.
     """
     rank = moocore.pareto_rank(objectives).astype(np.int64)
-    last = int(np.partition(rank, size - 1)[size - 1])
-    sure, front = np.flatnonzero(rank < last), np.flatnonzero(rank == last)
-    by_index = np.arange(rank.size)
-    crowding = crowding_distance(objectives, rank, by_index)
-    if _order_decides(objectives, rank, crowding, front, size - sure.size):
-        listing = deap_listing(objectives, rank, last)
-        crowding = crowding_distance(objectives, rank, listing)
-        front = front[np.argsort(listing[front])]
-    best_first = front[np.argsort(-crowding[front], kind="stable")]
-    index = np.sort(np.concatenate([sure, best_first[: size - sure.size]]))
-    return index, crowding[index]
+    index, crowding, order_decides = keep_least_crowded(objectives, rank, np.arange(rank.size), size)
+    if order_decides:
+        index, crowding, _ = keep_least_crowded(objectives, rank, deap_order(objectives, rank), size)
+    return index, crowding
 
 
-def crowding_distance(
-    objectives: NDArray[np.float64], rank: NDArray[np.int64], listing: NDArray[np.int64]
-) -> NDArray[np.float64]:
-    """Return the crowding distance of each individual within its front.
+@njit(cache=True)
+def keep_least_crowded(
+    objectives: NDArray[np.float64], rank: NDArray[np.int64], order: NDArray[np.int64], size: int
+) -> tuple[NDArray[np.int64], NDArray[np.float64], bool]:
+    """Keep the best fronts, and of the last one the least crowded; arguments and result as in `select_survivors`.
 
-    Parameters
-    ----------
-    objectives : (n, m) ndarray
-    rank : (n,) ndarray
-        Front of each individual.
-    listing : (n,) ndarray
-        Place of each individual in its front's list. As in DEAP the list is sorted by one objective after
-        the other, each time keeping the order it had, so equal values stand as the objectives before left them.
+    `order` (n,) is the order in which all individuals are listed. The third result says whether another order
+    within the fronts might give another answer. Equal points are alike wherever they stand, so that is so only
+    where different points of a front share their first objectives (the last two then differ, or one would
+    dominate), or where one that stays and a different one that goes have the same crowding distance.
+    """
+    fronts = fronts_in_order(rank, order, size)
+    distance = np.zeros(rank.size)
+    order_decides = False
+    for front in fronts:
+        if add_crowding_distance(objectives, front, distance):
+            order_decides = True
+    kept = np.zeros(rank.size, dtype=np.bool_)
+    places = size
+    for front in fronts[:-1]:
+        kept[front] = True
+        places -= front.size
+    last = fronts[-1]
+    best_first = last[np.argsort(-distance[last], kind="mergesort")]
+    kept[best_first[:places]] = True
+    if places < last.size:
+        stays = distance[best_first[places - 1]]
+        if stays == distance[best_first[places]]:
+            for i in best_first[distance[best_first] == stays]:
+                if agreement(objectives, i, best_first[places]) < objectives.shape[1]:
+                    order_decides = True
+    index = np.flatnonzero(kept)
+    return index, distance[index], order_decides
 
-    Returns
-    -------
-    (n,) ndarray
-        Sum over the objectives of the gap between both neighbours over m times the front's range [-].
+
+@njit(cache=True)
+def fronts_in_order(rank: NDArray[np.int64], order: NDArray[np.int64], size: int) -> list[NDArray[np.int64]]:
+    """Return the first fronts that together have at least `size` individuals, each listed in `order`."""
+    counts = np.bincount(rank)
+    last = int(np.searchsorted(np.cumsum(counts), size))
+    fronts = [np.empty(counts[r], dtype=np.int64) for r in range(last + 1)]
+    filled = np.zeros(last + 1, dtype=np.int64)
+    for i in order:
+        r = rank[i]
+        if r <= last:
+            fronts[r][filled[r]] = i
+            filled[r] += 1
+    return fronts
+
+
+@njit(cache=True)
+def add_crowding_distance(
+    objectives: NDArray[np.float64], front: NDArray[np.int64], distance: NDArray[np.float64]
+) -> bool:
+    """Put the crowding distances of one front in `distance` (n,); True if its order bears on them.
+
+    The distance is the sum over the objectives of the gap between both neighbours over m times the front's
+    range. As in DEAP the list is sorted by one objective after the other, each time keeping the order it had.
     """
     m = objectives.shape[1]
-    distance = np.zeros(rank.size)
+    order_decides = False
+    value = np.empty(front.size)
     for j in range(m):
-        order = np.lexsort((listing, *objectives.T[: j + 1], rank))
-        value, front = objectives[order, j], rank[order]
-        starts = np.flatnonzero(np.r_[True, front[1:] != front[:-1]])
-        ends = np.r_[starts[1:], rank.size] - 1
-        span = np.repeat(value[ends] - value[starts], ends - starts + 1)
-        gap = np.zeros(rank.size)
-        gap[1:-1] = value[2:] - value[:-2]
-        distance[order] += np.divide(gap, m * span, out=np.zeros(rank.size), where=span > 0)
-        distance[order[starts]] = distance[order[ends]] = np.inf
-    return distance
+        for k in range(front.size):
+            value[k] = objectives[front[k], j]
+        by_value = np.argsort(value, kind="mergesort")
+        front, value = front[by_value], value[by_value]
+        distance[front[0]] = distance[front[-1]] = np.inf
+        span = value[-1] - value[0]
+        if span > 0:
+            for k in range(1, front.size - 1):
+                distance[front[k]] += (value[k + 1] - value[k - 1]) / (m * span)
+        if j < m - 2 and share_first_objectives(objectives, front, j + 1):
+            order_decides = True
+    return order_decides
 
 
-def deap_listing(objectives: NDArray[np.float64], rank: NDArray[np.int64], last: int) -> NDArray[np.int64]:
-    """Return the place at which DEAP's ``sortNondominated`` lists each individual, (n,); fronts up to `last`.
+@njit(cache=True)
+def share_first_objectives(objectives: NDArray[np.float64], front: NDArray[np.int64], count: int) -> bool:
+    """Whether any neighbours in the list `front` agree in the first `count` objectives but not in all."""
+    for k in range(1, front.size):
+        if count <= agreement(objectives, front[k - 1], front[k]) < objectives.shape[1]:
+            return True
+    return False
+
+
+@njit(cache=True)
+def agreement(objectives: NDArray[np.float64], a: int, b: int) -> int:
+    """In how many of the first objectives individuals a and b agree, up to the first in which they differ."""
+    for j in range(objectives.shape[1]):
+        if objectives[a, j] != objectives[b, j]:
+            return j
+    return objectives.shape[1]
+
+
+def deap_order(objectives: NDArray[np.float64], rank: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the individuals, front by front, as DEAP's ``sortNondominated`` lists them; shape (n,).
 
     DEAP lists the first front as it came. An individual enters a later front when the last of those that
     dominate it is dealt with, those in the order of the front before; among several that enter then, the
@@ -91,45 +148,22 @@ def deap_listing(objectives: NDArray[np.float64], rank: NDArray[np.int64], last:
     heads = np.unique(arrival)
     place = np.zeros(rank.size, dtype=np.int64)  # of the heads
     before = heads[:0]
-    for r in range(last + 1):
+    for r in range(rank.max() + 1):
         front = heads[rank[heads] == r]
-        release = _last_dominator(objectives, before, front) if r else np.zeros(front.size)
-        before = front[np.lexsort((front, release))]
+        before = front[np.lexsort((front, last_dominators(objectives, before, front)))]
         place[before] = np.arange(before.size)
-    listing = np.empty(rank.size, dtype=np.int64)
-    listing[np.lexsort((np.arange(rank.size), place[arrival], rank))] = np.arange(rank.size)
-    return listing
+    return np.lexsort((np.arange(rank.size), place[arrival], rank))
 
 
-def _last_dominator(
+@njit(cache=True)
+def last_dominators(
     objectives: NDArray[np.float64], before: NDArray[np.int64], front: NDArray[np.int64]
 ) -> NDArray[np.int64]:
-    """Place in the list `before` of the last one that dominates each individual of the next front."""
-    dominates: NDArray[np.bool_] = np.all(objectives[before][:, np.newaxis] <= objectives[front], axis=2)
-    return before.size - 1 - np.argmax(dominates[::-1], axis=0)
-
-
-def _order_decides(
-    objectives: NDArray[np.float64],
-    rank: NDArray[np.int64],
-    crowding: NDArray[np.float64],
-    front: NDArray[np.int64],
-    places: int,
-) -> bool:
-    """Whether the order within a front's list bears on the survivors or on crowding distances.
-
-    Equal points are alike wherever they stand. So it does only where different points of a front share their
-    first objectives (the last two then differ, or one would dominate), or where the crowding distance is the
-    same for one that stays and a different one that goes.
-    """
-    for shared in range(1, objectives.shape[1] - 1):
-        order = np.lexsort((*objectives.T[::-1], rank))
-        pair = objectives[order]
-        same = (pair[1:, :shared] == pair[:-1, :shared]).all(axis=1) & (np.diff(rank[order]) == 0)
-        if (same & (pair[1:] != pair[:-1]).any(axis=1)).any():
-            return True
-    if places in (0, front.size):
-        return False
-    sorted_distance = np.sort(crowding[front])[::-1]
-    tied = objectives[front[crowding[front] == sorted_distance[places]]]
-    return bool(sorted_distance[places - 1] == sorted_distance[places] and (tied != tied[0]).any())
+    """Return the place in the list `before` of the last one that dominates each of the next front; -1 for none."""
+    places = np.full(front.size, -1)
+    for k in range(front.size):
+        for place in range(before.size - 1, -1, -1):
+            if dominates(objectives[before[place]], objectives[front[k]]):
+                places[k] = place
+                break
+    return places

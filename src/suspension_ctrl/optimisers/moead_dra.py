@@ -1,7 +1,8 @@
 """MOEA/D-DRA (Zhang, Liu and Li 2009) as a DEAP toolbox over arrays."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import count
 from typing import ClassVar
 
 import numpy as np
@@ -124,38 +125,29 @@ class MoeadDra:
     def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:
         """Yield the state after the start and after each iteration, without end (Figure 4 of the paper)."""
         size, m = self.population, len(problem.objectives)
-        weights = decomposition.weight_vectors(size, m)
-        corners = decomposition.corner_subproblems(weights)
-        population = Decomposed(
-            designs=(designs := toolbox.sample(rng, size)),
-            objectives=(objectives := toolbox.evaluate(designs)),
-            ideal=objectives.min(axis=0),
-            span=self._span(m),
-            weights=np.where(weights == 0, decomposition.ZERO_WEIGHT, weights),
-            neighbours=decomposition.neighbourhoods(size, m, max(2, int(self.neighbourhood * size))),
-        )
+        vectors = decomposition.weight_vectors(size, m)
+        corners = decomposition.corner_subproblems(vectors)
+        weights = np.where(vectors == 0, decomposition.ZERO_WEIGHT, vectors) / self._units(m)
+        designs = toolbox.sample(rng, size)
+        objectives = toolbox.evaluate(designs)
+        neighbours = decomposition.neighbourhoods(size, m, max(2, int(self.neighbourhood * size)))
+        population = Decomposed(designs, objectives, objectives.min(axis=0), weights, neighbours)
         yield population.state()
-        utility, before, iteration = np.ones(size), objectives.copy(), 0
-        while True:
-            iteration += 1
+        utility, before = np.ones(size), objectives.copy()
+        for iteration in count(1):
             if self.normalise:
-                population = population.normalised()
+                population = replace(population, weights=weights / population.span())
             chosen = toolbox.choose_subproblems(rng, utility, corners, self.evaluations_per_iteration(m))
             toolbox.sweep(rng, chosen, population, toolbox, problem)
             if iteration % self.utility_period == 0:
                 utility = toolbox.update_utility(
-                    utility,
-                    before,
-                    population.objectives,
-                    population.weights,
-                    population.ideal,
-                    population.span,
+                    utility, before, population.objectives, population.weights, population.ideal
                 )
                 before = population.objectives.copy()
             yield population.state()
 
-    def _span(self, objectives: int) -> NDArray[np.float64]:
-        span = np.ones(objectives) if self.units is None else np.array(self.units, dtype=float)
-        if span.size != objectives:
+    def _units(self, objectives: int) -> NDArray[np.float64]:
+        units = np.ones(objectives) if self.units is None or self.normalise else np.array(self.units, dtype=float)
+        if units.size != objectives:
             raise ValueError(f"units must be {objectives} numbers, one per objective, got {self.units!r}")
-        return span
+        return units

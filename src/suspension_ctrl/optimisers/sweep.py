@@ -1,8 +1,7 @@
 """One iteration of MOEA/D-DRA over the chosen subproblems: from mating range to replacement."""
 
-import inspect
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from itertools import chain
 from typing import Any
@@ -31,10 +30,8 @@ class Decomposed:
     objectives : (N, m) ndarray
     ideal : (m,) ndarray
         Least value seen of each objective.
-    span : (m,) ndarray
-        What each objective is divided by inside the scalar problems.
     weights : (N, m) ndarray
-        Weight vectors, none of them zero anywhere.
+        Weight vectors over the objectives' spans: what multiplies each objective in each scalar problem.
     neighbours : (N, T) ndarray
         Nearest subproblems of each, itself first.
     """
@@ -42,22 +39,21 @@ class Decomposed:
     designs: NDArray[np.float64]
     objectives: NDArray[np.float64]
     ideal: NDArray[np.float64]
-    span: NDArray[np.float64]
     weights: NDArray[np.float64]
     neighbours: NDArray[np.int64]
 
     def arrays(self) -> tuple[NDArray[Any], ...]:
         """Return the arrays in the order in which `work_on` takes them."""
-        return self.designs, self.objectives, self.ideal, self.span, self.weights, self.neighbours
+        return self.designs, self.objectives, self.ideal, self.weights, self.neighbours
 
     def state(self) -> State:
         """Return a copy of what the search shows of itself."""
         return State(self.designs.copy(), self.objectives.copy(), self.ideal.copy())
 
-    def normalised(self) -> "Decomposed":
-        """Return the same population with the span from the ideal point to the worst of each objective."""
+    def span(self) -> NDArray[np.float64]:
+        """Return the distance (m,) from the ideal point to the worst of each objective, 1 where there is none."""
         span = self.objectives.max(axis=0) - self.ideal
-        return replace(self, span=np.where(span > 0, span, 1.0))
+        return np.where(span > 0, span, 1.0)
 
 
 def sweep_sequential(
@@ -91,14 +87,14 @@ def sweep_batch(
     problem: Minimisable,  # noqa: ARG001
 ) -> None:
     """Make the children of all chosen subproblems, evaluate them in one call, then replace in order."""
-    designs, objectives, ideal, span, weights, neighbours = population.arrays()
+    designs, objectives, ideal, weights, neighbours = population.arrays()
     ranges = [toolbox.mating_range(rng, i, neighbours) for i in chosen]
     children = np.empty((chosen.size, designs.shape[1]))
     for row, (i, partners) in enumerate(zip(chosen, ranges, strict=True)):
         child = toolbox.reproduce(rng, designs, i, partners)
         children[row] = toolbox.mutate(rng, toolbox.repair(rng, child, designs[i]))
     for child, value, partners in zip(children, toolbox.evaluate(children), ranges, strict=True):
-        toolbox.update(rng, child, value, partners, designs, objectives, weights, ideal, span)
+        toolbox.update(rng, child, value, partners, designs, objectives, weights, ideal)
 
 
 VERBS = ("mating_range", "reproduce", "repair", "mutate", "update")
@@ -112,7 +108,6 @@ def work_on(
     designs: NDArray[np.float64],
     objectives: NDArray[np.float64],
     ideal: NDArray[np.float64],
-    span: NDArray[np.float64],
     weights: NDArray[np.float64],
     neighbours: NDArray[np.int64],
     mating_range: Callable[..., NDArray[np.int64]],
@@ -137,7 +132,7 @@ def work_on(
         value = evaluate(child, *evaluate_settings)
         if not np.isfinite(value).all():
             raise ValueError("evaluate must return finite objectives, got one that is not")
-        update(rng, child, value, partners, designs, objectives, weights, ideal, span, *update_settings)
+        update(rng, child, value, partners, designs, objectives, weights, ideal, *update_settings)
 
 
 def compiled_verb(verb: partial[Any]) -> Verb | None:
@@ -145,8 +140,8 @@ def compiled_verb(verb: partial[Any]) -> Verb | None:
     function = untimed(verb.func)
     if verb.args or not isinstance(function, CPUDispatcher):
         return None
-    names = list(inspect.signature(function.py_func).parameters)
-    trailing = names[len(names) - len(verb.keywords) :]
+    code = function.py_func.__code__
+    trailing = code.co_varnames[code.co_argcount - len(verb.keywords) : code.co_argcount]
     if set(trailing) != set(verb.keywords):
         return None
     return function, tuple(verb.keywords[name] for name in trailing)
@@ -155,5 +150,5 @@ def compiled_verb(verb: partial[Any]) -> Verb | None:
 def compiled_evaluation(toolbox: Toolbox, problem: Minimisable) -> Verb | None:
     """Return the problem's kernel, or None if it has none or the toolbox evaluates in another way."""
     evaluate = toolbox.evaluate
-    own = untimed(evaluate.func) is evaluate_checked and evaluate.args == (problem,) and not evaluate.keywords
+    own = untimed(evaluate.func) is evaluate_checked and evaluate.args[0] is problem and not evaluate.keywords
     return problem.kernel if own else None
