@@ -130,7 +130,7 @@ def spectra(designs: Sequence[DesignCurves], weighting: str) -> Figure:
             _marked_line(ax, design, design.densities[response] * panel.scale**2, colour)
             if response == "body_acceleration":
                 ax.plot(design.f, design.densities["weighted_acceleration"], "--", color=colour, lw=1.2)
-        note = f", dashed: weighted with {weighting}" if response == "body_acceleration" else ""
+        note = f" (dashed: {weighting})" if response == "body_acceleration" else ""
         ax.set(title=panel.title + note, yscale="log", ylabel=f"PSD [{panel.density_unit}]")
     return _finished(figure, axes)
 

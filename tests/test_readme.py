@@ -1,0 +1,39 @@
+"""The README's program runs and prints what stands there; its commands and files exist."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+
+def blocks(text: str, language: str) -> list[str]:
+    return re.findall(rf"```{language}\n(.*?)```", text, re.DOTALL)
+
+
+def test_program_prints_what_the_readme_says(checkout: Path, tmp_path):
+    readme = (checkout / "README.md").read_text()
+    (program,), (output,) = blocks(readme, "python"), blocks(readme, "text")
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, cwd=tmp_path, check=True
+    )
+    printed, expected = done.stdout.splitlines(), output.splitlines()
+    assert printed[0] == expected[0]
+    assert len(printed) == len(expected)  # the search may end elsewhere on another processor
+    assert int(printed[1].split()[0]) > 0
+
+
+def test_named_files_and_targets_exist(checkout: Path):
+    readme, makefile = (checkout / "README.md").read_text(), (checkout / "Makefile").read_text()
+    for name in re.findall(r"\]\(([^)]+)\)|`(scripts/\w+\.py)`", readme):
+        assert (checkout / (name[0] or name[1])).exists(), name
+    for target in re.findall(r"make (\w+)", readme.split("##")[0]):
+        assert f"\n{target}: " in makefile
+
+
+def test_table_of_modules_names_them_all(checkout: Path):
+    readme = (checkout / "README.md").read_text().split("## Modules")[1]
+    package = checkout / "src" / "suspension_ctrl"
+    modules = {
+        path.stem for path in package.glob("[!_]*") if path.suffix == ".py" or (path / "__init__.py").exists()
+    }
+    assert modules <= set(re.findall(r"`(\w+)`", readme))
