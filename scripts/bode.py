@@ -27,14 +27,16 @@ def main(
     out: Annotated[Path | None, Option(help="Folder for the results, absent or empty.")] = None,
 ) -> None:
     """Draw the frequency responses and response spectra of any number of designs."""
-    chosen = [tuple(terminal.numbers("design", text, 2)) for text in design or []] + read_designs(designs)
-    labelled = {design_label(*pair): pair for pair in chosen} or {
-        f"reference car: {design_label(*paper.reference_design())}": paper.reference_design(),
-        f"published optimum: {design_label(*paper.optimised_design())}": paper.optimised_design(),
-    }
+    chosen = [terminal.numbers("design", text, 2) for text in design or []]
+    if designs is not None:
+        chosen += read_designs(designs)
+    labelled = [(design_label(*pair), *pair) for pair in chosen] or [
+        (f"reference car: {design_label(*paper.reference_design())}", *paper.reference_design()),
+        (f"published optimum: {design_label(*paper.optimised_design())}", *paper.optimised_design()),
+    ]
     checks.at_least("points", points, 2)
     problem = paper.ride_problem(weighting=weighting)
-    curves = [design_curves(problem, label, *pair, points) for label, pair in labelled.items()]
+    curves = [design_curves(problem, label, spring, damper, points) for label, spring, damper in labelled]
     folder = files.results_folder(out)
     natural = pd.DataFrame({"design": c.label, "natural frequency [Hz]": f} for c in curves for f in c.natural)
     terminal.show("Natural frequencies", natural, {"natural frequency [Hz]": 3})
@@ -45,18 +47,25 @@ def main(
     print(folder)
 
 
-def read_designs(path: Path | None) -> list[tuple[float, float]]:
-    if path is None:
-        return []
+def read_designs(path: Path) -> list[list[float]]:
     columns = ["spring [N/m]", "damper [N s/m]"]
-    table = pd.read_csv(path)
-    if missing := [name for name in columns if name not in table.columns]:
-        raise ValueError(f"designs must have the columns {', '.join(columns)}, got {path} without {missing[0]}")
-    return list(table[columns].itertuples(index=False, name=None))
+    allowed = f"designs must be a CSV file with numbers in the columns {', '.join(columns)}"
+    try:
+        table = pd.read_csv(path)
+        values = table[columns].astype(float).to_numpy()
+    except OSError as error:
+        raise ValueError(f"{allowed}, got {str(path)!r}: {error.strerror}") from None
+    except KeyError as error:
+        raise ValueError(f"{allowed}, got {str(path)!r}: {error.args[0]}") from None
+    except ValueError as error:  # pandas' parser errors are among them
+        raise ValueError(f"{allowed}, got {str(path)!r}: {error}") from None
+    if not len(values):
+        raise ValueError(f"{allowed}, got {str(path)!r} without a row")
+    return values.tolist()
 
 
 def design_label(spring: float, damper: float) -> str:
-    return f"{spring / 1e3:.5g} kN/m, {damper / 1e3:.5g} kN s/m"
+    return f"{spring / 1e3:.10g} kN/m, {damper / 1e3:.10g} kN s/m"
 
 
 def design_curves(problem: RideProblem, label: str, spring: float, damper: float, points: int) -> DesignCurves:

@@ -10,7 +10,17 @@ from typing import Annotated
 import pandas as pd
 from typer import Option
 
-from suspension_ctrl import RideProblem, environment, experiments, figures, files, paper, tables, terminal
+from suspension_ctrl import (
+    MoeadDra,
+    RideProblem,
+    environment,
+    experiments,
+    figures,
+    files,
+    paper,
+    tables,
+    terminal,
+)
 from suspension_ctrl.experiments import Results
 from suspension_ctrl.indicators import ReferenceFront
 
@@ -26,8 +36,8 @@ DECIMALS = {
 
 
 def main(
-    populations: Annotated[str, Option(help="Population sizes.")] = "500,1000",
-    iterations: Annotated[str, Option(help="Iterations after the start.")] = "10,20",
+    populations: Annotated[str, Option(help="Population sizes.")] = ",".join(map(str, paper.POPULATIONS)),
+    iterations: Annotated[str, Option(help="Iterations after the start.")] = ",".join(map(str, paper.ITERATIONS)),
     repeats: Annotated[
         int, Option(parser=terminal.whole_number, help="Runs of each algorithm at each population and iterations.")
     ] = paper.REPEATS,
@@ -43,21 +53,20 @@ def main(
         ),
     ] = 0,
     out: Annotated[Path | None, Option(help="Folder for the results, absent or empty.")] = None,
-    quick: Annotated[bool, Option("--quick", help="Populations 60,100, iterations 5,10, two repeats.")] = False,
+    quick: Annotated[
+        bool, Option("--quick", help="Short form: populations 60,100, iterations 5,10, two repeats.")
+    ] = False,
 ) -> None:
     """Compare NSGA-II and MOEA/D-DRA as the paper does: Tables 2, 3 and 4 and Figure 5."""
-    arguments = locals() | {"out": str(out) if out else None}
     if quick:
         populations, iterations, repeats = "60,100", "5,10", 2
+    arguments = locals() | {"out": str(out) if out else None}
     problem = paper.ride_problem(weighting=weighting)
-    runs = experiments.plan(
-        problem,
-        terminal.names(algorithms),
+    sizes, counts = (
         terminal.whole_numbers("populations", populations),
         terminal.whole_numbers("iterations", iterations),
-        repeats,
-        seed,
     )
+    runs = experiments.plan(problem, terminal.names(algorithms), sizes, counts, repeats, seed)
     folder = files.results_folder(out)
     with environment.single_thread():
         record = environment.describe(arguments)
@@ -77,6 +86,11 @@ def main(
         f"non-dominated designs of a {GRID} x {GRID} grid (hypervolume "
         f"{reference.hypervolume(reference.objectives):.4f})."
     )
+    if max(counts) < MoeadDra.utility_period:
+        terminal.console.print(
+            f"At equal iterations MOEA/D-DRA has not allocated resources yet: its utilities first change after "
+            f"{MoeadDra.utility_period} iterations."
+        )
     print(folder)
 
 

@@ -7,7 +7,6 @@ whose path is the last line printed.
 from pathlib import Path
 from typing import Annotated
 
-import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from typer import Option
@@ -18,11 +17,11 @@ from suspension_ctrl import figures, files, terminal, weightings
 def main(out: Annotated[Path | None, Option(help="Folder for the results, absent or empty.")] = None) -> None:
     """Draw the frequency weightings of vertical vibration."""
     folder = files.results_folder(out)
-    bands = 10 ** (np.arange(-10, 21) / 10)
     factors = {
-        f"{name} [-]": weightings.by_name(name).factor(bands) for name in weightings.FILTERS + weightings.TABLES
+        f"{name} [-]": weightings.by_name(name).factor(weightings.BANDS)
+        for name in weightings.FILTERS + weightings.TABLES
     }
-    files.write_csv(folder / "figure2.csv", pd.DataFrame({"frequency [Hz]": bands, **factors}))
+    files.write_csv(folder / "figure2.csv", pd.DataFrame({"frequency [Hz]": weightings.BANDS, **factors}))
     figure = Figure(figsize=(7, 4.6), layout="constrained")
     figures.weighting_factors(figure.add_subplot(), ("Wk", "Wb"), ("Wk-table", "Wb-table"))
     files.write_figure(folder / "figure2", figure)

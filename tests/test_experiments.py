@@ -2,7 +2,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from suspension_ctrl import experiments, paper, tables
+from suspension_ctrl import decomposition, experiments, operators, paper, selection, tables
 from suspension_ctrl.indicators import ReferenceFront
 
 CONFIGURATION = {"populations": [20, 30], "iterations": [2, 4], "repeats": 2, "seed": 7}
@@ -95,6 +95,39 @@ def test_table_4_compares_with_the_first_algorithm():
     assert table.hypervolume[0] == pytest.approx(0.85)
 
 
+def test_table_4_with_a_baseline_that_spends_less():
+    """Each is compared with the baseline's run of the same budget; NSGA-II has none at equal evaluations."""
+    columns = ("algorithm", "budget", "seconds", "evaluations")
+    rows = [
+        ("moead-dra", "iterations", 1.0, 150),
+        ("nsga2", "iterations", 2.0, 550),
+        ("moead-dra", "evaluations", 4.0, 550),
+    ]
+    common = {"population": 50, "iterations": 10, "repeat": 1, "hypervolume": 0.9, "igd_plus": 0.1}
+    runs = pd.DataFrame([common | dict(zip(columns, row, strict=True)) for row in rows])
+    table = tables.comparison(runs, paper.published_seconds()).set_index(["algorithm", "budget"])
+    np.testing.assert_allclose(table.ratio_percent, [100, 50, 100])
+
+
+def test_nothing_is_compiled_in_a_timed_run(problem):
+    """Also not what first runs after many iterations, in the runs of equal evaluations."""
+    plan = experiments.plan(problem, ["nsga2", "moead-dra"], [20], [12], 1, 0)
+    experiments.warm_up(problem, plan)
+    functions = [
+        f for m in (decomposition, operators, selection) for f in vars(m).values() if hasattr(f, "signatures")
+    ]
+    before = [len(f.signatures) for f in functions]
+    list(experiments.carry_out(problem, plan))
+    assert [len(f.signatures) for f in functions] == before
+    assert decomposition.updated_utility.signatures
+
+
+def test_equal_evaluations_are_whole_iterations(problem):
+    """With N = 103 an iteration of MOEA/D-DRA makes 20, which do not fill up NSGA-II's 1030 exactly."""
+    runs = experiments.plan(problem, ["nsga2", "moead-dra"], [103], [10], 1, 0)
+    assert [run.evaluations for run in runs] == [1133, 303, 1123]
+
+
 def test_fronts_are_non_dominated_and_named_with_units(problem, results):
     frame = experiments.front(problem, results[0][1])
     assert list(frame.columns) == ["spring [N/m]", "damper [N s/m]", "ACC [m/s^2]", "SWS [m]", "DTL [N]"]
@@ -105,7 +138,7 @@ def test_fronts_are_non_dominated_and_named_with_units(problem, results):
 
 
 def test_raw_moead_takes_the_papers_units():
-    assert experiments.optimiser("moead-dra-raw", 30).units == (1.0, 1.0, 1e3)
+    assert experiments.optimiser("moead-dra-raw", 30).objective_scales == (1.0, 1.0, 1e3)
     assert not experiments.optimiser("moead-dra-raw", 30).normalise
 
 

@@ -145,6 +145,7 @@ def test_any_layout_of_designs_is_taken():
     p = problem()
     x = np.random.default_rng(0).uniform(p.lower, p.upper, (50, 2))
     expected = p.evaluate(x)
+    assert p.evaluate([p.lower, p.upper]).shape == (2, 3)
     read_only = x.copy()
     read_only.flags.writeable = False
     for same in (np.asfortranarray(x), x.tolist(), np.repeat(x, 2, axis=0)[::2], read_only):
@@ -160,6 +161,8 @@ def test_any_layout_of_designs_is_taken():
         ({"speed": 0.0}, "speed must be finite and > 0 m/s, got 0.0"),
         ({"weighting": "Wz"}, "weighting must be one of Wk, Wd, Wf, Wc, We, Wj, Wb, Wk-table, Wb-table, got 'Wz'"),
         ({"band": (20.0, 0.0)}, "band must be finite with 0 <= lower < upper [Hz], got (20.0, 0.0)"),
+        ({"band": (0.0, 1.0, 2.0)}, "band must be finite with 0 <= lower < upper [Hz], got (0.0, 1.0, 2.0)"),
+        ({"band": None}, "band must be finite with 0 <= lower < upper [Hz], got None"),
         ({"lower": (30e3, 1e3)}, "lower must be finite and below upper in every variable"),
         ({"lower": (0.0, 1e3)}, "lower bound of spring must be finite and > 0 N/m, got 0.0"),
         ({"lower": (1e3,), "upper": (3e4,)}, "lower and upper must bound spring, damper, got (1000.0,)"),
@@ -171,6 +174,17 @@ def test_any_layout_of_designs_is_taken():
 def test_rejects_bad_settings(changes, message):
     with pytest.raises(ValueError, match="^" + re.escape(message)):
         paper.ride_problem(**changes)
+
+
+@pytest.mark.parametrize(
+    "design", [[22e3, -1500.0], [22e3, 100.0], [40e3, 1500.0], [np.nan, 1500.0], [22e3, np.inf]]
+)
+def test_rejects_designs_outside_the_bounds(design):
+    """Where a quadrature checked at the corners of the box says nothing."""
+    with pytest.raises(
+        ValueError, match=r"^designs must lie within \[1000.0, 1000.0\] and \[30000.0, 5000.0\], got"
+    ):
+        problem().evaluate([[22e3, 1500.0], design])
 
 
 @pytest.mark.parametrize("designs", [[1.0, 2.0], [[1.0, 2.0, 3.0]], [[[1.0, 2.0]]]])

@@ -46,13 +46,11 @@ def test_repair_brings_children_back_between_bound_and_parent(designs, seed, sca
     repaired = operators.redraw_outside(rng, child, designs[0], LOWER, UPPER)
     inside = (child >= LOWER) & (child <= UPPER)
     np.testing.assert_array_equal(repaired[inside], child[inside])
-    low, high = np.minimum(designs[0], LOWER), np.maximum(designs[0], LOWER)
     below, above = child < LOWER, child > UPPER
     assert (repaired >= LOWER).all()
     assert (repaired <= UPPER).all()
-    assert (repaired[below] <= high[below]).all()
+    assert (repaired[below] <= designs[0][below]).all()
     assert (repaired[above] >= designs[0][above]).all()
-    assert (low <= high).all()
 
 
 @pytest.mark.parametrize(("low", "high", "eta"), [(0.2, 0.7, 20.0), (0.05, 0.9, 1.0), (0.4, 0.95, 3.0)])

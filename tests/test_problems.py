@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from suspension_ctrl import Problem
-from suspension_ctrl.problems import column_headers, evaluate_checked
+from suspension_ctrl.problems import checked_objectives, column_headers
 
 GOOD = {"evaluate": lambda x: x, "lower": (0.0, 0.0), "upper": (1.0, 1.0), "objectives": ("a", "b")}
 
@@ -31,6 +31,12 @@ def test_headers_carry_units():
         ({"objectives": ("a",)}, "objectives must be 2 or more different names, got ('a',)"),
         ({"objectives": ("a", "a")}, "objectives must be 2 or more different names, got ('a', 'a')"),
         ({"objectives": "ab"}, "objectives must be 2 or more different names, got 'ab'"),
+        (
+            {"kernel": (len, ())},
+            "kernel must begin with a function compiled by numba, got <built-in",
+        ),
+        ({"variables": ("x", "x", "y")}, "variables must be 2 different names, got ('x', 'x', 'y')"),
+        ({"variables": "kc"}, "variables must be 2 different names, got 'kc'"),
         ({"variables": ("k",)}, "variables must be 2 different names, got ('k',)"),
     ],
 )
@@ -39,8 +45,8 @@ def test_rejects_bad_problems(change, message):
         Problem(**GOOD | change)
 
 
-def test_checked_evaluation_names_the_first_bad_design():
-    problem = Problem(**GOOD | {"evaluate": lambda x: np.where(x > 0.5, np.nan, x)})
-    assert evaluate_checked(problem, [[0.1, 0.2]]).tolist() == [[0.1, 0.2]]
+def test_the_first_bad_design_is_named():
+    designs = np.array([[0.1, 0.2], [0.2, 0.9]])
+    assert checked_objectives([[1, 2], [3, 4]], designs, ("a", "b")).tolist() == [[1.0, 2.0], [3.0, 4.0]]
     with pytest.raises(ValueError, match=r"got \[0.2, nan\] for design \[0.2, 0.9\]$"):
-        evaluate_checked(problem, [[0.1, 0.2], [0.2, 0.9]])
+        checked_objectives([[1, 2], [0.2, np.nan]], designs, ("a", "b"))

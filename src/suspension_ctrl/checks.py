@@ -1,15 +1,17 @@
 """Checks of user input: a ValueError names the parameter, the value and what is allowed."""
 
-import math
-from collections.abc import Collection
+import sys
+from collections.abc import Collection, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+_LARGEST = sys.float_info.max
+
 
 def positive(name: str, value: float, unit: str = "") -> None:
     """Raise ValueError unless `value` is a finite number above zero."""
-    if not (_is_real(value) and math.isfinite(value) and value > 0):
+    if not (_is_real(value) and 0 < value <= _LARGEST):
         raise ValueError(f"{name} must be finite and > 0{' ' * bool(unit)}{unit}, got {value!r}")
 
 
@@ -25,9 +27,20 @@ def within(name: str, value: float, lowest: float, highest: float) -> None:
         raise ValueError(f"{name} must be a number from {lowest} to {highest}, got {value!r}")
 
 
+def interval(name: str, value: Sequence[float], unit: str) -> None:
+    """Raise ValueError unless `value` is a pair of finite numbers with 0 <= lower < upper."""
+    if not (
+        isinstance(value, Sequence)
+        and len(value) == 2
+        and all(map(_is_real, value))
+        and 0 <= value[0] < value[1] <= _LARGEST
+    ):
+        raise ValueError(f"{name} must be finite with 0 <= lower < upper [{unit}], got {value!r}")
+
+
 def one_of(name: str, value: object, allowed: Collection[object]) -> None:
     """Raise ValueError unless `value` is one of `allowed`."""
-    if value not in allowed:
+    if not any(value == choice for choice in allowed):
         raise ValueError(f"{name} must be one of {', '.join(map(str, allowed))}, got {value!r}")
 
 
@@ -51,6 +64,16 @@ def designs(values: ArrayLike, variables: int) -> NDArray[np.float64]:
     if array.ndim != 2 or array.shape[1] != variables:
         raise ValueError(f"designs must have shape (n, {variables}), got {array.shape}")
     return array
+
+
+def rows_within(name: str, rows: NDArray[np.float64], lower: ArrayLike, upper: ArrayLike) -> None:
+    """Raise ValueError unless every row (n, d) lies between `lower` and `upper` (d,), but for rounding."""
+    low, high = np.asarray(lower, dtype=float), np.asarray(upper, dtype=float)
+    slack = 1e-9 * (high - low)
+    inside = ((low - slack <= rows) & (rows <= high + slack)).all(axis=1)
+    if not inside.all():
+        first = rows[inside.argmin()].tolist()
+        raise ValueError(f"{name} must lie within {low.tolist()} and {high.tolist()}, got {first}")
 
 
 def _is_real(value: object) -> bool:

@@ -1,7 +1,7 @@
 """The comparison of the algorithms: a plan of runs, carried out one at a time, as a tidy table."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -18,7 +18,7 @@ ALGORITHMS: dict[str, Callable[..., Optimiser]] = {
     "nsga2": Nsga2,
     "nsga2-standard-sort": partial(Nsga2, selection="deap-standard"),
     "moead-dra": MoeadDra,
-    "moead-dra-raw": partial(MoeadDra, normalise=False, units=(1.0, 1.0, 1e3)),
+    "moead-dra-raw": partial(MoeadDra, normalise=False, objective_scales=(1.0, 1.0, 1e3)),
 }
 """Optimisers by name. Raw MOEA/D-DRA takes equation (14) to the letter, in the paper's units (DTL in kN)."""
 
@@ -84,7 +84,8 @@ def plan(
     """Return the runs of a comparison in the order in which they are made, algorithms taking turns.
 
     Every algorithm runs at each population and number of iterations. Those that spend fewer evaluations than
-    another there run once more with as many. Repeat r has the seed `seed` + r - 1 for every algorithm.
+    another there run once more with as many, up to a part of an iteration. Repeat r has the seed `seed` + r - 1
+    for every algorithm.
     """
     checks.at_least("repeats", repeats, 1)
     checks.at_least("seed", seed, 0)
@@ -97,7 +98,11 @@ def plan(
         for count in iterations:
             spent = {name: population + count * cost[name] for name in algorithms}
             most = max(spent.values())
-            again = [(name, EQUAL_EVALUATIONS, most) for name in algorithms if spent[name] < most]
+            again = [
+                (name, EQUAL_EVALUATIONS, population + (most - population) // cost[name] * cost[name])
+                for name in algorithms
+                if spent[name] < most
+            ]
             once = [(name, EQUAL_ITERATIONS, spent[name]) for name in algorithms]
             for repeat in range(1, repeats + 1):
                 runs += [
@@ -112,7 +117,10 @@ def warm_up(problem: Minimisable, runs: Sequence[PlannedRun]) -> None:
     for algorithm, population in {(run.algorithm, run.population) for run in runs}:
         # DEAP's quadratic sort has nothing to compile and would take its time.
         size = min(population, 50) if algorithm == "nsga2-standard-sort" else population
-        minimise(problem, optimiser(algorithm, size), iterations=1, seed=0)
+        short = optimiser(algorithm, size)
+        if isinstance(short, MoeadDra):
+            short = replace(short, utility_period=1)
+        minimise(problem, short, iterations=1, seed=0)
 
 
 def carry_out(problem: Minimisable, runs: Sequence[PlannedRun]) -> Iterator[tuple[PlannedRun, Run]]:
@@ -125,7 +133,8 @@ def tidy(results: Results, reference: ReferenceFront) -> pd.DataFrame:
     """Return one row per run.
 
     Columns: algorithm, population, iterations, budget, repeat, seed, evaluations, seconds, cpu_seconds,
-    ``<phase>_seconds`` for each phase of its algorithm, hypervolume and igd_plus of its final population.
+    ``<phase>_seconds`` for each phase of its algorithm (see `Run`), hypervolume and igd_plus of its final
+    population.
     """
     return pd.DataFrame([_row(planned, run, reference) for planned, run in results])
 

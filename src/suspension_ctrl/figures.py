@@ -12,9 +12,13 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from .responses import phase_degrees
-from .weightings import by_name
+from .weightings import BANDS, by_name
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")  # Okabe and Ito: told apart by colour-blind readers
+
+
+_MOST_IN_LEGEND = 12
+"""Designs beyond which a legend would cover the curves; curves.csv names them all."""
 
 
 def colours(count: int) -> Sequence[Any]:
@@ -69,10 +73,9 @@ def weighting_factors(ax: Axes, filters: Sequence[str], tables: Sequence[str]) -
     for colour, name in zip(COLOURS, filters, strict=False):
         ax.loglog(f, by_name(name).factor(f), color=colour, label=f"{name}, filter")
     for colour, name in zip(COLOURS, tables, strict=False):
-        bands = 10 ** (np.arange(-10, 21) / 10)
         ax.loglog(
-            bands,
-            by_name(name).factor(bands),
+            BANDS,
+            by_name(name).factor(BANDS),
             "o",
             ms=3.5,
             color=colour,
@@ -158,7 +161,8 @@ def _three_columns(rows: int) -> tuple[Figure, NDArray[Any]]:
 def _marked_line(ax: Axes, design: DesignCurves, values: NDArray[np.float64], colour: str) -> None:
     """Draw a curve over frequency with a mark at each natural frequency."""
     ax.plot(design.f, values, color=colour, lw=1.4, label=design.label)
-    ax.plot(design.natural, np.interp(design.natural, design.f, values), "o", color=colour, ms=4)
+    shown = design.natural[(design.natural >= design.f[0]) & (design.natural <= design.f[-1])]
+    ax.plot(shown, np.interp(shown, design.f, values), "o", color=colour, ms=4)
 
 
 def _finished(figure: Figure, axes: NDArray[Any]) -> Figure:
@@ -169,5 +173,6 @@ def _finished(figure: Figure, axes: NDArray[Any]) -> Figure:
     for ax in axes[-1]:
         ax.set_xlabel("frequency [Hz]")
     handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=3, frameon=False)
+    if len(labels) <= _MOST_IN_LEGEND:
+        figure.legend(handles, labels, loc="outside upper center", ncols=3, frameon=False)
     return figure

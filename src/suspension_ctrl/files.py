@@ -4,6 +4,7 @@ import json
 import os
 from collections.abc import Callable
 from datetime import datetime
+from itertools import chain, count
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING, Any
@@ -26,9 +27,9 @@ def results_folder(out: Path | None) -> Path:
     ValueError
         If it is not a folder, is not empty or cannot be written.
     """
-    folder = out or Path("results") / datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
+    folder = out or _fresh(Path("results") / datetime.now().strftime("%Y-%m-%d_%H-%M-%S"))
     try:
-        folder.mkdir(parents=True, exist_ok=out is not None)
+        folder.mkdir(parents=True, exist_ok=True)
         if any(folder.iterdir()):
             raise ValueError(
                 f"out must be a folder that is absent or empty, got {str(folder)!r}, which is not empty"
@@ -39,6 +40,12 @@ def results_folder(out: Path | None) -> Path:
         raise ValueError(
             f"out must be a folder that can be written, got {str(folder)!r}: {error.strerror}"
         ) from error
+
+
+def _fresh(folder: Path) -> Path:
+    """`folder`, or where that exists the first of folder_2, folder_3, ... that does not."""
+    names = (folder.with_name(f"{folder.name}_{number}") for number in count(2))
+    return next(path for path in chain([folder], names) if not path.exists())
 
 
 def write_whole(path: Path, write: Callable[[Path], object]) -> None:

@@ -78,7 +78,7 @@ class RideProblem:
         Parameters
         ----------
         designs : (n, 2) array_like
-            Spring K_s [N/m] and damper C_s [N s/m] of each design.
+            Spring K_s [N/m] and damper C_s [N s/m] of each design, within the bounds.
 
         Returns
         -------
@@ -88,9 +88,12 @@ class RideProblem:
         Raises
         ------
         ValueError
-            If `designs` does not have two columns.
+            If `designs` does not have two columns, or a design is outside the bounds, where resonances may be
+            too sharp for the nodes.
         """
-        return root_mean_squares_of_all(checks.designs(designs, len(self.variables)), *self._loop.arrays())
+        x = checks.designs(designs, len(self.variables))
+        checks.rows_within("designs", x, self.lower, self.upper)
+        return root_mean_squares_of_all(x, *self._loop.arrays())
 
     @property
     def kernel(self) -> tuple[Callable[..., NDArray[np.float64]], tuple[NDArray[Any], ...]]:
@@ -113,7 +116,7 @@ class RideProblem:
         """Hold the corners of the box, where resonances are sharpest, against twice the nodes."""
         corners = np.array(list(product(*zip(self.lower, self.upper, strict=True))), dtype=float)
         fine = root_mean_squares_of_all(corners, *self._loop_at(2 * self.nodes).arrays())
-        change = np.abs(self.evaluate(corners) / fine - 1).max()
+        change = np.abs(root_mean_squares_of_all(corners, *self._loop.arrays()) / fine - 1).max()
         if not change < _RESOLVED:
             raise ValueError(
                 f"nodes must resolve every resonance in the box to {_RESOLVED:g}, got {self.nodes}, "

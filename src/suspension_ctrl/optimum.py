@@ -57,7 +57,7 @@ def best_at_limit(problem: RideProblem, limit: float, objective: str) -> tuple[f
 
     def along_curve(spring: float) -> float:
         damper = damper_at_limit(problem, spring, limit)
-        return float(problem.evaluate([[spring, damper]])[0, column])
+        return damper if np.isnan(damper) else float(problem.evaluate([[spring, damper]])[0, column])
 
     springs = np.linspace(problem.lower[0], problem.upper[0], _SPRINGS)
     values = np.array([along_curve(spring) for spring in springs])

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import numpy as np
+from numba.core.registry import CPUDispatcher
 from numpy.typing import ArrayLike, NDArray
 
 from . import checks
@@ -49,7 +50,7 @@ class Problem:
     Parameters
     ----------
     evaluate : callable
-        From designs (n, d) to objectives (n, m), row by row and without changing its argument.
+        From designs (n, d) to objectives (n, m), row by row.
     lower, upper : (d,) sequence of float
         Bounds of the variables.
     objectives : (m,) sequence of str
@@ -65,7 +66,7 @@ class Problem:
     Raises
     ------
     ValueError
-        If the bounds are not finite or not lower < upper, or the names do not fit.
+        If the bounds are not finite or not lower < upper, the names do not fit, or the kernel is not compiled.
     """
 
     evaluate: Callable[[NDArray[np.float64]], NDArray[np.float64]]
@@ -80,34 +81,36 @@ class Problem:
         checks.ordered("lower", "upper", self.lower, self.upper)
         if isinstance(self.objectives, str) or len(set(self.objectives)) < max(2, len(self.objectives)):
             raise ValueError(f"objectives must be 2 or more different names, got {self.objectives!r}")
-        if not self.variables:
-            names = tuple(f"x{i + 1}" for i in range(len(self.lower)))
-            object.__setattr__(self, "variables", names)
-        elif len(set(self.variables)) != len(self.lower):
+        names = tuple(self.variables) or tuple(f"x{i + 1}" for i in range(len(self.lower)))
+        if isinstance(self.variables, str) or not len(set(names)) == len(names) == len(self.lower):
             raise ValueError(f"variables must be {len(self.lower)} different names, got {self.variables!r}")
+        object.__setattr__(self, "variables", names)
+        if self.kernel is not None and not isinstance(self.kernel[0], CPUDispatcher):
+            raise ValueError(f"kernel must begin with a function compiled by numba, got {self.kernel[0]!r}")
 
 
-def evaluate_checked(problem: Minimisable, designs: ArrayLike) -> NDArray[np.float64]:
-    """Return ``problem.evaluate(designs)`` as floats (n, m).
+def checked_objectives(
+    objectives: ArrayLike, designs: NDArray[np.float64], names: Sequence[str]
+) -> NDArray[np.float64]:
+    """Return a copy of what was evaluated for `designs` (n, d) as floats (n, m), m being the number of names.
 
     Raises
     ------
     ValueError
-        If the problem returned another shape, or a value that is not finite.
+        If it has another shape, or a value that is not finite.
     """
-    x = checks.designs(designs, len(problem.lower))
-    objectives = np.asarray(problem.evaluate(x), dtype=float)
-    expected = (x.shape[0], len(problem.objectives))
-    if objectives.shape != expected:
-        raise ValueError(f"evaluate must return shape {expected} for designs {x.shape}, got {objectives.shape}")
-    bad = ~np.isfinite(objectives).all(axis=1)
+    values = np.array(objectives, dtype=float, order="C")
+    expected = (designs.shape[0], len(names))
+    if values.shape != expected:
+        raise ValueError(f"evaluate must return shape {expected} for designs {designs.shape}, got {values.shape}")
+    bad = ~np.isfinite(values).all(axis=1)
     if bad.any():
         first = int(bad.argmax())
         raise ValueError(
-            f"evaluate must return finite objectives, got {objectives[first].tolist()} "
-            f"for design {x[first].tolist()}"
+            f"evaluate must return finite objectives, got {values[first].tolist()} "
+            f"for design {designs[first].tolist()}"
         )
-    return objectives
+    return values
 
 
 def column_headers(names: Sequence[str], units: Mapping[str, str]) -> list[str]:

@@ -43,9 +43,8 @@ def frequency_nodes(
     ValueError
         If the band is not finite, reversed or reaches below zero, or `nodes` is not a whole number >= 2.
     """
+    checks.interval("band", band, "Hz")
     low, high = band
-    if not (np.isfinite([low, high]).all() and 0 <= low < high):
-        raise ValueError(f"band must be finite with 0 <= lower < upper [Hz], got {tuple(band)}")
     checks.at_least("nodes", nodes, 2)
     edges = np.sqrt([low, *(f for f in sorted(breakpoints) if low < f < high), high])
     panels = edges.size - 1

@@ -86,10 +86,14 @@ def comparison(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
     means = published.groupby(["algorithm", *CONFIGURATION]).published_seconds.mean().reset_index()
     table = table.merge(means.assign(budget=EQUAL_ITERATIONS), on=keys, how="left")
     table["microseconds_per_evaluation"] = 1e6 * table.seconds / table.evaluations
-    baseline = table[table.algorithm == runs.algorithm.iloc[0]].set_index(CONFIGURATION)
+    baseline = table[table.algorithm == runs.algorithm.iloc[0]].set_index([*CONFIGURATION, "budget"])
+    own = pd.MultiIndex.from_frame(table[[*CONFIGURATION, "budget"]])
+    at_equal_iterations = pd.MultiIndex.from_frame(table[CONFIGURATION].assign(budget=EQUAL_ITERATIONS))
     for seconds, ratio in (("published_seconds", "published_ratio_percent"), ("seconds", "ratio_percent")):
-        first = baseline[seconds].rename("first")
-        table[ratio] = 100 * table.join(first, on=CONFIGURATION)["first"] / table[seconds]
+        # A baseline that spends the most evaluations anyway has no second run at equal evaluations.
+        first = baseline[seconds].reindex(own).to_numpy()
+        first = np.where(np.isnan(first), baseline[seconds].reindex(at_equal_iterations).to_numpy(), first)
+        table[ratio] = 100 * first / table[seconds]
     return table[
         [
             *keys,

@@ -33,12 +33,14 @@ def run_script(main: Callable[..., None]) -> None:
         _fail(str(error), 2)
     except OSError as error:
         _fail(str(error), 1)
+    except MemoryError as error:
+        _fail(f"not enough memory: {error}", 1)
     except (KeyboardInterrupt, typer.Abort):
         _fail("interrupted", 130)
 
 
 def _fail(message: str, status: int) -> None:
-    _stderr.print(f"error: {' '.join(message.split())}", markup=False, highlight=False)
+    _stderr.print(f"error: {' '.join(message.split())}", markup=False, highlight=False, emoji=False)
     sys.exit(status)
 
 

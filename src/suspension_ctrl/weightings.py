@@ -54,10 +54,11 @@ class TabulatedWeighting:
     def _table(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         column = self.name.removesuffix("-table").lower()
         rows = datafiles.rows("standards/iso8041_wk_wb_table.csv")
-        # The bands are base-ten one-third octaves, 10^(n/10) Hz exactly; the frequency column rounds them.
-        log_band = np.array([int(row["band"]) for row in rows]) * math.log(10) / 10
-        return log_band, np.log([float(row[column]) for row in rows])
+        return np.log(BANDS), np.log([float(row[column]) for row in rows])
 
+
+BANDS = 10.0 ** (np.arange(-10, 21) / 10)
+"""Exact frequencies of the table's one-third-octave bands [Hz]; its frequency column rounds them."""
 
 FILTERS = ("Wk", "Wd", "Wf", "Wc", "We", "Wj", "Wb")
 TABLES = ("Wk-table", "Wb-table")

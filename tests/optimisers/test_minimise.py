@@ -18,7 +18,7 @@ OPTIMISERS = {
     "nsga2-deap-standard": Nsga2(population=40, selection="deap-standard"),
     "nsga2-deap-log": Nsga2(population=40, selection="deap-log"),
     "moead-dra": MoeadDra(population=40, utility_period=3),
-    "moead-dra-raw": MoeadDra(population=40, normalise=False, units=(1.0, 1.0, 1e3)),
+    "moead-dra-raw": MoeadDra(population=40, normalise=False, objective_scales=(1.0, 1.0, 1e3)),
     "moead-dra-batch": MoeadDra(population=40, update="batch"),
 }
 
@@ -185,7 +185,10 @@ def test_rejects_bad_evaluations(optimiser, evaluate, message):
         ),
         (lambda: MoeadDra(population=8, neighbourhood=2), "neighbourhood must be a number from 0 to 1, got 2"),
         (lambda: MoeadDra(population=8, update="both"), "update must be one of sequential, batch, got 'both'"),
-        (lambda: MoeadDra(population=8, units=(1.0, 0.0)), "units must be finite and > 0, got 0.0"),
+        (
+            lambda: MoeadDra(population=8, normalise=False, objective_scales=(1.0, 0.0)),
+            "objective_scales must be finite",
+        ),
     ],
 )
 def test_rejects_bad_settings(make, message):
@@ -199,6 +202,47 @@ def test_rejects_populations_too_small_for_the_corner_subproblems():
     assert minimise(dtlz2(5), MoeadDra(population=15), iterations=1, seed=0).evaluations == 18
 
 
-def test_rejects_units_that_do_not_fit_the_objectives():
-    with pytest.raises(ValueError, match=r"^units must be 3 numbers, one per objective, got \(1.0, 2.0\)$"):
-        minimise(dtlz2(5), MoeadDra(population=20, normalise=False, units=(1.0, 2.0)), iterations=1, seed=0)
+def test_rejects_scales_that_do_not_fit():
+    with pytest.raises(
+        ValueError, match=r"^objective_scales must be 3 numbers, one per objective, got \(1.0, 2.0\)$"
+    ):
+        minimise(
+            dtlz2(5), MoeadDra(population=20, normalise=False, objective_scales=(1.0, 2.0)), iterations=1, seed=0
+        )
+    with pytest.raises(ValueError, match=r"^objective_scales must be None with normalise, got"):
+        MoeadDra(population=20, objective_scales=(1.0, 2.0, 3.0))
+
+
+@every_optimiser
+def test_an_evaluation_may_keep_its_memory_and_change_its_argument(optimiser):
+    """It hands out the same array each time, and spoils the designs that it is given."""
+    plain = dtlz2(5)
+    memory = {}
+
+    def careless(designs):
+        values = memory.setdefault(len(designs), np.empty((len(designs), 3)))
+        values[:] = plain.evaluate(designs)
+        designs[:] = -1.0
+        return values
+
+    run = minimise(replace(plain, evaluate=careless), optimiser, iterations=3, seed=0)
+    expected = minimise(plain, optimiser, iterations=3, seed=0)
+    np.testing.assert_array_equal(run.designs, expected.designs)
+    np.testing.assert_array_equal(run.objectives, expected.objectives)
+
+
+@every_optimiser
+def test_exchanged_evaluations_are_checked_and_counted(optimiser):
+    problem = paper.ride_problem()
+    toolbox = optimiser.toolbox(problem)
+    toolbox.register("evaluate", lambda designs: np.full((len(designs), 3), np.nan))
+    with pytest.raises(ValueError, match=r"^evaluate must return finite objectives"):
+        minimise(problem, optimiser, iterations=1, seed=0, toolbox=toolbox)
+
+
+def test_evaluations_are_counted_where_they_are_made():
+    """A tournament that returns half as many parents makes half as many children."""
+    problem, optimiser = dtlz2(5), Nsga2(population=40)
+    toolbox = optimiser.toolbox(problem)
+    toolbox.register("tournament", lambda rng, objectives, crowding, size: np.arange(size // 2))
+    assert minimise(problem, optimiser, iterations=3, seed=0, toolbox=toolbox).evaluations == 40 + 3 * 20

@@ -1,6 +1,10 @@
+from dataclasses import replace
+from itertools import pairwise
+
 import moocore
 import numpy as np
 import pytest
+from numba import njit
 
 from benchmarks import dtlz2, zdt1
 from suspension_ctrl import MoeadDra, decomposition, minimise, paper
@@ -20,7 +24,7 @@ def test_corners_worked_on_every_iteration_and_utilities_in_range(population, pr
     toolbox.register("choose_subproblems", lambda *args: chosen.append(choose(*args)) or chosen[-1])
     toolbox.register("update_utility", lambda *args: utilities.append(update(*args)) or utilities[-1])
     run = minimise(problem, optimiser, iterations=17, seed=1, toolbox=toolbox)
-    assert run.evaluations == population + 17 * (population // 5)
+    assert run.evaluations == population + 17 * (population // 5) == population + sum(map(len, chosen))
     assert len(chosen) == 17
     for subproblems in chosen:
         assert set(corners) <= set(subproblems)
@@ -75,6 +79,84 @@ def test_exchanged_verbs_are_called_in_the_sweep():
     assert calls == {"evaluate": run.evaluations, "repair": 4 * 5}
 
 
+def test_steps_are_handed_what_the_definition_says():
+    """T = 0.1 N neighbours or all N; the child goes among its own partners, at most n_r = 0.02 N times.
+
+    Weights are divided anew by the span at each iteration's start, and progress is measured from the last update.
+    """
+    problem, size = dtlz2(4), 100
+    optimiser = MoeadDra(population=size, replacement_limit=0.02, utility_period=2)
+    toolbox = optimiser.toolbox(problem)
+    ranges, weights, before, spans = [], [], [], []
+    mating_range, update, update_utility = toolbox.mating_range, toolbox.update, toolbox.update_utility
+
+    def spy_range(rng, i, neighbours):
+        ranges.append(mating_range(rng, i, neighbours))
+        return ranges[-1]
+
+    def spy_update(rng, child, value, partners, designs, objectives, scaled, ideal):
+        old, old_ideal = objectives.copy(), ideal.copy()
+        update(rng, child, value, partners, designs, objectives, scaled, ideal)
+        changed = np.flatnonzero((old != objectives).any(axis=1))
+        assert np.array_equal(partners, ranges[-1])
+        assert set(changed) <= set(partners)
+        assert len(changed) <= 2
+        assert (objectives[changed] == value).all()
+        if len(weights) % 20 == 0:  # the first of an iteration
+            spans.append(old.max(axis=0) - old_ideal)
+        weights.append(scaled)
+
+    def spy_utility(utility, last, objectives, *rest):
+        before.append((last.copy(), objectives.copy()))
+        return update_utility(utility, last, objectives, *rest)
+
+    toolbox.register("mating_range", spy_range)
+    toolbox.register("update", spy_update)
+    toolbox.register("update_utility", spy_utility)
+    minimise(problem, optimiser, iterations=6, seed=3, toolbox=toolbox)
+    assert {len(partners) for partners in ranges} == {10, 100}
+    vectors = decomposition.weight_vectors(size, 3)
+    vectors = np.where(vectors == 0, decomposition.ZERO_WEIGHT, vectors)
+    for scaled, span in zip(weights[::20], spans, strict=True):
+        np.testing.assert_allclose(scaled, vectors / span, rtol=1e-14)
+    assert len(before) == 3
+    for (_, at_update), (last, _) in pairwise(before):
+        np.testing.assert_array_equal(last, at_update)
+
+
+def test_compiled_sweep_counts_its_evaluations():
+    """A kernel that is handed a counter: as many calls as the run says, but for the start."""
+    problem = dtlz2(4)
+    calls = np.zeros(1, dtype=np.int64)
+    run = minimise(
+        replace(problem, kernel=(counting_kernel, (calls,))), MoeadDra(population=37), iterations=9, seed=0
+    )
+    assert calls[0] == 9 * 7 == run.evaluations - 37
+
+
+@njit
+def counting_kernel(design, calls):
+    calls[0] += 1
+    return np.array([design[0], design[1], 2.0 - design[0] - design[1]])
+
+
+@njit
+def short_kernel(design):
+    return design[:2].copy()
+
+
+@njit
+def bad_kernel(design):
+    return np.array([np.nan, 1.0, 1.0])
+
+
+@pytest.mark.parametrize("kernel", [short_kernel, bad_kernel])
+def test_kernels_are_checked(kernel):
+    problem = replace(dtlz2(4), kernel=(kernel, ()))
+    with pytest.raises(ValueError, match=r"^kernel must return a finite value for each objective"):
+        minimise(problem, MoeadDra(population=20), iterations=1, seed=0)
+
+
 def test_batch_makes_one_evaluation_call_per_iteration():
     problem, optimiser = dtlz2(5), MoeadDra(population=50, update="batch")
     toolbox = optimiser.toolbox(problem)
@@ -101,8 +183,11 @@ def test_without_normalisation_small_objectives_are_all_but_ignored():
     """On the ride problem SWS is some 0.03 m beside 2 m/s^2 and 1.4 kN: the literal form reaches less travel."""
     problem = paper.ride_problem()
     normal, raw = (
-        minimise(problem, MoeadDra(population=200, normalise=on, units=(1.0, 1.0, 1e3)), iterations=30, seed=0)
-        for on in (True, False)
+        minimise(problem, optimiser, iterations=30, seed=0)
+        for optimiser in (
+            MoeadDra(population=200),
+            MoeadDra(population=200, normalise=False, objective_scales=(1.0, 1.0, 1e3)),
+        )
     )
     spread = [np.ptp(run.objectives[:, 1]) for run in (normal, raw)]
     assert np.std(raw.objectives[:, 1]) < np.std(normal.objectives[:, 1])

@@ -21,6 +21,7 @@ def test_prints_tables_and_last_the_folder(quick):
     for title in ("Table 2: nsga2", "Table 2: nsga2-standard-sort", "Table 3: moead-dra", "Table 4:"):
         assert title in done.stdout
     assert "ACC is weighted with Wb" in done.stdout
+    assert "has not allocated resources yet" in done.stdout
     assert done.stdout.splitlines()[-1] == str(out)
 
 
@@ -31,7 +32,11 @@ def test_writes_everything(quick):
     assert names == tables | {"environment.json", "figure5.png", "figure5.pdf", "fronts"}
     runs = pd.read_csv(out / "runs.csv")
     assert len(list((out / "fronts").iterdir())) == len(runs) == 2 * 2 * 2 * (4 + 2)
-    assert json.loads((out / "environment.json").read_text())["arguments"]["seed"] == 5
+    record = json.loads((out / "environment.json").read_text())
+    assert record["arguments"]["seed"] == 5
+    assert record["arguments"]["populations"] == "60,100"
+    assert record["threads"]["numba"] == 1
+    assert all(pool["num_threads"] == 1 for pool in record["threads"]["pools"])
 
 
 def test_identical_runs_by_both_selections(quick):

@@ -42,28 +42,52 @@ def test_bode_draws_any_designs(script, tmp_path):
     [
         (["--design", "22000"], "design must be 2 numbers separated by commas, got '22000'"),
         (["--design", "22000,-1"], "damper must be finite and > 0 N s/m, got -1.0"),
-        (
-            ["--designs", "bad.csv"],
-            "designs must have the columns spring [N/m], damper [N s/m], got bad.csv without",
-        ),
+        (["--designs", "bad.csv"], "in the columns spring [N/m], damper [N s/m], got 'bad.csv': "),
+        (["--designs", "text.csv"], "could not convert string to float: 'soft'"),
+        (["--designs", "header.csv"], "got 'header.csv' without a row"),
+        (["--designs", "empty.csv"], "designs must be a CSV file with numbers"),
+        (["--designs", "binary.csv"], "designs must be a CSV file with numbers"),
+        (["--designs", "absent.csv"], "got 'absent.csv': No such file or directory"),
+        (["--designs", "."], "designs must be a CSV file with numbers"),
+        (["--designs", "nan.csv"], "damper must be finite and > 0 N s/m, got nan"),
         (["--points", "1"], "points must be a whole number >= 2, got 1"),
         (["--weighting", "Wz"], "weighting must be one of Wk, "),
     ],
 )
 def test_bode_names_bad_input(script, tmp_path, arguments, message):
+    header = "spring [N/m],damper [N s/m]\n"
     (tmp_path / "bad.csv").write_text("spring,damper\n1,2\n")
-    done = script("bode", *arguments, cwd=tmp_path)
+    (tmp_path / "text.csv").write_text(header + "22000,soft\n")
+    (tmp_path / "nan.csv").write_text(header + "22000,\n")
+    (tmp_path / "header.csv").write_text(header)
+    (tmp_path / "empty.csv").write_text("")
+    (tmp_path / "binary.csv").write_bytes(bytes(range(256)))
+    before = set(tmp_path.iterdir())
+    assert_one_line(script("bode", *arguments, cwd=tmp_path), message)
+    assert set(tmp_path.iterdir()) == before
+
+
+def assert_one_line(done, message):
     assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.startswith("error: ")
     assert done.stderr.count("\n") == 1
     assert message in done.stderr
-    assert [path.name for path in tmp_path.iterdir()] == ["bad.csv"]
 
 
-def test_bode_reports_a_missing_file_in_one_line(script, tmp_path):
-    done = script("bode", "--designs", "absent.csv", cwd=tmp_path)
-    assert done.returncode == 1
-    assert done.stderr.count("\n") == 1
-    assert "absent.csv" in done.stderr
+def test_weighting_names_bad_input(script, tmp_path):
+    (tmp_path / "mine.txt").write_text("kept")
+    assert_one_line(script("weighting", "--out", tmp_path), "out must be a folder that is absent or empty")
+
+
+def test_bode_draws_many_designs_and_frequencies_beyond_the_band(script, tmp_path):
+    """Without a legend, which would cover the curves, and without marks where there is no curve."""
+    table = tmp_path / "designs.csv"
+    rows = "".join(f"{k},{c}\n" for k in range(2000, 32000, 2000) for c in (500, 1500))
+    table.write_text("spring [N/m],damper [N s/m]\n" + rows + "1e6,100\n1e6,100.0001\n")
+    done = script("bode", "--designs", table, "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    assert pd.read_csv(tmp_path / "out" / "curves.csv").design.nunique() == 32
 
 
 def test_optimum_makes_table_5(script, tmp_path):
@@ -88,10 +112,11 @@ def test_optimum_makes_table_5(script, tmp_path):
         (["--sws-limit", "1"], "sws_limit must be a travel that a design within the bounds has"),
         (["--low-frequency", "30"], "band must be finite with 0 <= lower < upper [Hz], got (30.0, 20.0)"),
         (["--population", "3"], "population must be a whole number >= 4, got 3"),
+        (["--iterations", "0"], "iterations must be a whole number >= 1, got 0"),
+        (["--seed", "-1"], "seed must be a whole number >= 0, got -1"),
+        (["--sws-limit", "soft"], "must be a number, got 'soft'"),
     ],
 )
 def test_optimum_names_bad_input(script, tmp_path, arguments, message):
-    done = script("optimum", *arguments, cwd=tmp_path)
-    assert done.returncode == 2
-    assert done.stderr.count("\n") == 1
-    assert message in done.stderr
+    assert_one_line(script("optimum", *arguments, cwd=tmp_path), message)
+    assert list(tmp_path.iterdir()) == []

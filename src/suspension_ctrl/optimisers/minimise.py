@@ -37,7 +37,7 @@ class Optimiser(Protocol):
     ) -> Iterator[State]: ...
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Run:
     """Result of `minimise`.
 
@@ -55,7 +55,9 @@ class Run:
         Seed that gives this run again.
     history : pandas.DataFrame
         One row per iteration, everything counted from the start of the run: ``iteration``, ``evaluations``,
-        ``seconds``, ``<phase>_seconds`` for each phase, ``ideal_<objective>`` for each objective.
+        ``seconds``, ``<phase>_seconds`` for each phase, ``ideal_<objective>`` for each objective. In a
+        sequential MOEA/D-DRA whose sweep runs compiled, children are evaluated inside the phase ``sweep``, and
+        ``evaluate`` is the start alone.
     """
 
     designs: NDArray[np.float64]
@@ -117,10 +119,9 @@ def minimise(
         wall_start, cpu_start = perf_counter(), process_time()
         state = next(search)
         wall, cpu = wall + perf_counter() - wall_start, cpu + process_time() - cpu_start
-        spent = optimiser.population + iteration * per_iteration
-        rows.append((iteration, spent, wall, *clock.seconds.values(), *state.ideal))
+        rows.append((iteration, state.evaluations, wall, *clock.seconds.values(), *state.ideal))
     history = _history(rows[1:], list(clock.seconds), problem.objectives)
-    return Run(state.designs, state.objectives, spent, wall, cpu, int(seed), history)
+    return Run(state.designs, state.objectives, int(state.evaluations), wall, cpu, int(seed), history)
 
 
 def _iteration_count(start: int, per_iteration: int, iterations: int | None, evaluations: int | None) -> int:

@@ -10,7 +10,7 @@ from deap.base import Toolbox
 from numpy.typing import NDArray
 
 from .. import checks, decomposition, operators
-from ..problems import Minimisable, evaluate_checked
+from ..problems import Minimisable, checked_objectives
 from .state import State
 from .sweep import Decomposed, sweep_batch, sweep_sequential
 
@@ -24,7 +24,7 @@ class MoeadDra:
     Parameters
     ----------
     population : int
-        Number of subproblems N, at least 4, and at least five times the number of objectives.
+        Number of subproblems N, at least five times the number of objectives.
     neighbourhood : float
         Size T of a neighbourhood as a fraction of N; at least 2 subproblems.
     neighbour_probability : float
@@ -44,10 +44,11 @@ class MoeadDra:
     utility_threshold : float
         Relative progress above which a subproblem's utility is 1.
     normalise : bool
-        Divide each objective by the range the population spans; False is equation (14) to the letter.
-    units : (m,) sequence of float, optional
-        Without normalisation, the unit in which each objective enters equation (14), 1 if not given:
-        on the ride problem ``(1, 1, 1e3)`` takes DTL in kN, as the paper states it.
+        Divide each objective by its span, from the ideal point to the worst in the population at the start of
+        the iteration; False is equation (14) to the letter.
+    objective_scales : (m,) sequence of float, optional
+        Only without normalisation: what each objective is divided by in its place, 1 if not given. On the ride
+        problem ``(1, 1, 1e3)`` takes DTL in kN, as the paper states it.
     update : {"sequential", "batch"}
         Let each child see every replacement before it (the definition), or make all children of an iteration
         from the population at its start and evaluate them in one call.
@@ -69,7 +70,7 @@ class MoeadDra:
     utility_period: int = 50
     utility_threshold: float = 0.001
     normalise: bool = True
-    units: tuple[float, ...] | None = None
+    objective_scales: tuple[float, ...] | None = None
     update: str = "sequential"
 
     phases: ClassVar[tuple[str, ...]] = (
@@ -88,8 +89,10 @@ class MoeadDra:
         checks.at_least("tournament", self.tournament, 1)
         checks.at_least("utility_period", self.utility_period, 1)
         checks.one_of("normalise", self.normalise, (True, False))
-        for unit in self.units or ():
-            checks.positive("units", unit)
+        for scale in self.objective_scales or ():
+            checks.positive("objective_scales", scale)
+        if self.normalise and self.objective_scales is not None:
+            raise ValueError(f"objective_scales must be None with normalise, got {self.objective_scales!r}")
         checks.one_of("update", self.update, _SWEEPS)
 
     def evaluations_per_iteration(self, objectives: int) -> int:
@@ -108,7 +111,7 @@ class MoeadDra:
         limit = max(1, int(self.replacement_limit * self.population))
         toolbox = Toolbox()
         toolbox.register("sample", operators.sample_uniform, lower=lower, upper=upper)
-        toolbox.register("evaluate", evaluate_checked, problem)
+        toolbox.register("evaluate", problem.evaluate)
         toolbox.register("choose_subproblems", decomposition.choose_subproblems, tournament=self.tournament)
         toolbox.register("mating_range", decomposition.mating_range, probability=float(self.neighbour_probability))
         toolbox.register("reproduce", operators.differential_child, scale=float(self.scale_factor))
@@ -127,12 +130,13 @@ class MoeadDra:
         size, m = self.population, len(problem.objectives)
         vectors = decomposition.weight_vectors(size, m)
         corners = decomposition.corner_subproblems(vectors)
-        weights = np.where(vectors == 0, decomposition.ZERO_WEIGHT, vectors) / self._units(m)
-        designs = toolbox.sample(rng, size)
-        objectives = toolbox.evaluate(designs)
+        weights = np.where(vectors == 0, decomposition.ZERO_WEIGHT, vectors) / self._scales(m)
+        designs = np.array(toolbox.sample(rng, size), dtype=float)
+        objectives = checked_objectives(toolbox.evaluate(designs.copy()), designs, problem.objectives)
         neighbours = decomposition.neighbourhoods(size, m, max(2, int(self.neighbourhood * size)))
         population = Decomposed(designs, objectives, objectives.min(axis=0), weights, neighbours)
-        yield population.state()
+        evaluations = size
+        yield population.state(evaluations)
         utility, before = np.ones(size), objectives.copy()
         for iteration in count(1):
             if self.normalise:
@@ -144,10 +148,15 @@ class MoeadDra:
                     utility, before, population.objectives, population.weights, population.ideal
                 )
                 before = population.objectives.copy()
-            yield population.state()
+            evaluations += chosen.size
+            yield population.state(evaluations)
 
-    def _units(self, objectives: int) -> NDArray[np.float64]:
-        units = np.ones(objectives) if self.units is None or self.normalise else np.array(self.units, dtype=float)
-        if units.size != objectives:
-            raise ValueError(f"units must be {objectives} numbers, one per objective, got {self.units!r}")
-        return units
+    def _scales(self, objectives: int) -> NDArray[np.float64]:
+        scales = (
+            np.ones(objectives) if self.objective_scales is None else np.array(self.objective_scales, dtype=float)
+        )
+        if scales.size != objectives:
+            raise ValueError(
+                f"objective_scales must be {objectives} numbers, one per objective, got {self.objective_scales!r}"
+            )
+        return scales

@@ -10,7 +10,7 @@ from deap.base import Toolbox
 from .. import checks
 from ..deap_adapter import select_with_deap
 from ..operators import crowded_tournament, polynomial_mutation, sample_uniform, simulated_binary_crossover
-from ..problems import Minimisable, evaluate_checked
+from ..problems import Minimisable, checked_objectives
 from ..selection import select_survivors
 from .state import State
 
@@ -76,7 +76,7 @@ class Nsga2:
         select, sorting = _SELECTIONS[self.selection]
         toolbox = Toolbox()
         toolbox.register("sample", sample_uniform, lower=lower, upper=upper)
-        toolbox.register("evaluate", evaluate_checked, problem)
+        toolbox.register("evaluate", problem.evaluate)
         toolbox.register("tournament", crowded_tournament)
         toolbox.register(
             "mate", simulated_binary_crossover,
@@ -89,20 +89,21 @@ class Nsga2:
         toolbox.register("select", select, **sorting)
         return toolbox
 
-    def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:  # noqa: ARG002
+    def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:
         """Yield the state after the start and after each iteration, without end (Figure 3 of the paper)."""
-        size = self.population
-        designs = toolbox.sample(rng, size)
-        objectives = toolbox.evaluate(designs)
+        size, names = self.population, problem.objectives
+        designs = np.array(toolbox.sample(rng, size), dtype=float)
+        objectives = checked_objectives(toolbox.evaluate(designs.copy()), designs, names)
         kept, crowding = toolbox.select(objectives, size)
-        ideal = objectives.min(axis=0)
-        yield State(designs, objectives, ideal)
+        ideal, evaluations = objectives.min(axis=0), len(designs)
+        yield State(designs, objectives, ideal, evaluations)
         while True:
             parents = toolbox.tournament(rng, objectives, crowding, size)
             children = toolbox.mutate(rng, toolbox.mate(rng, designs[parents]))
+            values = checked_objectives(toolbox.evaluate(children.copy()), children, names)
+            ideal, evaluations = np.minimum(ideal, values.min(axis=0)), evaluations + len(children)
             designs = np.concatenate([designs, children])
-            objectives = np.concatenate([objectives, toolbox.evaluate(children)])
+            objectives = np.concatenate([objectives, values])
             kept, crowding = toolbox.select(objectives, size)
             designs, objectives = designs[kept], objectives[kept]
-            ideal = np.minimum(ideal, objectives.min(axis=0))
-            yield State(designs, objectives, ideal)
+            yield State(designs, objectives, ideal, evaluations)

@@ -8,8 +8,19 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class State:
-    """Population of a search: designs (n, d), objectives (n, m) and the least value seen of each, (m,)."""
+    """Population of a search.
+
+    Parameters
+    ----------
+    designs : (n, d) ndarray
+    objectives : (n, m) ndarray
+    ideal : (m,) ndarray
+        Least value seen of each objective.
+    evaluations : int
+        Designs evaluated so far.
+    """
 
     designs: NDArray[np.float64]
     objectives: NDArray[np.float64]
     ideal: NDArray[np.float64]
+    evaluations: int

@@ -12,7 +12,7 @@ from numba import njit
 from numba.core.registry import CPUDispatcher
 from numpy.typing import NDArray
 
-from ..problems import Minimisable, evaluate_checked
+from ..problems import Minimisable, checked_objectives
 from .clock import untimed
 from .state import State
 
@@ -46,9 +46,9 @@ class Decomposed:
         """Return the arrays in the order in which `work_on` takes them."""
         return self.designs, self.objectives, self.ideal, self.weights, self.neighbours
 
-    def state(self) -> State:
-        """Return a copy of what the search shows of itself."""
-        return State(self.designs.copy(), self.objectives.copy(), self.ideal.copy())
+    def state(self, evaluations: int) -> State:
+        """Return a copy of what the search shows of itself after so many evaluations."""
+        return State(self.designs.copy(), self.objectives.copy(), self.ideal.copy(), evaluations)
 
     def span(self) -> NDArray[np.float64]:
         """Return the distance (m,) from the ideal point to the worst of each objective, 1 where there is none."""
@@ -75,7 +75,7 @@ def sweep_sequential(
     if len(verbs) < len(compiled):
         function = work_on.py_func
         verbs = [(getattr(toolbox, name), ()) for name in VERBS]
-        verbs.append((lambda child: toolbox.evaluate(child[None])[0], ()))
+        verbs.append((lambda child: _evaluate(toolbox, child[np.newaxis], problem)[0], ()))
     function(rng, chosen, *population.arrays(), *chain.from_iterable(verbs))
 
 
@@ -84,7 +84,7 @@ def sweep_batch(
     chosen: NDArray[np.int64],
     population: Decomposed,
     toolbox: Toolbox,
-    problem: Minimisable,  # noqa: ARG001
+    problem: Minimisable,
 ) -> None:
     """Make the children of all chosen subproblems, evaluate them in one call, then replace in order."""
     designs, objectives, ideal, weights, neighbours = population.arrays()
@@ -93,8 +93,12 @@ def sweep_batch(
     for row, (i, partners) in enumerate(zip(chosen, ranges, strict=True)):
         child = toolbox.reproduce(rng, designs, i, partners)
         children[row] = toolbox.mutate(rng, toolbox.repair(rng, child, designs[i]))
-    for child, value, partners in zip(children, toolbox.evaluate(children), ranges, strict=True):
+    for child, value, partners in zip(children, _evaluate(toolbox, children, problem), ranges, strict=True):
         toolbox.update(rng, child, value, partners, designs, objectives, weights, ideal)
+
+
+def _evaluate(toolbox: Toolbox, designs: NDArray[np.float64], problem: Minimisable) -> NDArray[np.float64]:
+    return checked_objectives(toolbox.evaluate(designs.copy()), designs, problem.objectives)
 
 
 VERBS = ("mating_range", "reproduce", "repair", "mutate", "update")
@@ -130,8 +134,8 @@ def work_on(
         child = repair(rng, child, designs[i], *repair_settings)
         child = mutate(rng, child, *mutate_settings)
         value = evaluate(child, *evaluate_settings)
-        if not np.isfinite(value).all():
-            raise ValueError("evaluate must return finite objectives, got one that is not")
+        if value.size != ideal.size or not np.isfinite(value).all():
+            raise ValueError("kernel must return a finite value for each objective, got other values")
         update(rng, child, value, partners, designs, objectives, weights, ideal, *update_settings)
 
 
@@ -150,5 +154,5 @@ def compiled_verb(verb: partial[Any]) -> Verb | None:
 def compiled_evaluation(toolbox: Toolbox, problem: Minimisable) -> Verb | None:
     """Return the problem's kernel, or None if it has none or the toolbox evaluates in another way."""
     evaluate = toolbox.evaluate
-    own = untimed(evaluate.func) is evaluate_checked and evaluate.args[0] is problem and not evaluate.keywords
+    own = untimed(evaluate.func) == problem.evaluate and not evaluate.args and not evaluate.keywords
     return problem.kernel if own else None
