@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
 from itertools import product
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -93,12 +93,12 @@ class RideProblem:
         """
         x = checks.designs(designs, len(self.variables))
         checks.rows_within("designs", x, self.lower, self.upper)
-        return root_mean_squares_of_all(x, *self._loop.arrays())
+        return root_mean_squares_of_all(x, self._loop)
 
     @property
-    def kernel(self) -> tuple[Callable[..., NDArray[np.float64]], tuple[NDArray[Any], ...]]:
+    def kernel(self) -> tuple[Callable[..., NDArray[np.float64]], tuple[StrutLoop]]:
         """The objectives (3,) of a single design (2,) as a compiled function and its further arguments."""
-        return root_mean_squares, self._loop.arrays()
+        return root_mean_squares, (self._loop,)
 
     @cached_property
     def _loop(self) -> StrutLoop:
@@ -115,8 +115,8 @@ class RideProblem:
     def _check_resolution(self) -> None:
         """Hold the corners of the box, where resonances are sharpest, against twice the nodes."""
         corners = np.array(list(product(*zip(self.lower, self.upper, strict=True))), dtype=float)
-        fine = root_mean_squares_of_all(corners, *self._loop_at(2 * self.nodes).arrays())
-        change = np.abs(root_mean_squares_of_all(corners, *self._loop.arrays()) / fine - 1).max()
+        fine = root_mean_squares_of_all(corners, self._loop_at(2 * self.nodes))
+        change = np.abs(root_mean_squares_of_all(corners, self._loop) / fine - 1).max()
         if not change < _RESOLVED:
             raise ValueError(
                 f"nodes must resolve every resonance in the box to {_RESOLVED:g}, got {self.nodes}, "

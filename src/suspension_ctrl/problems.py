@@ -18,29 +18,36 @@ class Minimisable(Protocol):
     """The part of a problem that the optimisers use; `Problem` and `RideProblem` both have it."""
 
     @property
-    def lower(self) -> Sequence[float]: ...  # noqa: D102
+    def lower(self) -> Sequence[float]:
+        """Lower bounds of the variables (d,)."""
 
     @property
-    def upper(self) -> Sequence[float]: ...  # noqa: D102
+    def upper(self) -> Sequence[float]:
+        """Upper bounds of the variables (d,)."""
 
     @property
-    def objectives(self) -> Sequence[str]: ...  # noqa: D102
+    def objectives(self) -> Sequence[str]:
+        """Names of the objectives (m,)."""
 
     @property
-    def kernel(self) -> Kernel | None: ...  # noqa: D102
+    def kernel(self) -> Kernel | None:
+        """Objectives of one design as a compiled function, if there is one."""
 
     @property
-    def evaluate(self) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]: ...  # noqa: D102
+    def evaluate(self) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+        """Function from designs (n, d) to objectives (n, m)."""
 
 
 class Described(Minimisable, Protocol):
     """A problem whose variables and units have names, so that tables can have headers."""
 
     @property
-    def variables(self) -> Sequence[str]: ...  # noqa: D102
+    def variables(self) -> Sequence[str]:
+        """Names of the variables (d,)."""
 
     @property
-    def units(self) -> Mapping[str, str]: ...  # noqa: D102
+    def units(self) -> Mapping[str, str]:
+        """Unit of a variable or an objective by name."""
 
 
 @dataclass(frozen=True, kw_only=True)

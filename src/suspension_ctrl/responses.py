@@ -1,7 +1,6 @@
 """Responses of a vehicle to a random road: spectra of one design, and the strut loop of many at once."""
 
-from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import NamedTuple, Protocol
 
 import control
 import numpy as np
@@ -12,7 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 class Road(Protocol):
     """What the road has to offer: its one-sided spectrum [m^2/Hz] over frequency [Hz] at a speed [m/s]."""
 
-    def psd(self, f: ArrayLike, speed: float) -> NDArray[np.float64]: ...  # noqa: D102
+    def psd(self, f: ArrayLike, speed: float) -> NDArray[np.float64]:
+        """Return the spectrum (n,) at the frequencies `f` (n,)."""
 
 
 def frequency_responses(closed: control.StateSpace, f: NDArray[np.float64]) -> dict[str, NDArray[np.complex128]]:
@@ -69,8 +69,7 @@ def natural_frequencies(closed: control.StateSpace) -> NDArray[np.float64]:
     return np.unique(np.round(omega[np.abs(damping) < 1], 9)) / (2 * np.pi)
 
 
-@dataclass(frozen=True)
-class StrutLoop:
+class StrutLoop(NamedTuple):
     """Mean-square responses of any design of one strut, from one frequency response of the plant.
 
     With the strut D = K + jwC around the ports of the plant P, a response is
@@ -118,69 +117,43 @@ class StrutLoop:
         response, term = np.nonzero(numerators.any(axis=2))
         return cls(_square_of_line(np.ones_like(p22), -p22, omega), numerators[response, term], response, term)
 
-    def arrays(self) -> tuple[NDArray[Any], ...]:
-        """Return the arrays as `root_mean_squares` takes them."""
-        return self.denominator, self.numerators, self.response, self.term
-
 
 # The sums over frequencies may be taken in whatever order suits the processor, the same one for every design.
 @njit(cache=True, fastmath={"reassoc", "contract", "nsz"})
 def fill_root_mean_squares(
-    design: NDArray[np.float64],
-    denominator: NDArray[np.float64],
-    numerators: NDArray[np.float64],
-    response: NDArray[np.int64],
-    term: NDArray[np.int64],
-    gain: NDArray[np.float64],
-    result: NDArray[np.float64],
+    design: NDArray[np.float64], loop: StrutLoop, gain: NDArray[np.float64], result: NDArray[np.float64]
 ) -> None:
-    """Put the root mean squares (m,) of a design (K [N/m], C [N s/m]) in `result`; `gain` (n,) is for its use.
-
-    The arrays between them are those of `StrutLoop`.
-    """
+    """Put the root mean squares (m,) of a design (K [N/m], C [N s/m]) in `result`; `gain` (n,) is for its use."""
     k, c = design[0], design[1]
     kk, cc = k * k, c * c
-    d = denominator
+    d = loop.denominator
     for i in range(gain.size):
         gain[i] = 1.0 / (d[0, i] + d[1, i] * k + d[2, i] * c + d[3, i] * kk + d[4, i] * cc)
     result[:] = 0.0
-    for q in range(response.size):
+    for q in range(loop.term.size):
         integral = 0.0
         for i in range(gain.size):
-            integral += gain[i] * numerators[q, i]
-        result[response[q]] += integral * (1.0, k, c, kk, cc)[term[q]]
+            integral += gain[i] * loop.numerators[q, i]
+        result[loop.response[q]] += integral * (1.0, k, c, kk, cc)[loop.term[q]]
     for r in range(result.size):
         result[r] = np.sqrt(result[r])
 
 
 @njit(cache=True)
-def root_mean_squares(
-    design: NDArray[np.float64],
-    denominator: NDArray[np.float64],
-    numerators: NDArray[np.float64],
-    response: NDArray[np.int64],
-    term: NDArray[np.int64],
-) -> NDArray[np.float64]:
+def root_mean_squares(design: NDArray[np.float64], loop: StrutLoop) -> NDArray[np.float64]:
     """Return the root mean squares (m,) of one design (2,)."""
-    result = np.empty(response[-1] + 1)
-    gain = np.empty(denominator.shape[1])
-    fill_root_mean_squares(design, denominator, numerators, response, term, gain, result)
+    result = np.empty(loop.response[-1] + 1)
+    fill_root_mean_squares(design, loop, np.empty(loop.denominator.shape[1]), result)
     return result
 
 
 @njit(cache=True)
-def root_mean_squares_of_all(
-    designs: NDArray[np.float64],
-    denominator: NDArray[np.float64],
-    numerators: NDArray[np.float64],
-    response: NDArray[np.int64],
-    term: NDArray[np.int64],
-) -> NDArray[np.float64]:
+def root_mean_squares_of_all(designs: NDArray[np.float64], loop: StrutLoop) -> NDArray[np.float64]:
     """Return the root mean squares (p, m) of designs (p, 2), to the last bit those of each one alone."""
-    results = np.empty((designs.shape[0], response[-1] + 1))
-    gain = np.empty(denominator.shape[1])
-    for design, result in zip(designs, results):  # noqa: B905  (numba knows no strict)
-        fill_root_mean_squares(design, denominator, numerators, response, term, gain, result)
+    results = np.empty((designs.shape[0], loop.response[-1] + 1))
+    gain = np.empty(loop.denominator.shape[1])
+    for i in range(designs.shape[0]):
+        fill_root_mean_squares(designs[i], loop, gain, results[i])
     return results
 
 

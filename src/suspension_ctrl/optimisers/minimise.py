@@ -23,18 +23,21 @@ class Optimiser(Protocol):
     """Settings of an algorithm, the toolbox of its verbs, and the search made of them."""
 
     @property
-    def population(self) -> int: ...  # noqa: D102
+    def population(self) -> int:
+        """Designs at the start, all of which are evaluated."""
 
     @property
-    def phases(self) -> tuple[str, ...]: ...  # noqa: D102
+    def phases(self) -> tuple[str, ...]:
+        """Verbs of the toolbox whose time is taken."""
 
-    def evaluations_per_iteration(self, objectives: int) -> int: ...  # noqa: D102
+    def evaluations_per_iteration(self, objectives: int) -> int:
+        """Return how many designs an iteration evaluates."""
 
-    def toolbox(self, problem: Minimisable) -> Toolbox: ...  # noqa: D102
+    def toolbox(self, problem: Minimisable) -> Toolbox:
+        """Return the verbs of the algorithm for `problem`."""
 
-    def search(  # noqa: D102
-        self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator
-    ) -> Iterator[State]: ...
+    def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:
+        """Yield the state after the start and after each iteration, without end."""
 
 
 @dataclass(frozen=True, eq=False)

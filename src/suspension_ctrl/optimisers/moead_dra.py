@@ -1,7 +1,7 @@
 """MOEA/D-DRA (Zhang, Liu and Li 2009) as a DEAP toolbox over arrays."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import count
 from typing import ClassVar
 
@@ -140,7 +140,7 @@ class MoeadDra:
         utility, before = np.ones(size), objectives.copy()
         for iteration in count(1):
             if self.normalise:
-                population = replace(population, weights=weights / population.span())
+                population = population._replace(weights=weights / population.span())
             chosen = toolbox.choose_subproblems(rng, utility, corners, self.evaluations_per_iteration(m))
             toolbox.sweep(rng, chosen, population, toolbox, problem)
             if iteration % self.utility_period == 0:

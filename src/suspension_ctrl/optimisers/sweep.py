@@ -1,10 +1,9 @@
 """One iteration of MOEA/D-DRA over the chosen subproblems: from mating range to replacement."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 from itertools import chain
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from deap.base import Toolbox
@@ -20,8 +19,7 @@ Verb = tuple[Callable[..., Any], tuple[Any, ...]]
 """A function and the settings that follow its arguments in a call."""
 
 
-@dataclass(frozen=True)
-class Decomposed:
+class Decomposed(NamedTuple):
     """A population with one individual per subproblem; its arrays change in place as the search goes on.
 
     Parameters
@@ -41,10 +39,6 @@ class Decomposed:
     ideal: NDArray[np.float64]
     weights: NDArray[np.float64]
     neighbours: NDArray[np.int64]
-
-    def arrays(self) -> tuple[NDArray[Any], ...]:
-        """Return the arrays in the order in which `work_on` takes them."""
-        return self.designs, self.objectives, self.ideal, self.weights, self.neighbours
 
     def state(self, evaluations: int) -> State:
         """Return a copy of what the search shows of itself after so many evaluations."""
@@ -76,7 +70,7 @@ def sweep_sequential(
         function = work_on.py_func
         verbs = [(getattr(toolbox, name), ()) for name in VERBS]
         verbs.append((lambda child: _evaluate(toolbox, child[np.newaxis], problem)[0], ()))
-    function(rng, chosen, *population.arrays(), *chain.from_iterable(verbs))
+    function(rng, chosen, population, *chain.from_iterable(verbs))
 
 
 def sweep_batch(
@@ -87,7 +81,7 @@ def sweep_batch(
     problem: Minimisable,
 ) -> None:
     """Make the children of all chosen subproblems, evaluate them in one call, then replace in order."""
-    designs, objectives, ideal, weights, neighbours = population.arrays()
+    designs, objectives, ideal, weights, neighbours = population
     ranges = [toolbox.mating_range(rng, i, neighbours) for i in chosen]
     children = np.empty((chosen.size, designs.shape[1]))
     for row, (i, partners) in enumerate(zip(chosen, ranges, strict=True)):
@@ -109,11 +103,7 @@ VERBS = ("mating_range", "reproduce", "repair", "mutate", "update")
 def work_on(
     rng: np.random.Generator,
     chosen: NDArray[np.int64],
-    designs: NDArray[np.float64],
-    objectives: NDArray[np.float64],
-    ideal: NDArray[np.float64],
-    weights: NDArray[np.float64],
-    neighbours: NDArray[np.int64],
+    population: Decomposed,
     mating_range: Callable[..., NDArray[np.int64]],
     range_settings: tuple[Any, ...],
     reproduce: Callable[..., NDArray[np.float64]],
@@ -127,7 +117,8 @@ def work_on(
     evaluate: Callable[..., NDArray[np.float64]],
     evaluate_settings: tuple[Any, ...],
 ) -> None:
-    """Make, evaluate and place one child for each chosen subproblem, in order; arrays as in `Decomposed`."""
+    """Make, evaluate and place one child for each chosen subproblem, in order; each verb before its settings."""
+    designs, objectives, ideal, weights, neighbours = population
     for i in chosen:
         partners = mating_range(rng, i, neighbours, *range_settings)
         child = reproduce(rng, designs, i, partners, *reproduce_settings)
