@@ -118,8 +118,9 @@ class StrutLoop(NamedTuple):
         return cls(_square_of_line(np.ones_like(p22), -p22, omega), numerators[response, term], response, term)
 
 
-# The sums over frequencies may be taken in whatever order suits the processor, the same one for every design.
-@njit(cache=True, fastmath={"reassoc", "contract", "nsz"})
+# The sums over frequencies may be taken in whatever order suits the processor, the same one for every design;
+# numpy's error model leaves out a check for division by zero that would keep the loop from being vectorised.
+@njit(cache=True, fastmath={"reassoc", "contract", "nsz"}, error_model="numpy")
 def fill_root_mean_squares(
     design: NDArray[np.float64], loop: StrutLoop, gain: NDArray[np.float64], result: NDArray[np.float64]
 ) -> None:
