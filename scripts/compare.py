@@ -24,6 +24,7 @@ from suspension_ctrl import (
 from suspension_ctrl.experiments import Results
 from suspension_ctrl.indicators import ReferenceFront
 
+POPULATIONS, ITERATIONS = ",".join(map(str, paper.POPULATIONS)), ",".join(map(str, paper.ITERATIONS))
 GRID = 400  # values per variable of the reference front
 SHORT = {
     "population": "N", "iterations": "iter.", "budget": "equal", "evaluations": "evals",
@@ -36,8 +37,8 @@ DECIMALS = {
 
 
 def main(
-    populations: Annotated[str, Option(help="Population sizes.")] = ",".join(map(str, paper.POPULATIONS)),
-    iterations: Annotated[str, Option(help="Iterations after the start.")] = ",".join(map(str, paper.ITERATIONS)),
+    populations: Annotated[str, Option(help="Population sizes.")] = POPULATIONS,
+    iterations: Annotated[str, Option(help="Iterations after the start.")] = ITERATIONS,
     repeats: Annotated[
         int, Option(parser=terminal.whole_number, help="Runs of each algorithm at each population and iterations.")
     ] = paper.REPEATS,
@@ -59,6 +60,10 @@ def main(
 ) -> None:
     """Compare NSGA-II and MOEA/D-DRA as the paper does: Tables 2, 3 and 4 and Figure 5."""
     if quick:
+        if (populations, iterations, repeats) != (POPULATIONS, ITERATIONS, paper.REPEATS):
+            raise ValueError(
+                "quick must stand without populations, iterations and repeats, got it with one of them"
+            )
         populations, iterations, repeats = "60,100", "5,10", 2
     arguments = locals() | {"out": str(out) if out else None}
     problem = paper.ride_problem(weighting=weighting)
@@ -86,10 +91,10 @@ def main(
         f"non-dominated designs of a {GRID} x {GRID} grid (hypervolume "
         f"{reference.hypervolume(reference.objectives):.4f})."
     )
-    if max(counts) < MoeadDra.utility_period:
+    if min(counts) <= MoeadDra.utility_period and "moead" in algorithms:
         terminal.console.print(
-            f"At equal iterations MOEA/D-DRA has not allocated resources yet: its utilities first change after "
-            f"{MoeadDra.utility_period} iterations."
+            f"In up to {MoeadDra.utility_period} iterations MOEA/D-DRA has not allocated resources yet: "
+            f"its utilities first change after iteration {MoeadDra.utility_period}."
         )
     print(folder)
 

@@ -150,6 +150,8 @@ def test_any_layout_of_designs_is_taken():
     read_only.flags.writeable = False
     for same in (np.asfortranarray(x), x.tolist(), np.repeat(x, 2, axis=0)[::2], read_only):
         np.testing.assert_array_equal(p.evaluate(same), expected)
+    as_array = paper.ride_problem(band=np.array([0.0, 20.0]), lower=np.array(p.lower), upper=list(p.upper))
+    np.testing.assert_array_equal(as_array.evaluate(x), expected)
     whole = x.round().astype(int)
     np.testing.assert_array_equal(p.evaluate(whole), p.evaluate(whole.astype(float)))
     assert p.evaluate(np.empty((0, 2))).shape == (0, 3)

@@ -54,15 +54,15 @@ def test_unreachable_limits_are_named(limit):
 
 def test_picks_the_least_objective_of_the_set_at_the_limit():
     problem = paper.ride_problem()
-    run = minimise(problem, MoeadDra(population=500), iterations=20, seed=0)
+    run = minimise(problem, MoeadDra(population=3000), iterations=20, seed=0)
     acc, sws, dtl = run.objectives.T
-    at_limit = (sws >= 0.99 * 0.0287) & (sws <= 0.0287)
+    at_limit = (sws >= 0.998 * 0.0287) & (sws <= 0.0287)
     for objective, values, column in (("ACC", acc, 0), ("DTL", dtl, 2)):
         picked = problem.evaluate([optimum.pick_at_limit(problem, run, 0.0287, objective)])[0]
-        assert 0.99 * 0.0287 <= picked[1] <= 0.0287
+        assert 0.998 * 0.0287 <= picked[1] <= 0.0287
         assert picked[column] == pytest.approx(values[at_limit].min(), rel=1e-12)
     with pytest.raises(
-        ValueError, match=r"^sws_limit must be a travel within 1 % of which the Pareto set has a design"
+        ValueError, match=r"^sws_limit must be a travel within 0.2 % of which the Pareto set has a design"
     ):
         optimum.pick_at_limit(problem, run, 0.001, "ACC")
 
@@ -70,7 +70,7 @@ def test_picks_the_least_objective_of_the_set_at_the_limit():
 def test_no_picked_design_is_better_than_the_exact_one():
     """Within the limit; least ACC is at the limit itself, since ACC falls as travel is given away."""
     problem = paper.ride_problem()
-    run = minimise(problem, MoeadDra(population=500), iterations=20, seed=0)
+    run = minimise(problem, MoeadDra(population=3000), iterations=20, seed=0)
     exact = optimum.best_at_limit(problem, 0.0287, "ACC")
     picked = optimum.pick_at_limit(problem, run, 0.0287, "ACC")
     exact_acc, picked_acc = problem.evaluate([exact, picked])[:, 0]

@@ -33,8 +33,9 @@ def test_headers_carry_units():
         ({"objectives": "ab"}, "objectives must be 2 or more different names, got 'ab'"),
         (
             {"kernel": (len, ())},
-            "kernel must begin with a function compiled by numba, got <built-in",
+            "kernel must be a function compiled by numba and a tuple, got (<built-in",
         ),
+        ({"kernel": len}, "kernel must be a function compiled by numba and a tuple, got <built-in"),
         ({"variables": ("x", "x", "y")}, "variables must be 2 different names, got ('x', 'x', 'y')"),
         ({"variables": "kc"}, "variables must be 2 different names, got 'kc'"),
         ({"variables": ("k",)}, "variables must be 2 different names, got ('k',)"),

@@ -27,14 +27,10 @@ def within(name: str, value: float, lowest: float, highest: float) -> None:
         raise ValueError(f"{name} must be a number from {lowest} to {highest}, got {value!r}")
 
 
-def interval(name: str, value: Sequence[float], unit: str) -> None:
+def interval(name: str, value: ArrayLike, unit: str) -> None:
     """Raise ValueError unless `value` is a pair of finite numbers with 0 <= lower < upper."""
-    if not (
-        isinstance(value, Sequence)
-        and len(value) == 2
-        and all(map(_is_real, value))
-        and 0 <= value[0] < value[1] <= _LARGEST
-    ):
+    pair = list(value) if isinstance(value, Sequence | np.ndarray) else []
+    if not (len(pair) == 2 and all(map(_is_real, pair)) and 0 <= pair[0] < pair[1] <= _LARGEST):
         raise ValueError(f"{name} must be finite with 0 <= lower < upper [{unit}], got {value!r}")
 
 

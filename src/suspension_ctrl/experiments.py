@@ -13,6 +13,7 @@ from .indicators import ReferenceFront, non_dominated
 from .optimisers import MoeadDra, Nsga2, Run, minimise
 from .optimisers.minimise import Optimiser
 from .problems import Described, Minimisable, column_headers
+from .selection import deap_order
 
 ALGORITHMS: dict[str, Callable[..., Optimiser]] = {
     "nsga2": Nsga2,
@@ -121,6 +122,7 @@ def warm_up(problem: Minimisable, runs: Sequence[PlannedRun]) -> None:
         if isinstance(short, MoeadDra):
             short = replace(short, utility_period=1)
         minimise(problem, short, iterations=1, seed=0)
+    deap_order(np.array([[0.0, 0.0], [1.0, 1.0]]), np.array([0, 1]))  # else compiled at the first tie
 
 
 def carry_out(problem: Minimisable, runs: Sequence[PlannedRun]) -> Iterator[tuple[PlannedRun, Run]]:

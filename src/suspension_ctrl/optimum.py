@@ -8,7 +8,7 @@ from .indicators import non_dominated
 from .objectives import RideProblem
 from .optimisers import Run
 
-_AT_LIMIT = 0.01
+_AT_LIMIT = 0.002
 """How far below the limit, as a fraction of it, the travel of a picked design may be."""
 
 _SPRINGS = 200
@@ -82,7 +82,7 @@ def best_at_limit(problem: RideProblem, limit: float, objective: str) -> tuple[f
 def pick_at_limit(problem: RideProblem, run: Run, limit: float, objective: str) -> tuple[float, float]:
     """Return the design of a run's Pareto set with the least `objective` among those at SWS = `limit`.
 
-    At the limit are those within the last percent of it, and none beyond.
+    At the limit are those up to 0.2 % below it, and none beyond.
 
     Parameters
     ----------

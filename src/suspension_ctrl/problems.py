@@ -92,8 +92,15 @@ class Problem:
         if isinstance(self.variables, str) or not len(set(names)) == len(names) == len(self.lower):
             raise ValueError(f"variables must be {len(self.lower)} different names, got {self.variables!r}")
         object.__setattr__(self, "variables", names)
-        if self.kernel is not None and not isinstance(self.kernel[0], CPUDispatcher):
-            raise ValueError(f"kernel must begin with a function compiled by numba, got {self.kernel[0]!r}")
+        if self.kernel is not None and not _is_kernel(self.kernel):
+            raise ValueError(f"kernel must be a function compiled by numba and a tuple, got {self.kernel!r}")
+
+
+def _is_kernel(kernel: object) -> bool:
+    match kernel:
+        case (CPUDispatcher(), tuple()):
+            return True
+    return False
 
 
 def checked_objectives(

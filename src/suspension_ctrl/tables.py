@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-from .experiments import EQUAL_ITERATIONS
+from .experiments import EQUAL_EVALUATIONS, EQUAL_ITERATIONS
 from .objectives import RideProblem
 from .problems import column_headers
 
@@ -68,7 +68,7 @@ def comparison(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        One row per configuration, algorithm and budget: evaluations, mean of published and of measured
+        One row per configuration, budget and algorithm: evaluations, mean of published and of measured
         seconds, microseconds per evaluation, ``published_ratio_percent`` and ``ratio_percent`` (the
         baseline's mean seconds over this algorithm's, times 100), median hypervolume and IGD+.
     """
@@ -83,17 +83,14 @@ def comparison(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
         )
         .reset_index()
     )
+    table = pd.concat([table, _also_at_equal_evaluations(table)]).sort_values(keys[:2], kind="stable")
     means = published.groupby(["algorithm", *CONFIGURATION]).published_seconds.mean().reset_index()
     table = table.merge(means.assign(budget=EQUAL_ITERATIONS), on=keys, how="left")
     table["microseconds_per_evaluation"] = 1e6 * table.seconds / table.evaluations
-    baseline = table[table.algorithm == runs.algorithm.iloc[0]].set_index([*CONFIGURATION, "budget"])
-    own = pd.MultiIndex.from_frame(table[[*CONFIGURATION, "budget"]])
-    at_equal_iterations = pd.MultiIndex.from_frame(table[CONFIGURATION].assign(budget=EQUAL_ITERATIONS))
+    same = [*CONFIGURATION, "budget"]
+    baseline = table[table.algorithm == runs.algorithm.iloc[0]].set_index(same)
     for seconds, ratio in (("published_seconds", "published_ratio_percent"), ("seconds", "ratio_percent")):
-        # A baseline that spends the most evaluations anyway has no second run at equal evaluations.
-        first = baseline[seconds].reindex(own).to_numpy()
-        first = np.where(np.isnan(first), baseline[seconds].reindex(at_equal_iterations).to_numpy(), first)
-        table[ratio] = 100 * first / table[seconds]
+        table[ratio] = 100 * table.join(baseline[seconds].rename("first"), on=same)["first"] / table[seconds]
     return table[
         [
             *keys,
@@ -107,6 +104,15 @@ def comparison(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
             "igd_plus",
         ]
     ]
+
+
+def _also_at_equal_evaluations(table: pd.DataFrame) -> pd.DataFrame:
+    """Rows of those that spend the most evaluations anyway, which others match: again, as equal evaluations."""
+    others = table[table.budget == EQUAL_EVALUATIONS]
+    matched = table.merge(others[CONFIGURATION].drop_duplicates(), on=CONFIGURATION)
+    theirs = pd.MultiIndex.from_frame(others[[*CONFIGURATION, "algorithm"]])
+    most = matched[~pd.MultiIndex.from_frame(matched[[*CONFIGURATION, "algorithm"]]).isin(theirs)]
+    return most.assign(budget=EQUAL_EVALUATIONS)
 
 
 def beside_published(

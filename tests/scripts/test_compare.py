@@ -21,7 +21,7 @@ def test_prints_tables_and_last_the_folder(quick):
     for title in ("Table 2: nsga2", "Table 2: nsga2-standard-sort", "Table 3: moead-dra", "Table 4:"):
         assert title in done.stdout
     assert "ACC is weighted with Wb" in done.stdout
-    assert "has not allocated resources yet" in done.stdout
+    assert "MOEA/D-DRA has not allocated resources yet" in done.stdout
     assert done.stdout.splitlines()[-1] == str(out)
 
 
@@ -94,6 +94,7 @@ def test_default_folder_is_new_and_below_results(script, tmp_path):
         (["--populations", "12"], "population must be >= 15 for 3 objectives"),
         (["--populations", "500,x"], "populations must be whole numbers separated by commas, got '500,x'"),
         (["--iterations", "0"], "iterations must be a whole number >= 1, got 0"),
+        (["--quick", "--repeats", "3"], "quick must stand without populations, iterations and repeats"),
         (["--repeats", "0"], "repeats must be a whole number >= 1, got 0"),
         (["--repeats", "two"], "Invalid value for '--repeats': must be a whole number, got 'two'"),
         (["--algorithms", "nsga3"], "algorithms must be one of nsga2, "),

@@ -89,10 +89,11 @@ class MoeadDra:
         checks.at_least("tournament", self.tournament, 1)
         checks.at_least("utility_period", self.utility_period, 1)
         checks.one_of("normalise", self.normalise, (True, False))
-        for scale in self.objective_scales or ():
-            checks.positive("objective_scales", scale)
-        if self.normalise and self.objective_scales is not None:
-            raise ValueError(f"objective_scales must be None with normalise, got {self.objective_scales!r}")
+        if self.objective_scales is not None:
+            for scale in np.ravel(self.objective_scales):
+                checks.positive("objective_scales", scale)
+            if self.normalise:
+                raise ValueError(f"objective_scales must be None with normalise, got {self.objective_scales!r}")
         checks.one_of("update", self.update, _SWEEPS)
 
     def evaluations_per_iteration(self, objectives: int) -> int:
@@ -153,7 +154,7 @@ class MoeadDra:
 
     def _scales(self, objectives: int) -> NDArray[np.float64]:
         scales = (
-            np.ones(objectives) if self.objective_scales is None else np.array(self.objective_scales, dtype=float)
+            np.ones(objectives) if self.objective_scales is None else np.ravel(self.objective_scales).astype(float)
         )
         if scales.size != objectives:
             raise ValueError(
