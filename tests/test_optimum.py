@@ -38,6 +38,20 @@ def test_agrees_with_a_constrained_minimiser(objective):
     assert ours == pytest.approx(theirs, rel=1e-6)
 
 
+@pytest.mark.parametrize("limit", [0.0149, 0.0287, 0.0449])
+@pytest.mark.parametrize("objective", ["ACC", "DTL"])
+def test_no_spring_of_a_finer_row_is_better(limit, objective):
+    """Also at limits that only a corner of the box meets, where the curve ends between two springs tried."""
+    problem = paper.ride_problem()
+    column = problem.objectives.index(objective)
+    springs = np.linspace(problem.lower[0], problem.upper[0], 3001)
+    curve = [(k, optimum.damper_at_limit(problem, k, limit)) for k in springs]
+    least = problem.evaluate([design for design in curve if not np.isnan(design[1])])[:, column].min()
+    found = problem.evaluate([optimum.best_at_limit(problem, limit, objective)])[0]
+    assert found[1] == pytest.approx(limit, rel=1e-9)
+    assert found[column] <= least * (1 + 1e-12)
+
+
 def test_damper_at_limit_meets_it_or_is_nan():
     problem = paper.ride_problem()
     damper = optimum.damper_at_limit(problem, 12e3, 0.0287)

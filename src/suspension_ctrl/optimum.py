@@ -68,15 +68,23 @@ def best_at_limit(problem: RideProblem, limit: float, objective: str) -> tuple[f
             f"{corners.max():.4f} m, got {limit} m"
         )
     best = int(np.nanargmin(values))
-    around = springs[max(best - 1, 0)], springs[min(best + 1, _SPRINGS - 1)]
-    refined = minimize_scalar(
-        lambda k: np.nan_to_num(along_curve(k), nan=np.inf),
-        bounds=around,
-        method="bounded",
-        options={"xatol": 1e-6},
-    )
-    spring = float(refined.x) if refined.fun < values[best] else float(springs[best])
+    start = _last_on_curve(problem, springs[best], springs[max(best - 1, 0)], limit)
+    end = _last_on_curve(problem, springs[best], springs[min(best + 1, _SPRINGS - 1)], limit)
+    inside = minimize_scalar(along_curve, bounds=(start, end), method="bounded", options={"xatol": 1e-6}).x
+    spring = float(min((start, springs[best], inside, end), key=along_curve))
     return spring, damper_at_limit(problem, spring, limit)
+
+
+def _last_on_curve(problem: RideProblem, inside: float, toward: float, limit: float) -> float:
+    """Return the spring [N/m] farthest from `inside` up to `toward` for which a damper meets the limit."""
+    if not np.isnan(damper_at_limit(problem, toward, limit)):
+        return toward
+    while (middle := (inside + toward) / 2) not in (inside, toward):
+        if np.isnan(damper_at_limit(problem, middle, limit)):
+            toward = middle
+        else:
+            inside = middle
+    return inside
 
 
 def pick_at_limit(problem: RideProblem, run: Run, limit: float, objective: str) -> tuple[float, float]:
