@@ -31,18 +31,18 @@ def main(
     checks.at_least("iterations", iterations, 1)
     checks.at_least("seed", seed, 0)
     optimiser = MoeadDra(population=population)
-    problems = [paper.ride_problem(weighting=weighting, band=(low_frequency, 20.0)) for weighting in WEIGHTINGS]
-    exact = [exact_designs(problem, sws_limit) for problem in problems]
-    folder = files.results_folder(out)
     columns = paper.table5()
     published = {"reference car": columns["reference"], "published optimum": columns["optimised"]}
     parts = []
-    for problem, designs in zip(problems, exact, strict=True):
+    for weighting in WEIGHTINGS:
+        problem = paper.ride_problem(weighting=weighting, band=(low_frequency, paper.ride_problem().band[1]))
+        designs = exact_designs(problem, sws_limit)
         run = minimise(problem, optimiser, iterations=iterations, seed=seed)
-        picked = picked_designs(problem, run, sws_limit)
-        parts.append(tables.beside_published(problem, designs | picked, published))
-        title = f"Table 5, ACC weighted by {problem.weighting}: published / here"
-        terminal.show(title, as_printed(parts[-1]))
+        designs |= picked_designs(problem, run, sws_limit)
+        parts.append(tables.beside_published(problem, designs, published))
+    folder = files.results_folder(out)
+    for weighting, part in zip(WEIGHTINGS, parts, strict=True):
+        terminal.show(f"Table 5, ACC weighted by {weighting}: published / here", as_printed(part))
     files.write_csv(folder / "table5.csv", pd.concat(parts))
     print(folder)
 

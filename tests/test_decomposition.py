@@ -30,7 +30,8 @@ def test_weights_are_evenly_spread():
     uncovered = np.linalg.norm(sample[:, None] - weights[None], axis=2).min(axis=1).max()
     hole = np.sqrt(np.sqrt(3) / 2 * np.log(5000) / (np.pi * 5000))
     assert distance.min() >= uncovered - hole
-    assert distance.min(axis=1).max() < 2.5 * distance.min()
+    # Anyone's nearest neighbour is within two radii of what is left uncovered, or a candidate would lie between.
+    assert distance.min(axis=1).max() <= 2 * (distance.min() + hole)
 
 
 def test_two_objectives_get_a_near_regular_row_of_weights():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from suspension_ctrl import Problem
-from suspension_ctrl.problems import checked_objectives, column_headers
+from suspension_ctrl.problems import column_headers, evaluate_checked
 
 GOOD = {"evaluate": lambda x: x, "lower": (0.0, 0.0), "upper": (1.0, 1.0), "objectives": ("a", "b")}
 
@@ -48,6 +48,7 @@ def test_rejects_bad_problems(change, message):
 
 def test_the_first_bad_design_is_named():
     designs = np.array([[0.1, 0.2], [0.2, 0.9]])
-    assert checked_objectives([[1, 2], [3, 4]], designs, ("a", "b")).tolist() == [[1.0, 2.0], [3.0, 4.0]]
+    found = evaluate_checked(lambda x: [[1, 2], [3, 4]], designs, ("a", "b"))
+    assert found.tolist() == [[1.0, 2.0], [3.0, 4.0]]
     with pytest.raises(ValueError, match=r"got \[0.2, nan\] for design \[0.2, 0.9\]$"):
-        checked_objectives([[1, 2], [0.2, np.nan]], designs, ("a", "b"))
+        evaluate_checked(lambda x: [[1, 2], [0.2, np.nan]], designs, ("a", "b"))

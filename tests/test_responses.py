@@ -21,7 +21,7 @@ def test_spectra_integrate_to_the_objectives():
 def test_phases_begin_as_the_signs_say_and_go_on_without_jumps():
     """At low frequency body acceleration is -w^2 times the road, so opposite; both deflections begin with it.
 
-    From rest the body lags behind the wheel and presses the strut in extension terms: z2 - z1 follows w^2 m_b/k.
+    The body's inertia makes it overshoot: z2 - z1 = w^2 m_b/k z2, and likewise z1 - x0 for both masses.
     """
     f = np.geomspace(0.01, 20, 2000)
     h = responses.frequency_responses(paper.ride_problem().vehicle.closed(*DESIGN), f)

@@ -3,6 +3,7 @@
 import json
 import os
 from collections.abc import Callable
+from contextlib import suppress
 from datetime import datetime
 from itertools import chain, count
 from pathlib import Path
@@ -27,8 +28,10 @@ def results_folder(out: Path | None) -> Path:
     ValueError
         If it is not a folder, is not empty or cannot be written.
     """
-    folder = out or _fresh(Path("results") / datetime.now().strftime("%Y-%m-%d_%H-%M-%S"))
+    folder = out or Path("results") / datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
     try:
+        if out is None:
+            folder = _made_new(folder)
         folder.mkdir(parents=True, exist_ok=True)
         if any(folder.iterdir()):
             raise ValueError(
@@ -42,10 +45,14 @@ def results_folder(out: Path | None) -> Path:
         ) from error
 
 
-def _fresh(folder: Path) -> Path:
-    """`folder`, or where that exists the first of folder_2, folder_3, ... that does not."""
+def _made_new(folder: Path) -> Path:
+    """Make `folder`, or where that exists the first of folder_2, folder_3, ... that does not."""
     names = (folder.with_name(f"{folder.name}_{number}") for number in count(2))
-    return next(path for path in chain([folder], names) if not path.exists())
+    for path in chain([folder], names):
+        with suppress(FileExistsError):  # also when another command takes the name at this moment
+            path.mkdir(parents=True)
+            break
+    return path
 
 
 def write_whole(path: Path, write: Callable[[Path], object]) -> None:

@@ -103,17 +103,19 @@ def _is_kernel(kernel: object) -> bool:
     return False
 
 
-def checked_objectives(
-    objectives: ArrayLike, designs: NDArray[np.float64], names: Sequence[str]
+def evaluate_checked(
+    evaluate: Callable[[NDArray[np.float64]], ArrayLike], designs: NDArray[np.float64], names: Sequence[str]
 ) -> NDArray[np.float64]:
-    """Return a copy of what was evaluated for `designs` (n, d) as floats (n, m), m being the number of names.
+    """Return the objectives (n, m) of `designs` (n, d), m being the number of names.
+
+    The evaluation works on a copy and its answer is copied: it may spoil the one and reuse the other.
 
     Raises
     ------
     ValueError
-        If it has another shape, or a value that is not finite.
+        If it answers with another shape, or a value that is not finite.
     """
-    values = np.array(objectives, dtype=float, order="C")
+    values = np.array(evaluate(designs.copy()), dtype=float, order="C")
     expected = (designs.shape[0], len(names))
     if values.shape != expected:
         raise ValueError(f"evaluate must return shape {expected} for designs {designs.shape}, got {values.shape}")

@@ -48,7 +48,7 @@ def test_a_verb_can_be_exchanged():
 
 
 def test_survivors_are_never_worse_than_their_parents():
-    """No survivor is dominated by a parent, unless every survivor is on the first front with that parent kept."""
+    """No survivor on the first front is dominated by anyone of the population before."""
     problem = zdt1(5)
     runs = [minimise(problem, Nsga2(population=20), iterations=i, seed=2).objectives for i in range(5, 12)]
     for before, after in pairwise(runs):

@@ -111,6 +111,8 @@ def test_optimum_makes_table_5(script, tmp_path):
         (["--sws-limit", "0"], "sws_limit must be finite and > 0 m, got 0.0"),
         (["--sws-limit", "1"], "sws_limit must be a travel that a design within the bounds has"),
         (["--low-frequency", "30"], "band must be finite with 0 <= lower < upper [Hz], got (30.0, 20.0)"),
+        (["--sws-limit", "0.0449", "--population", "20"], "within 0.2 % of which the Pareto set has a design"),
+        (["--out", "/proc/results"], "out must be a folder that can be written, got '/proc/results'"),
         (["--population", "3"], "population must be a whole number >= 4, got 3"),
         (["--iterations", "0"], "iterations must be a whole number >= 1, got 0"),
         (["--seed", "-1"], "seed must be a whole number >= 0, got -1"),

@@ -10,7 +10,7 @@ from deap.base import Toolbox
 from numpy.typing import NDArray
 
 from .. import checks, decomposition, operators
-from ..problems import Minimisable, checked_objectives
+from ..problems import Minimisable, evaluate_checked
 from .state import State
 from .sweep import Decomposed, sweep_batch, sweep_sequential
 
@@ -133,7 +133,7 @@ class MoeadDra:
         corners = decomposition.corner_subproblems(vectors)
         weights = np.where(vectors == 0, decomposition.ZERO_WEIGHT, vectors) / self._scales(m)
         designs = np.array(toolbox.sample(rng, size), dtype=float)
-        objectives = checked_objectives(toolbox.evaluate(designs.copy()), designs, problem.objectives)
+        objectives = evaluate_checked(toolbox.evaluate, designs, problem.objectives)
         neighbours = decomposition.neighbourhoods(size, m, max(2, int(self.neighbourhood * size)))
         population = Decomposed(designs, objectives, objectives.min(axis=0), weights, neighbours)
         evaluations = size

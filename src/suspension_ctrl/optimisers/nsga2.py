@@ -10,7 +10,7 @@ from deap.base import Toolbox
 from .. import checks
 from ..deap_adapter import select_with_deap
 from ..operators import crowded_tournament, polynomial_mutation, sample_uniform, simulated_binary_crossover
-from ..problems import Minimisable, checked_objectives
+from ..problems import Minimisable, evaluate_checked
 from ..selection import select_survivors
 from .state import State
 
@@ -93,14 +93,14 @@ class Nsga2:
         """Yield the state after the start and after each iteration, without end (Figure 3 of the paper)."""
         size, names = self.population, problem.objectives
         designs = np.array(toolbox.sample(rng, size), dtype=float)
-        objectives = checked_objectives(toolbox.evaluate(designs.copy()), designs, names)
+        objectives = evaluate_checked(toolbox.evaluate, designs, names)
         kept, crowding = toolbox.select(objectives, size)
         ideal, evaluations = objectives.min(axis=0), len(designs)
         yield State(designs, objectives, ideal, evaluations)
         while True:
             parents = toolbox.tournament(rng, objectives, crowding, size)
             children = toolbox.mutate(rng, toolbox.mate(rng, designs[parents]))
-            values = checked_objectives(toolbox.evaluate(children.copy()), children, names)
+            values = evaluate_checked(toolbox.evaluate, children, names)
             ideal, evaluations = np.minimum(ideal, values.min(axis=0)), evaluations + len(children)
             designs = np.concatenate([designs, children])
             objectives = np.concatenate([objectives, values])

@@ -11,7 +11,7 @@ from numba import njit
 from numba.core.registry import CPUDispatcher
 from numpy.typing import NDArray
 
-from ..problems import Minimisable, checked_objectives
+from ..problems import Minimisable, evaluate_checked
 from .clock import untimed
 from .state import State
 
@@ -65,11 +65,11 @@ def sweep_sequential(
     compiled = [compiled_verb(getattr(toolbox, name)) for name in VERBS]
     compiled.append(compiled_evaluation(toolbox, problem))
     verbs = [verb for verb in compiled if verb is not None]
-    function: Callable[..., None] = work_on
+    function, names = work_on, problem.objectives
     if len(verbs) < len(compiled):
         function = work_on.py_func
         verbs = [(getattr(toolbox, name), ()) for name in VERBS]
-        verbs.append((lambda child: _evaluate(toolbox, child[np.newaxis], problem)[0], ()))
+        verbs.append((lambda child: evaluate_checked(toolbox.evaluate, child[np.newaxis], names)[0], ()))
     function(rng, chosen, population, *chain.from_iterable(verbs))
 
 
@@ -87,12 +87,9 @@ def sweep_batch(
     for row, (i, partners) in enumerate(zip(chosen, ranges, strict=True)):
         child = toolbox.reproduce(rng, designs, i, partners)
         children[row] = toolbox.mutate(rng, toolbox.repair(rng, child, designs[i]))
-    for child, value, partners in zip(children, _evaluate(toolbox, children, problem), ranges, strict=True):
+    values = evaluate_checked(toolbox.evaluate, children, problem.objectives)
+    for child, value, partners in zip(children, values, ranges, strict=True):
         toolbox.update(rng, child, value, partners, designs, objectives, weights, ideal)
-
-
-def _evaluate(toolbox: Toolbox, designs: NDArray[np.float64], problem: Minimisable) -> NDArray[np.float64]:
-    return checked_objectives(toolbox.evaluate(designs.copy()), designs, problem.objectives)
 
 
 VERBS = ("mating_range", "reproduce", "repair", "mutate", "update")
