@@ -8,7 +8,16 @@ import suspension_ctrl
 PACKAGE = Path(suspension_ctrl.__file__).parent
 LIBRARY = {"checks", "datafiles", "files", "environment", "terminal"}
 PHYSICS = {"vehicles", "roads", "weightings", "quadrature", "responses", "objectives"}
-SEARCH = {"problems", "operators", "decomposition", "selection", "deap_adapter", "optimisers", "indicators"}
+SEARCH = {
+    "problems",
+    "operators",
+    "decomposition",
+    "selection",
+    "sorting",
+    "deap_adapter",
+    "optimisers",
+    "indicators",
+}
 MEETING = {"paper", "optimum", "experiments", "tables", "figures"}
 ALLOWED = {
     **{room: {"checks"} for room in LIBRARY},

@@ -66,9 +66,9 @@ def rows_within(name: str, rows: NDArray[np.float64], lower: ArrayLike, upper: A
     """Raise ValueError unless every row (n, d) lies between `lower` and `upper` (d,), but for rounding."""
     low, high = np.asarray(lower, dtype=float), np.asarray(upper, dtype=float)
     slack = 1e-9 * (high - low)
-    inside = ((low - slack <= rows) & (rows <= high + slack)).all(axis=1)
+    inside = (low - slack <= rows) & (rows <= high + slack)
     if not inside.all():
-        first = rows[inside.argmin()].tolist()
+        first = rows[inside.all(axis=1).argmin()].tolist()
         raise ValueError(f"{name} must lie within {low.tolist()} and {high.tolist()}, got {first}")
 
 

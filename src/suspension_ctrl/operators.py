@@ -131,10 +131,10 @@ def polynomial_mutation(
     eta: float,
     probability: float,
 ) -> NDArray[np.float64]:
-    """Return mutants (n, d) of designs (n, d), row by row as in `mutate_design`."""
-    mutants = np.empty_like(designs)
+    """Return mutants (n, d) of designs (n, d), row by row as in `mutate_in_place`."""
+    mutants = designs.copy()
     for i in range(designs.shape[0]):
-        mutants[i] = mutate_design(rng, designs[i], lower, upper, eta, probability)
+        mutate_in_place(rng, mutants[i], lower, upper, eta, probability)
     return mutants
 
 
@@ -147,16 +147,28 @@ def mutate_design(
     eta: float,
     probability: float,
 ) -> NDArray[np.float64]:
-    """Return a mutant (d,) of a design (d,) inside the box: bounded polynomial mutation.
+    """Return a mutant (d,) of a design (d,) inside the box, made as in `mutate_in_place`."""
+    mutant = design.copy()
+    mutate_in_place(rng, mutant, lower, upper, eta, probability)
+    return mutant
 
-    Each variable mutates with `probability`.
+
+@njit(cache=True)
+def mutate_in_place(
+    rng: np.random.Generator,
+    design: NDArray[np.float64],
+    lower: NDArray[np.float64],
+    upper: NDArray[np.float64],
+    eta: float,
+    probability: float,
+) -> None:
+    """Mutate a design (d,) inside the box: bounded polynomial mutation, each variable with `probability`.
 
     References
     ----------
     K. Deb and M. Goyal, "A combined genetic adaptive search (GeneAS) for engineering design", 1996; in the
     bounded form of Deb's NSGA-II code.
     """
-    mutant = design.copy()
     for v in range(design.size):
         if rng.random() >= probability:
             continue
@@ -168,8 +180,7 @@ def mutate_design(
         else:
             rest = (1.0 - (upper[v] - design[v]) / width) ** (eta + 1.0)
             step = 1.0 - (2.0 * (1.0 - u) + (2.0 * u - 1.0) * rest) ** (1.0 / (eta + 1.0))
-        mutant[v] = min(max(design[v] + step * width, lower[v]), upper[v])
-    return mutant
+        design[v] = min(max(design[v] + step * width, lower[v]), upper[v])
 
 
 @njit(cache=True)

@@ -119,9 +119,9 @@ def evaluate_checked(
     expected = (designs.shape[0], len(names))
     if values.shape != expected:
         raise ValueError(f"evaluate must return shape {expected} for designs {designs.shape}, got {values.shape}")
-    bad = ~np.isfinite(values).all(axis=1)
-    if bad.any():
-        first = int(bad.argmax())
+    finite = np.isfinite(values)
+    if not finite.all():
+        first = int(finite.all(axis=1).argmin())
         raise ValueError(
             f"evaluate must return finite objectives, got {values[first].tolist()} "
             f"for design {designs[first].tolist()}"

@@ -1,4 +1,4 @@
-"""NSGA-II's survivor selection on arrays: ranks by moocore, survivors exactly those of DEAP's ``selNSGA2``.
+"""NSGA-II's survivor selection on arrays: fronts by moocore, survivors exactly those of DEAP's ``selNSGA2``.
 
 Where several points have equal claims, DEAP's answer follows from the order in which it lists a front. That
 order is worked out (`deap_order`) only where it decides something.
@@ -10,6 +10,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from .operators import dominates
+from .sorting import sorted_by
 
 
 def select_survivors(objectives: NDArray[np.float64], size: int) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
@@ -34,96 +35,145 @@ def select_survivors(objectives: NDArray[np.float64], size: int) -> tuple[NDArra
     K. Deb, A. Pratap, S. Agarwal, T. Meyarivan, "A fast and elitist multiobjective genetic algorithm:
     NSGA-II", IEEE Trans. Evol. Comput. 6(2), 2002.
     """
-    rank = moocore.pareto_rank(objectives).astype(np.int64)
-    index, crowding, order_decides = keep_least_crowded(objectives, rank, np.arange(rank.size), size)
+    objectives = np.ascontiguousarray(objectives, dtype=float)
+    listed, rank = first_fronts(objectives, size)
+    index, crowding, order_decides = keep_least_crowded(objectives, rank, listed, size)
     if order_decides:
         index, crowding, _ = keep_least_crowded(objectives, rank, deap_order(objectives, rank), size)
     return index, crowding
 
 
+def first_fronts(objectives: NDArray[np.float64], size: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return who is in the first fronts that together have `size` individuals or more, and who is in which.
+
+    Returns
+    -------
+    listed : (k,) ndarray
+        The individuals by rising first objective.
+    rank : (n,) ndarray
+        Number of the front of each individual, from 0; -1 for those beyond.
+    """
+    listed, ordered = presorted(objectives)
+    ranks = np.subtract(1, moocore.is_nondominated(ordered, keep_weakly=True), dtype=np.int64)
+    behind = np.flatnonzero(ranks)
+    if behind.size > len(objectives) - size:  # the first front is not enough: the others need ranks too
+        ranks[behind] += moocore.pareto_rank(ordered[behind])
+    return cut_ranks(listed, ranks, size)
+
+
+@njit(cache=True)
+def presorted(objectives: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Return the individuals by rising first objective, and their objectives (n, m) in reverse.
+
+    moocore sorts by the last objective, which is quick where that is done already.
+    """
+    listed = sorted_by(objectives, np.arange(objectives.shape[0]), 0)
+    ordered = np.empty_like(objectives)
+    for k in range(listed.size):
+        for j in range(objectives.shape[1]):
+            ordered[k, j] = objectives[listed[k], -1 - j]
+    return listed, ordered
+
+
+@njit(cache=True)
+def cut_ranks(
+    listed: NDArray[np.int64], ranks: NDArray[np.int64], size: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return what `first_fronts` does, from the ranks (n,) of the individuals `listed` (n,)."""
+    last = int(np.searchsorted(np.cumsum(np.bincount(ranks)), size))
+    rank = np.full(listed.size, -1)
+    for k in range(listed.size):
+        if ranks[k] <= last:
+            rank[listed[k]] = ranks[k]
+    return listed[ranks <= last], rank
+
+
 @njit(cache=True)
 def keep_least_crowded(
-    objectives: NDArray[np.float64], rank: NDArray[np.int64], order: NDArray[np.int64], size: int
+    objectives: NDArray[np.float64], rank: NDArray[np.int64], listed: NDArray[np.int64], size: int
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], bool]:
-    """Keep the best fronts, and of the last one the least crowded; arguments and result as in `select_survivors`.
+    """Keep all of the individuals `listed` (k,), except the most crowded ones of their last front.
 
-    `order` (n,) is the order in which all individuals are listed. The third result says whether another order
-    within the fronts might give another answer. Equal points are alike wherever they stand, so that is so only
-    where different points of a front share their first objectives (the last two then differ, or one would
-    dominate), or where one that stays and a different one that goes have the same crowding distance.
+    The first two results are those of `select_survivors`. The third says whether another order of the list
+    might give another answer. Equal points are alike wherever they stand, so that is so only where different
+    points of a front share their first objectives (the last two then differ, or one would dominate), or where
+    one that stays and a different one that goes have the same crowding distance.
     """
-    fronts = fronts_in_order(rank, order, size)
-    distance = np.zeros(rank.size)
-    order_decides = False
-    for front in fronts:
-        if add_crowding_distance(objectives, front, distance):
-            order_decides = True
+    distance, order_decides = crowding_distances(objectives, rank, listed)
     kept = np.zeros(rank.size, dtype=np.bool_)
-    places = size
-    for front in fronts[:-1]:
-        kept[front] = True
-        places -= front.size
-    last = fronts[-1]
-    best_first = last[np.argsort(-distance[last], kind="mergesort")]
-    kept[best_first[:places]] = True
-    if places < last.size:
-        stays = distance[best_first[places - 1]]
-        if stays == distance[best_first[places]]:
-            for i in best_first[distance[best_first] == stays]:
-                if agreement(objectives, i, best_first[places]) < objectives.shape[1]:
-                    order_decides = True
+    kept[listed] = True
+    surplus = listed.size - size
+    if surplus > 0:
+        last = listed[rank[listed] == rank[listed].max()]
+        least_to_stay = np.partition(distance[last], surplus)[surplus]
+        kept[last[distance[last] < least_to_stay]] = False
+        level = last[distance[last] == least_to_stay]
+        too_many = int(np.count_nonzero(kept)) - size
+        kept[level[level.size - too_many :]] = False
+        if too_many > 0 and np.any(objectives[level] != objectives[level[0]]):
+            order_decides = True
     index = np.flatnonzero(kept)
     return index, distance[index], order_decides
 
 
 @njit(cache=True)
-def fronts_in_order(rank: NDArray[np.int64], order: NDArray[np.int64], size: int) -> list[NDArray[np.int64]]:
-    """Return the first fronts that together have at least `size` individuals, each listed in `order`."""
-    counts = np.bincount(rank)
-    last = int(np.searchsorted(np.cumsum(counts), size))
-    fronts = [np.empty(counts[r], dtype=np.int64) for r in range(last + 1)]
-    filled = np.zeros(last + 1, dtype=np.int64)
-    for i in order:
-        r = rank[i]
-        if r <= last:
-            fronts[r][filled[r]] = i
-            filled[r] += 1
-    return fronts
-
-
-@njit(cache=True)
-def add_crowding_distance(
-    objectives: NDArray[np.float64], front: NDArray[np.int64], distance: NDArray[np.float64]
-) -> bool:
-    """Put the crowding distances of one front in `distance` (n,); True if its order bears on them.
+def crowding_distances(
+    objectives: NDArray[np.float64], rank: NDArray[np.int64], listed: NDArray[np.int64]
+) -> tuple[NDArray[np.float64], bool]:
+    """Return the crowding distances (n,) of those `listed` (k,), True if their order bears on them.
 
     The distance is the sum over the objectives of the gap between both neighbours over m times the front's
     range. As in DEAP the list is sorted by one objective after the other, each time keeping the order it had.
     """
     m = objectives.shape[1]
+    distance = np.zeros(rank.size)
     order_decides = False
-    value = np.empty(front.size)
     for j in range(m):
-        for k in range(front.size):
-            value[k] = objectives[front[k], j]
-        by_value = np.argsort(value, kind="mergesort")
-        front, value = front[by_value], value[by_value]
-        distance[front[0]] = distance[front[-1]] = np.inf
-        span = value[-1] - value[0]
-        if span > 0:
-            for k in range(1, front.size - 1):
-                distance[front[k]] += (value[k + 1] - value[k - 1]) / (m * span)
-        if j < m - 2 and share_first_objectives(objectives, front, j + 1):
+        listed = sorted_by(objectives, listed, j)
+        add_gaps(objectives, rank, listed, j, distance)
+        if j < m - 2 and share_first_objectives(objectives, rank, listed, j + 1):
             order_decides = True
-    return order_decides
+    return distance, order_decides
 
 
 @njit(cache=True)
-def share_first_objectives(objectives: NDArray[np.float64], front: NDArray[np.int64], count: int) -> bool:
-    """Whether any neighbours in the list `front` agree in the first `count` objectives but not in all."""
-    for k in range(1, front.size):
-        if count <= agreement(objectives, front[k - 1], front[k]) < objectives.shape[1]:
+def add_gaps(
+    objectives: NDArray[np.float64],
+    rank: NDArray[np.int64],
+    listed: NDArray[np.int64],
+    j: int,
+    distance: NDArray[np.float64],
+) -> None:
+    """Add to `distance` (n,) the share of objective j, by which `listed` (k,) is sorted."""
+    fronts = rank.max() + 1
+    first, last = np.full(fronts, -1), np.full(fronts, -1)
+    for i in listed:
+        if first[rank[i]] < 0:
+            first[rank[i]] = i
+        last[rank[i]] = i
+    before, here = np.full(fronts, -1), np.full(fronts, -1)
+    for i in listed:
+        r = rank[i]
+        if before[r] >= 0:
+            span = objectives[last[r], j] - objectives[first[r], j]
+            if span > 0:
+                gap = objectives[i, j] - objectives[before[r], j]
+                distance[here[r]] += gap / (objectives.shape[1] * span)
+        before[r], here[r] = here[r], i
+    distance[first], distance[last] = np.inf, np.inf
+
+
+@njit(cache=True)
+def share_first_objectives(
+    objectives: NDArray[np.float64], rank: NDArray[np.int64], listed: NDArray[np.int64], count: int
+) -> bool:
+    """Whether any neighbours of a front in `listed` agree in the first `count` objectives but not in all."""
+    before = np.full(rank.max() + 1, -1)
+    for i in listed:
+        b = before[rank[i]]
+        if b >= 0 and count <= agreement(objectives, b, i) < objectives.shape[1]:
             return True
+        before[rank[i]] = i
     return False
 
 
@@ -137,7 +187,7 @@ def agreement(objectives: NDArray[np.float64], a: int, b: int) -> int:
 
 
 def deap_order(objectives: NDArray[np.float64], rank: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the individuals, front by front, as DEAP's ``sortNondominated`` lists them; shape (n,).
+    """Return the individuals of rank >= 0, front by front, as DEAP's ``sortNondominated`` lists them.
 
     DEAP lists the first front as it came. An individual enters a later front when the last of those that
     dominate it is dealt with, those in the order of the front before; among several that enter then, the
@@ -152,7 +202,8 @@ def deap_order(objectives: NDArray[np.float64], rank: NDArray[np.int64]) -> NDAr
         front = heads[rank[heads] == r]
         before = front[np.lexsort((front, last_dominators(objectives, before, front)))]
         place[before] = np.arange(before.size)
-    return np.lexsort((np.arange(rank.size), place[arrival], rank))
+    order = np.lexsort((np.arange(rank.size), place[arrival], rank))
+    return order[rank[order] >= 0]
 
 
 @njit(cache=True)

@@ -1,10 +1,11 @@
 """Run an optimiser on a problem: budget, seed, timings and history in one place."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from copy import copy
 from dataclasses import dataclass
+from functools import cached_property
 from time import perf_counter, process_time
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 from deap.base import Toolbox
@@ -56,11 +57,8 @@ class Run:
         Wall-clock and processor time of the search alone [s].
     seed : int
         Seed that gives this run again.
-    history : pandas.DataFrame
-        One row per iteration, everything counted from the start of the run: ``iteration``, ``evaluations``,
-        ``seconds``, ``<phase>_seconds`` for each phase, ``ideal_<objective>`` for each objective. In a
-        sequential MOEA/D-DRA whose sweep runs compiled, children are evaluated inside the phase ``sweep``, and
-        ``evaluate`` is the start alone.
+    log : Log
+        What `history` is made of.
     """
 
     designs: NDArray[np.float64]
@@ -69,7 +67,26 @@ class Run:
     seconds: float
     cpu_seconds: float
     seed: int
-    history: "pd.DataFrame"
+    log: "Log"
+
+    @cached_property
+    def history(self) -> "pd.DataFrame":
+        """One row per iteration, everything counted from the start of the run.
+
+        Columns: ``iteration``, ``evaluations``, ``seconds``, ``<phase>_seconds`` for each phase,
+        ``ideal_<objective>`` for each objective. In a sequential MOEA/D-DRA whose sweep runs compiled, children
+        are evaluated inside the phase ``sweep``, and ``evaluate`` is the start alone.
+        """
+        import pandas as pd  # a third of a second: not at import of the package, nor in a run
+
+        return pd.DataFrame(self.log.rows, columns=self.log.columns)
+
+
+class Log(NamedTuple):
+    """Rows and columns of a history, before a table is made of them."""
+
+    columns: list[str]
+    rows: list[tuple[float, ...]]
 
 
 def minimise(
@@ -123,8 +140,10 @@ def minimise(
         state = next(search)
         wall, cpu = wall + perf_counter() - wall_start, cpu + process_time() - cpu_start
         rows.append((iteration, state.evaluations, wall, *clock.seconds.values(), *state.ideal))
-    history = _history(rows[1:], list(clock.seconds), problem.objectives)
-    return Run(state.designs, state.objectives, int(state.evaluations), wall, cpu, int(seed), history)
+    seconds = [f"{phase}_seconds" for phase in clock.seconds]
+    ideal = [f"ideal_{name}" for name in problem.objectives]
+    log = Log(["iteration", "evaluations", "seconds", *seconds, *ideal], rows[1:])
+    return Run(state.designs, state.objectives, int(state.evaluations), wall, cpu, int(seed), log)
 
 
 def _iteration_count(start: int, per_iteration: int, iterations: int | None, evaluations: int | None) -> int:
@@ -137,11 +156,3 @@ def _iteration_count(start: int, per_iteration: int, iterations: int | None, eva
     raise ValueError(
         f"exactly one of iterations and evaluations must be given, got {iterations!r} and {evaluations!r}"
     )
-
-
-def _history(rows: list[tuple[float, ...]], phases: list[str], objectives: Sequence[str]) -> "pd.DataFrame":
-    import pandas as pd  # a third of a second: not at import of the package
-
-    seconds = [f"{phase}_seconds" for phase in phases]
-    ideal = [f"ideal_{name}" for name in objectives]
-    return pd.DataFrame(rows, columns=["iteration", "evaluations", "seconds", *seconds, *ideal])

@@ -99,11 +99,11 @@ class Nsga2:
         yield State(designs, objectives, ideal, evaluations)
         while True:
             parents = toolbox.tournament(rng, objectives, crowding, size)
-            children = toolbox.mutate(rng, toolbox.mate(rng, designs[parents]))
+            children = toolbox.mutate(rng, toolbox.mate(rng, designs.take(parents, axis=0)))
             values = evaluate_checked(toolbox.evaluate, children, names)
             ideal, evaluations = np.minimum(ideal, values.min(axis=0)), evaluations + len(children)
             designs = np.concatenate([designs, children])
             objectives = np.concatenate([objectives, values])
             kept, crowding = toolbox.select(objectives, size)
-            designs, objectives = designs[kept], objectives[kept]
+            designs, objectives = designs.take(kept, axis=0), objectives.take(kept, axis=0)
             yield State(designs, objectives, ideal, evaluations)
