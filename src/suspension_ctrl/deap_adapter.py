@@ -3,7 +3,7 @@
 from typing import Literal
 
 import numpy as np
-from deap import base, tools
+from deap import base
 from numpy.typing import NDArray
 
 
@@ -14,6 +14,8 @@ def select_with_deap(
 
     `nd` is DEAP's non-dominated sorting: "standard", of order m n^2, or "log".
     """
+    from deap import tools  # a tenth of the package's import time, and few need it
+
     individuals = as_individuals(objectives)
     survivors = sorted(tools.selNSGA2(individuals, size, nd=nd), key=lambda i: i.index)
     index = np.array([i.index for i in survivors], dtype=np.int64)

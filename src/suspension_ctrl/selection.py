@@ -54,11 +54,7 @@ def first_fronts(objectives: NDArray[np.float64], size: int) -> tuple[NDArray[np
         Number of the front of each individual, from 0; -1 for those beyond.
     """
     listed, ordered = presorted(objectives)
-    ranks = np.subtract(1, moocore.is_nondominated(ordered, keep_weakly=True), dtype=np.int64)
-    behind = np.flatnonzero(ranks)
-    if behind.size > len(objectives) - size:  # the first front is not enough: the others need ranks too
-        ranks[behind] += moocore.pareto_rank(ordered[behind])
-    return cut_ranks(listed, ranks, size)
+    return cut_ranks(listed, moocore.pareto_rank(ordered), size)
 
 
 @njit(cache=True)
@@ -67,7 +63,7 @@ def presorted(objectives: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArr
 
     moocore sorts by the last objective, which is quick where that is done already.
     """
-    listed = sorted_by(objectives, np.arange(objectives.shape[0]), 0)
+    listed, _ = sorted_by(objectives, np.arange(objectives.shape[0]), 0)
     ordered = np.empty_like(objectives)
     for k in range(listed.size):
         for j in range(objectives.shape[1]):
@@ -77,7 +73,7 @@ def presorted(objectives: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArr
 
 @njit(cache=True)
 def cut_ranks(
-    listed: NDArray[np.int64], ranks: NDArray[np.int64], size: int
+    listed: NDArray[np.int64], ranks: NDArray[np.int32], size: int
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return what `first_fronts` does, from the ranks (n,) of the individuals `listed` (n,)."""
     last = int(np.searchsorted(np.cumsum(np.bincount(ranks)), size))
@@ -129,8 +125,8 @@ def crowding_distances(
     distance = np.zeros(rank.size)
     order_decides = False
     for j in range(m):
-        listed = sorted_by(objectives, listed, j)
-        add_gaps(objectives, rank, listed, j, distance)
+        listed, value = sorted_by(objectives, listed, j)
+        add_gaps(value, rank, listed, m, distance)
         if j < m - 2 and share_first_objectives(objectives, rank, listed, j + 1):
             order_decides = True
     return distance, order_decides
@@ -138,29 +134,30 @@ def crowding_distances(
 
 @njit(cache=True)
 def add_gaps(
-    objectives: NDArray[np.float64],
+    value: NDArray[np.float64],
     rank: NDArray[np.int64],
     listed: NDArray[np.int64],
-    j: int,
+    m: int,
     distance: NDArray[np.float64],
 ) -> None:
-    """Add to `distance` (n,) the share of objective j, by which `listed` (k,) is sorted."""
+    """Add to `distance` (n,) the share of one of m objectives, by whose rising `value` (k,) `listed` is sorted."""
     fronts = rank.max() + 1
-    first, last = np.full(fronts, -1), np.full(fronts, -1)
-    for i in listed:
-        if first[rank[i]] < 0:
-            first[rank[i]] = i
-        last[rank[i]] = i
+    first, last = np.full(fronts, -1), np.full(fronts, -1)  # places in the list
+    for k in range(listed.size):
+        r = rank[listed[k]]
+        if first[r] < 0:
+            first[r] = k
+        last[r] = k
     before, here = np.full(fronts, -1), np.full(fronts, -1)
-    for i in listed:
-        r = rank[i]
+    for k in range(listed.size):
+        r = rank[listed[k]]
         if before[r] >= 0:
-            span = objectives[last[r], j] - objectives[first[r], j]
+            span = value[last[r]] - value[first[r]]
             if span > 0:
-                gap = objectives[i, j] - objectives[before[r], j]
-                distance[here[r]] += gap / (objectives.shape[1] * span)
-        before[r], here[r] = here[r], i
-    distance[first], distance[last] = np.inf, np.inf
+                distance[listed[here[r]]] += (value[k] - value[before[r]]) / (m * span)
+        before[r], here[r] = here[r], k
+    for r in range(fronts):
+        distance[listed[first[r]]] = distance[listed[last[r]]] = np.inf
 
 
 @njit(cache=True)

@@ -1,7 +1,4 @@
-"""Speed as ratios within one run: `make bench`. Nothing here is asserted about time."""
-
-import subprocess
-import sys
+"""Steps to watch while working on them; nothing is asserted about time. `scripts/benchmark.py` compares."""
 
 import numpy as np
 import pytest
@@ -51,16 +48,3 @@ def test_python_control_loop(benchmark, problem, designs):
 )
 def test_search(benchmark, problem, optimiser):
     benchmark.pedantic(minimise, (problem, optimiser), {"iterations": 20, "seed": 0}, rounds=7, warmup_rounds=1)
-
-
-@pytest.mark.benchmark(group="whole process")
-def test_default_compare(benchmark, checkout, tmp_path):
-    """The main job with its defaults, imports and figures included."""
-    command = [sys.executable, str(checkout / "scripts" / "compare.py")]
-    benchmark.pedantic(
-        subprocess.run,
-        (command,),
-        {"check": True, "capture_output": True, "cwd": tmp_path},
-        rounds=3,
-        warmup_rounds=0,
-    )

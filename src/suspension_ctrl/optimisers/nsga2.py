@@ -9,7 +9,13 @@ from deap.base import Toolbox
 
 from .. import checks
 from ..deap_adapter import select_with_deap
-from ..operators import crowded_tournament, polynomial_mutation, sample_uniform, simulated_binary_crossover
+from ..operators import (
+    crowded_tournament,
+    ideal_point,
+    polynomial_mutation,
+    sample_uniform,
+    simulated_binary_crossover,
+)
 from ..problems import Minimisable, evaluate_checked
 from ..selection import select_survivors
 from .state import State
@@ -95,13 +101,13 @@ class Nsga2:
         designs = np.array(toolbox.sample(rng, size), dtype=float)
         objectives = evaluate_checked(toolbox.evaluate, designs, names)
         kept, crowding = toolbox.select(objectives, size)
-        ideal, evaluations = objectives.min(axis=0), len(designs)
+        ideal, evaluations = ideal_point(objectives), len(designs)
         yield State(designs, objectives, ideal, evaluations)
         while True:
             parents = toolbox.tournament(rng, objectives, crowding, size)
             children = toolbox.mutate(rng, toolbox.mate(rng, designs.take(parents, axis=0)))
             values = evaluate_checked(toolbox.evaluate, children, names)
-            ideal, evaluations = np.minimum(ideal, values.min(axis=0)), evaluations + len(children)
+            ideal, evaluations = np.minimum(ideal, ideal_point(values)), evaluations + len(children)
             designs = np.concatenate([designs, children])
             objectives = np.concatenate([objectives, values])
             kept, crowding = toolbox.select(objectives, size)

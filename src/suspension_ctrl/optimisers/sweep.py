@@ -67,7 +67,7 @@ def sweep_sequential(
     verbs = [verb for verb in compiled if verb is not None]
     function, names = work_on, problem.objectives
     if len(verbs) < len(compiled):
-        function = work_on.py_func
+        function = getattr(work_on, "py_func", work_on)  # itself where numba is switched off
         verbs = [(getattr(toolbox, name), ()) for name in VERBS]
         verbs.append((lambda child: evaluate_checked(toolbox.evaluate, child[np.newaxis], names)[0], ()))
     function(rng, chosen, population, *chain.from_iterable(verbs))

@@ -1,0 +1,69 @@
+"""What is compiled, when, and that it gives what plain Python gives."""
+
+import io
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from benchmarks import dtlz2
+from suspension_ctrl import MoeadDra, Nsga2, minimise
+
+OPTIMISERS = {"nsga2": Nsga2(population=24), "moead-dra": MoeadDra(population=24)}
+
+PLAIN = """
+import sys
+import numpy as np
+sys.path.insert(0, {tests!r})
+from test_compilation import run
+np.save(sys.stdout.buffer, run({name!r}))
+"""
+
+IMPORT = """
+import pkgutil
+from importlib import import_module
+from numba.core import event
+
+compiled = []
+
+class Watch(event.Listener):
+    def on_start(self, what):
+        compiled.append(str(what.data["dispatcher"]))
+
+    def on_end(self, what):
+        pass
+
+with event.install_listener("numba:compile", Watch()):
+    import suspension_ctrl
+    for module in pkgutil.walk_packages(suspension_ctrl.__path__, "suspension_ctrl."):
+        import_module(module.name)
+    imported = len(compiled)
+    import numba
+    numba.njit(lambda x: x)(1)
+print(imported, len(compiled))
+"""
+
+
+def run(name: str) -> np.ndarray:
+    """Designs and objectives that a search ends with, long enough for MOEA/D-DRA to update its utilities."""
+    found = minimise(dtlz2(5), OPTIMISERS[name], iterations=60, seed=4)
+    return np.hstack([found.designs, found.objectives])
+
+
+@pytest.mark.parametrize("name", OPTIMISERS)
+def test_compiled_or_plain_the_same_seed_gives_the_same_arrays(name, checkout):
+    program = PLAIN.format(tests=str(checkout / "tests"), name=name)
+    environment = os.environ | {"NUMBA_DISABLE_JIT": "1"}
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True, env=environment)
+    np.testing.assert_array_equal(run(name), np.load(io.BytesIO(done.stdout)))
+
+
+def test_nothing_is_compiled_at_import(tmp_path):
+    """Numba tells of every compilation; the one made on purpose shows that the test would see one."""
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}  # nothing there to load instead
+    done = subprocess.run(
+        [sys.executable, "-c", IMPORT], capture_output=True, text=True, check=True, env=environment
+    )
+    assert done.stdout.split() == ["0", "1"]
