@@ -31,14 +31,13 @@ $(READY): pyproject.toml constraints.txt
 	$(BIN)/python -m pip install --quiet --constraint constraints.txt --editable ".[dev]"
 	touch $@
 
-# One by one: what cannot be installed here is left out, and the benchmark lists it as absent.
+# One by one: what cannot be installed here is left out, listed as absent, and tried again the next time.
 $(PEERS): $(READY)
-	$(BIN)/python -c "import tomllib; \
-	  print(*tomllib.load(open('pyproject.toml', 'rb'))['project']['optional-dependencies']['bench'], sep='\n')" | \
-	while read -r peer; do \
-	  $(BIN)/python -m pip install --quiet --constraint constraints.txt "$$peer" || echo "not installed: $$peer"; \
-	done
-	touch $@
+	@missing=; for peer in $$($(BIN)/python -c "import tomllib; \
+	  print(*tomllib.load(open('pyproject.toml', 'rb'))['project']['optional-dependencies']['bench'])"); do \
+	  $(BIN)/python -m pip install --quiet --constraint constraints.txt "$$peer" || missing="$$missing $$peer"; \
+	done; \
+	if [ -z "$$missing" ]; then touch $@; else echo "not installed:$$missing"; fi
 
 clean:
 	rm -rf $(VENV) results build dist

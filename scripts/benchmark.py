@@ -71,6 +71,7 @@ def main(
     with environment.single_thread():
         machine = environment.describe(settings)
         machine["versions"] |= {name: version for name, version in field.versions.items() if name != OURS}
+        field = searches.working(field, paper.ride_problem(nodes=settings["nodes"]))
         found = measure(settings, field, folder)
     beside = {"errors": found.errors, "megabytes": found.memory, "absent": found.absent}
     files.write_json(folder / "environment.json", machine | beside)

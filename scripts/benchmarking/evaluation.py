@@ -111,18 +111,22 @@ def measure(problem: RideProblem, counts: Sequence[int], repeats: int, limit: fl
 
 
 MEMORY = """
-import resource, sys
+from pathlib import Path
 import numpy as np
 from suspension_ctrl import paper
 problem = paper.ride_problem(nodes={nodes})
 designs = np.random.default_rng(0).uniform(problem.lower, problem.upper, ({designs}, 2))
 problem.evaluate(designs)
-print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1e6 if sys.platform == "darwin" else 1e3))
+status = Path("/proc/self/status")
+print(int(status.read_text().split("VmHWM:")[1].split()[0]) / 1e3 if status.exists() else "nan")
 """
 
 
 def memory(designs: int, nodes: int) -> float:
-    """Return the peak memory [MB] of a process that evaluates so many designs, all that it imports included."""
+    """Return the peak memory [MB] of a process that evaluates so many designs, all that it imports included.
+
+    Read from Linux's record of the process, NaN elsewhere: a child's resource usage begins with its parent's.
+    """
     program = MEMORY.format(designs=designs, nodes=nodes)
     done = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True)
     return float(done.stdout)

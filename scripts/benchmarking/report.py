@@ -44,7 +44,8 @@ def _opening(found: Measurements, settings: dict[str, Any], machine: dict[str, A
         f"Python {machine['python']}; {versions}.",
         f"Table 1's problem, {settings['nodes']} nodes over frequency. Medians and quartiles of "
         f"{settings['repeats']} repeats, contenders taking turns in one process after a first run that is not "
-        "counted. A ratio is a median over ours. Setting other libraries up is not counted, for ours it is.",
+        "counted. A ratio is a median over ours. What a library sets up before its run is not counted; ours sets "
+        "everything up within `minimise`, which is.",
         *[f"Absent: {name} ({reason})." for name, reason in found.absent.items()],
         "## In short",
         _markdown(_goals_shown(goals(found))),
@@ -58,8 +59,8 @@ def _about_evaluation(found: Measurements, settings: dict[str, Any]) -> list[str
         f"at the corners of the box and {settings['sample']} designs in it. A method is left out where by its "
         f"time so far it would take more than {settings['evaluation_limit']:g} s.",
         _markdown(evaluation_table(found)),
-        f"A process that evaluates {settings['memory_designs']:,} designs in one call takes {found.memory:.0f} MB "
-        "at its peak, imports and designs included.",
+        f"A process that evaluates {settings['memory_designs']:,} designs in one call takes "
+        f"{number(found.memory)} MB at its peak, imports and designs included.",
     ]
 
 
@@ -85,7 +86,9 @@ def _about_moead(found: Measurements, settings: dict[str, Any]) -> list[str]:
         f"N = {settings['moead_population']:,}: neighbourhoods of N/10, at most N/100 replacements, mates from "
         "the neighbourhood with probability 0.9, differential evolution (pymoo: crossover, and no limit to "
         "replacements), the same weight vectors (pygmo: its own). Objectives are scaled to the reference front: "
-        "not every library normalises them. A batch evaluates a fifth of N, or all, in one call.",
+        "not every library normalises them. A batch evaluates a fifth of N, or all, in one call. Ours is "
+        "MOEA/D-DRA, which does so by itself; it evaluates by the problem's compiled kernel, and without one by a "
+        "call per design as the others do. Finding neighbours counts, for all but jMetalPy.",
         _markdown(moead_table(found)),
     ]
 
@@ -96,7 +99,8 @@ def _about_target(found: Measurements, settings: dict[str, Any]) -> list[str]:
         f"Milliseconds of the shortest run whose final population has {100 * settings['target_share']:g} % of the "
         f"reference front's hypervolume, with that N of {', '.join(map(str, settings['target_populations']))} "
         f"that gets there soonest; {settings['target_repeats']} repeats. Runs have up to {max(GENERATIONS)} "
-        f"generations; a search is given up at an N where one takes more than {settings['target_limit']:g} s. "
+        f"generations ({', '.join(map(str, GENERATIONS))}); a search is given up at an N where it fails once, or "
+        f"where a run takes more than {settings['target_limit']:g} s and does not get there. "
         "Generations of MOEA/D are counted in N evaluations.",
         _markdown(target_table(found)),
     ]

@@ -11,7 +11,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from benchmarking.timing import take_turns, timed
-from peers import Prepare, Task
+from peers import Contenders, Prepare, Task
 from suspension_ctrl import Nsga2, Problem, RideProblem, minimise
 from suspension_ctrl.indicators import ReferenceFront
 from suspension_ctrl.problems import Minimisable
@@ -49,6 +49,25 @@ def evaluations(prepare: Prepare, task: Task) -> int:
     return job.evaluations(result) if job.evaluations else counted.count[0]
 
 
+def working(field: Contenders, problem: Minimisable) -> Contenders:
+    """Return the contenders whose searches carry out a short run, which warms them up; the others as absent."""
+    absent = dict(field.absent)
+
+    def works(name: str, prepare: Prepare) -> bool:
+        try:
+            evaluations(prepare, Task(problem, SMALL, 2, 0))
+        except Exception as error:  # whatever a foreign library raises, the others are still to be measured
+            absent[name] = f"{type(error).__name__}: {error}".splitlines()[0]
+            return False
+        return True
+
+    nsga2, moead = (
+        {name: prepare for name, prepare in searches.items() if works(name, prepare)}
+        for searches in (field.nsga2, field.moead)
+    )
+    return field._replace(nsga2=nsga2, moead=moead, absent=absent)
+
+
 def by_population(
     searches: Mapping[str, Prepare],
     problem: Minimisable,
@@ -65,8 +84,6 @@ def by_population(
     than `limit` seconds; one that does take longer is timed once there and left out of larger ones.
     """
     rows: list[dict[str, Any]] = []
-    for prepare in searches.values():
-        evaluations(prepare, Task(problem, SMALL, generations, 0))
     expected = dict.fromkeys(searches, 0.0)
     for population in sorted(populations):
         task = Task(problem, population, generations, 0)
@@ -138,8 +155,9 @@ def to_target(
     """Return one row per contender, population and repeat: generations and seconds to the hypervolume `target`.
 
     Runs of `GENERATIONS` lengths are made from the same seed, and the shortest counts whose final population
-    has the hypervolume; NaN where none has. A search that does not get there in its first repeat, or whose
-    setting up and run take longer than `limit` seconds on the way, is not repeated at that population.
+    has the hypervolume; NaN where none has. A search that does not get there, or whose setting up and run take
+    longer than `limit` seconds without getting there, is not repeated at that population. A first repeat is
+    not counted, unless the search fails in it.
     """
     rows: list[dict[str, Any]] = []
     for population in populations:
@@ -163,8 +181,9 @@ def _shortest_run(
         start = perf_counter()
         job = prepare(replace(task, generations=generations))
         timing = timed(job.run)
+        elapsed = perf_counter() - start
         if reference.hypervolume(job.objectives(timing.result)) >= target:
             return {"generations": generations, "seconds": timing.seconds}
-        if perf_counter() - start > limit:
+        if elapsed > limit:
             break
     return {"generations": np.nan, "seconds": np.nan}

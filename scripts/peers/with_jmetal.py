@@ -72,16 +72,16 @@ def nsga2(task: Task) -> Job:
 
 
 def moead(task: Task) -> Job:
-    weights = weights_in_file(task)
-    search = multiobjective.MOEAD(
-        crossover=DifferentialEvolutionCrossover(CR=1.0, F=task.scale_factor),
-        aggregation_function=Tschebycheff(len(task.problem.objectives)),
-        neighbourhood_selection_probability=task.neighbour_probability,
-        max_number_of_replaced_solutions=task.replacements,
-        neighbor_size=task.neighbours,
-        weight_files_path=weights.name,
-        **_common(task),
-    )
+    with weights_in_file(task) as folder:
+        search = multiobjective.MOEAD(
+            crossover=DifferentialEvolutionCrossover(CR=1.0, F=task.scale_factor),
+            aggregation_function=Tschebycheff(len(task.problem.objectives)),
+            neighbourhood_selection_probability=task.neighbour_probability,
+            max_number_of_replaced_solutions=task.replacements,
+            neighbor_size=task.neighbours,
+            weight_files_path=folder,
+            **_common(task),
+        )
     return _job(task, search)
 
 

@@ -26,7 +26,11 @@ def nsga2(task: Task) -> Job:
             sbx_probability=task.crossover_probability,
             sbx_distribution_index=task.eta,
         ),
-        mutation_config=pg.MutationConfig(real_mutation="polynomial"),
+        mutation_config=pg.MutationConfig(
+            real_mutation="polynomial",
+            probability=task.mutation_probability,
+            polynomial_distribution_index=task.eta,
+        ),
     )
 
     def objectives(_: None) -> Any:

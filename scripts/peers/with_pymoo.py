@@ -29,10 +29,14 @@ def _job(task: Task, algorithm: Any) -> Job:
     return Job(lambda: minimize(problem, algorithm, generations, seed=task.seed), lambda found: found.pop.get("F"))
 
 
+def _mutation(task: Task) -> PM:
+    return PM(prob=1.0, prob_var=task.mutation_probability, eta=task.eta)
+
+
 def nsga2(task: Task) -> Job:
     crossover = SBX(eta=task.eta, prob=task.crossover_probability)
     algorithm = nsga2_.NSGA2(
-        task.population, crossover=crossover, mutation=PM(eta=task.eta), eliminate_duplicates=False
+        task.population, crossover=crossover, mutation=_mutation(task), eliminate_duplicates=False
     )
     return _job(task, algorithm)
 
@@ -45,7 +49,7 @@ def moead(task: Task) -> Job:
         decomposition=Tchebicheff(),
         prob_neighbor_mating=task.neighbour_probability,
         crossover=SBX(eta=task.eta, prob=1.0),
-        mutation=PM(eta=task.eta),
+        mutation=_mutation(task),
     )
     return _job(task, algorithm)
 

@@ -24,13 +24,13 @@ class _Vectorised:
 
 
 def _job(task: Task, algorithm: str, settings: Any, engine: str) -> Job:
-    problem = _Vectorised(task)
+    problem, settings = _Vectorised(task), settings.result_mode("population").build()
 
     def run() -> Any:
         return vamos.optimize(
             problem,
             algorithm=algorithm,
-            algorithm_config=settings.result_mode("population").build(),
+            algorithm_config=settings,
             termination=("max_evaluations", task.evaluations),
             engine=engine,
             seed=task.seed,

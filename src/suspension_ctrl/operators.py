@@ -84,7 +84,7 @@ def dominates(f: NDArray[np.float64], g: NDArray[np.float64]) -> bool:
 @njit(cache=True)
 def shuffle(rng: np.random.Generator, values: NDArray[np.int64]) -> None:
     """Bring `values` into a random order, in place (Fisher and Yates)."""
-    draws = rng.random(values.size - 1)  # all at once: quicker than one by one, and the same
+    draws = rng.random(max(0, values.size - 1))  # all at once: quicker than one by one, and the same
     for i in range(values.size - 1, 0, -1):
         j = int(draws[values.size - 1 - i] * (i + 1))
         values[i], values[j] = values[j], values[i]

@@ -19,9 +19,9 @@ def select_survivors(objectives: NDArray[np.float64], size: int) -> tuple[NDArra
     Parameters
     ----------
     objectives : (n, m) ndarray
-        Objectives to be minimised.
+        Objectives to be minimised, their ranges finite.
     size : int
-        How many to keep, at most n.
+        How many to keep, from 1 to n.
 
     Returns
     -------
@@ -92,8 +92,8 @@ def keep_least_crowded(
 
     The first two results are those of `select_survivors`. The third says whether another order of the list
     might give another answer. Equal points are alike wherever they stand, so that is so only where different
-    points of a front share their first objectives (the last two then differ, or one would dominate), or where
-    one that stays and a different one that goes have the same crowding distance.
+    points of a front share their first objective, or where one that stays and a different one that goes have
+    the same crowding distance.
     """
     distance, order_decides = crowding_distances(objectives, rank, listed)
     kept = np.zeros(rank.size, dtype=np.bool_)
@@ -127,8 +127,8 @@ def crowding_distances(
     for j in range(m):
         listed, value = sorted_by(objectives, listed, j)
         add_gaps(value, rank, listed, m, distance)
-        if j < m - 2 and share_first_objectives(objectives, rank, listed, j + 1):
-            order_decides = True
+        if j == 0:
+            order_decides = share_first_objective(objectives, rank, listed)
     return distance, order_decides
 
 
@@ -161,14 +161,14 @@ def add_gaps(
 
 
 @njit(cache=True)
-def share_first_objectives(
-    objectives: NDArray[np.float64], rank: NDArray[np.int64], listed: NDArray[np.int64], count: int
+def share_first_objective(
+    objectives: NDArray[np.float64], rank: NDArray[np.int64], listed: NDArray[np.int64]
 ) -> bool:
-    """Whether any neighbours of a front in `listed` agree in the first `count` objectives but not in all."""
+    """Whether any neighbours of a front in `listed` agree in the first objective but not in all."""
     before = np.full(rank.max() + 1, -1)
     for i in listed:
         b = before[rank[i]]
-        if b >= 0 and count <= agreement(objectives, b, i) < objectives.shape[1]:
+        if b >= 0 and 1 <= agreement(objectives, b, i) < objectives.shape[1]:
             return True
         before[rank[i]] = i
     return False

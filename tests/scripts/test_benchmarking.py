@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from benchmarking import evaluation, process, report, searches, summary, timing
-from peers import OURS, Job
+from peers import OURS, Contenders, Job
 from suspension_ctrl import paper
 from suspension_ctrl.indicators import ReferenceFront
 
@@ -97,8 +97,23 @@ def test_time_to_target_is_that_of_the_shortest_run_that_gets_there(monkeypatch)
     assert found[found.contender == "a"].generations.tolist() == [4, 4]
     assert found[found.contender == "a"].seconds.diff().iloc[-1] == 4  # one timing per length tried
     assert found[found.contender == "never"].seconds.isna().tolist() == [True]
+    once_in_two = found.assign(seconds=found.seconds.where(found.repeat != 2))
+    assert summary.best_to_target(once_in_two)["median"].isna().all()
     best = summary.best_to_target(found)
     assert best.contender.tolist() == ["a", "never"]
+
+
+def test_searches_that_fail_are_absent_and_the_others_go_on(table1_problem):
+    def prepare(task):
+        return Job(lambda: task.problem.evaluate(np.full((task.population, 2), 2e3)), lambda found: found)
+
+    def broken(task):
+        raise RuntimeError("first line\nsecond line")
+
+    field = Contenders({"a": prepare, "b": broken}, {"c": prepare}, {}, {"d": "not installed"})
+    found = searches.working(field, table1_problem)
+    assert (list(found.nsga2), list(found.moead)) == (["a"], ["c"])
+    assert found.absent == {"d": "not installed", "b": "RuntimeError: first line"}
 
 
 def test_growth_of_power_laws():
@@ -209,4 +224,5 @@ def test_imports_are_timed_one_after_the_other():
 
 
 def test_a_million_designs_stay_below_500_mb():
-    assert evaluation.memory(1_000_000, 200) < 500
+    megabytes = evaluation.memory(1_000_000, 200)
+    assert np.isnan(megabytes) or 40 < megabytes < 500  # designs and objectives alone are 40

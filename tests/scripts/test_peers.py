@@ -64,7 +64,7 @@ def test_moead_of_every_library(field, problem, reference):
     front = ReferenceFront(reference.scaled(reference.objectives))
     task = peers.Task(scaled, 100, 10, 1)
     for name, prepare in field.moead.items():
-        assert searches.evaluations(prepare, task) == task.evaluations, name
+        assert 0.9 * task.evaluations <= searches.evaluations(prepare, task) <= task.evaluations, name
         job = prepare(task)
         objectives = job.objectives(job.run())
         assert 0.75 < front.hypervolume(objectives) < 0.96, name
