@@ -63,6 +63,8 @@ def main(
     quick: Annotated[bool, Option("--quick", help="Short form: small sizes, two repeats.")] = False,
 ) -> None:
     """Measure the speed of this package and of other libraries on the same work."""
+    if docs and not docs.is_dir():
+        raise ValueError(f"docs must be a folder that exists, got {str(docs)!r}")
     settings = QUICK if quick else SETTINGS
     folder = files.results_folder(out)
     warnings.filterwarnings("ignore", category=signal.BadCoefficients)  # zeros ahead of scipy's numerators

@@ -44,8 +44,8 @@ def _opening(found: Measurements, settings: dict[str, Any], machine: dict[str, A
         f"Python {machine['python']}; {versions}.",
         f"Table 1's problem, {settings['nodes']} nodes over frequency. Medians and quartiles of "
         f"{settings['repeats']} repeats, contenders taking turns in one process after a first run that is not "
-        "counted. A ratio is a median over ours. What a library sets up before its run is not counted; ours sets "
-        "everything up within `minimise`, which is.",
+        "counted. A ratio is a median over ours. What a library sets up before its run is not counted; of "
+        "ours only the weight vectors of MOEA/D are at hand, as they are for the others.",
         *[f"Absent: {name} ({reason})." for name, reason in found.absent.items()],
         "## In short",
         _markdown(_goals_shown(goals(found))),

@@ -57,10 +57,11 @@ def test_one_thread_and_the_machine_are_on_record(quick):
         assert (ours.cpu_seconds < 1.5 * ours.seconds + 0.01).all()
 
 
-@pytest.mark.parametrize("arguments", [("--out", "taken"), ("--fast",)])
+@pytest.mark.parametrize("arguments", [("--out", "taken"), ("--fast",), ("--docs", "nowhere")])
 def test_bad_input_is_one_line(script, tmp_path, arguments):
     (tmp_path / "taken").mkdir()
     (tmp_path / "taken" / "file").touch()
     done = script("benchmark", *arguments, cwd=tmp_path, warnings="default")
     assert done.returncode == 2
     assert len(done.stderr.splitlines()) == 1
+    assert not (tmp_path / "results").exists()

@@ -15,6 +15,10 @@ from suspension_ctrl.indicators import ReferenceFront
 pytestmark = pytest.mark.filterwarnings("ignore")
 
 
+RANDOM = 0.917
+"""Hypervolume of the best of eight random samples of 100 designs: what a search must go beyond."""
+
+
 @pytest.fixture(scope="module")
 def problem():
     return paper.ride_problem(nodes=200)
@@ -56,18 +60,18 @@ def test_nsga2_of_every_library(field, problem, reference):
         job = prepare(task)
         objectives = job.objectives(job.run())
         assert 0 < len(objectives) <= 100, name
-        assert 0.93 < reference.hypervolume(objectives) < 0.96, name
+        assert RANDOM + 0.01 < reference.hypervolume(objectives) < 0.955, name
 
 
 def test_moead_of_every_library(field, problem, reference):
     scaled = searches.scaled_problem(problem, reference)
     front = ReferenceFront(reference.scaled(reference.objectives))
-    task = peers.Task(scaled, 100, 10, 1)
+    task = peers.Task(scaled, 100, 10, 2)
     for name, prepare in field.moead.items():
         assert 0.9 * task.evaluations <= searches.evaluations(prepare, task) <= task.evaluations, name
         job = prepare(task)
         objectives = job.objectives(job.run())
-        assert 0.75 < front.hypervolume(objectives) < 0.96, name
+        assert RANDOM + 0.01 < front.hypervolume(objectives) < 0.955, name
 
 
 def test_ours_are_the_runs_that_minimise_makes(field, problem):
