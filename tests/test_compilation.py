@@ -1,6 +1,5 @@
 """What is compiled, when, and that it gives what plain Python gives."""
 
-import io
 import os
 import subprocess
 import sys
@@ -18,7 +17,7 @@ import sys
 import numpy as np
 sys.path.insert(0, {tests!r})
 from test_compilation import run
-np.save(sys.stdout.buffer, run({name!r}))
+np.save({path!r}, run({name!r}))
 """
 
 IMPORT = """
@@ -53,11 +52,12 @@ def run(name: str) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", OPTIMISERS)
-def test_compiled_or_plain_the_same_seed_gives_the_same_arrays(name, checkout):
-    program = PLAIN.format(tests=str(checkout / "tests"), name=name)
+def test_compiled_or_plain_the_same_seed_gives_the_same_arrays(name, checkout, tmp_path):
+    path = str(tmp_path / "plain.npy")
+    program = PLAIN.format(tests=str(checkout / "tests"), name=name, path=path)
     environment = os.environ | {"NUMBA_DISABLE_JIT": "1"}
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True, env=environment)
-    np.testing.assert_array_equal(run(name), np.load(io.BytesIO(done.stdout)))
+    subprocess.run([sys.executable, "-c", program], capture_output=True, check=True, env=environment)
+    np.testing.assert_array_equal(run(name), np.load(path))
 
 
 def test_nothing_is_compiled_at_import(tmp_path):
