@@ -45,7 +45,7 @@ def _opening(found: Measurements, settings: dict[str, Any], machine: dict[str, A
         f"Table 1's problem, {settings['nodes']} nodes over frequency. Medians and quartiles of "
         f"{settings['repeats']} repeats, contenders taking turns in one process after a first run that is not "
         "counted. A ratio is a median over ours. What a library sets up before its run is not counted; of "
-        "ours only the weight vectors of MOEA/D are at hand, as they are for the others.",
+        "ours that is the toolbox, and the weight vectors of MOEA/D, which the others get too.",
         *[f"Absent: {name} ({reason})." for name, reason in found.absent.items()],
         "## In short",
         _markdown(_goals_shown(goals(found))),

@@ -10,8 +10,10 @@ from . import OURS, Job, Task
 
 
 def _job(task: Task, optimiser: Nsga2 | MoeadDra) -> Job:
+    toolbox = optimiser.toolbox(task.problem)
+
     def run() -> Run:
-        return minimise(task.problem, optimiser, evaluations=task.evaluations, seed=task.seed)
+        return minimise(task.problem, optimiser, evaluations=task.evaluations, seed=task.seed, toolbox=toolbox)
 
     return Job(run, lambda found: found.objectives, lambda found: found.evaluations)
 

@@ -29,7 +29,6 @@ def draw_below(rng: np.random.Generator, count: int) -> int:
     return int(rng.random() * count)
 
 
-@njit(cache=True)
 def crowded_tournament(
     rng: np.random.Generator, objectives: NDArray[np.float64], crowding: NDArray[np.float64], size: int
 ) -> NDArray[np.int64]:
@@ -39,33 +38,36 @@ def crowded_tournament(
     (Deb et al. 2002; the rule of DEAP's ``selTournamentDCD`` without its need for multiples of four).
     """
     n = objectives.shape[0]
-    order = np.arange(n)
-    winners = np.empty(size, dtype=np.int64)
-    position = n
-    for w in range(size):
-        if position + 1 >= n:
-            shuffle(rng, order)
-            position = 0
-        a, b = int(order[position]), int(order[position + 1])
-        position += 2
-        winners[w] = crowded_winner(rng, a, b, objectives, crowding)
-    return winners
+    passes = -(-size // (n // 2))
+    return crowded_winners(rng.random((passes, n)), rng.random(size), objectives, crowding)
 
 
 @njit(cache=True)
-def crowded_winner(
-    rng: np.random.Generator, a: int, b: int, objectives: NDArray[np.float64], crowding: NDArray[np.float64]
-) -> int:
-    """Return the better of individuals a and b; chance decides where neither dominance nor crowding does."""
-    a_better = b_better = False  # in any objective
-    for j in range(objectives.shape[1]):
-        a_better |= objectives[a, j] < objectives[b, j]
-        b_better |= objectives[b, j] < objectives[a, j]
-    if a_better != b_better:
-        return a if a_better else b
-    if crowding[a] != crowding[b]:
-        return a if crowding[a] > crowding[b] else b
-    return a if rng.random() < 0.5 else b
+def crowded_winners(
+    draws: NDArray[np.float64],
+    coins: NDArray[np.float64],
+    objectives: NDArray[np.float64],
+    crowding: NDArray[np.float64],
+) -> NDArray[np.int64]:
+    """Return the winners (k,) among n individuals that pair up in passes, each shuffled by a row of draws (p, n).
+
+    One of `coins` (k,), drawn from 0 to 1, decides where neither dominance nor crowding does.
+    """
+    order = np.arange(objectives.shape[0])
+    pairs = order.size // 2
+    winners = np.empty(coins.size, dtype=np.int64)
+    for w in range(coins.size):
+        if w % pairs == 0:
+            shuffle(order, draws[w // pairs])
+        a, b = order[2 * (w % pairs)], order[2 * (w % pairs) + 1]
+        a_better = b_better = False  # in any objective
+        for j in range(objectives.shape[1]):
+            a_better |= objectives[a, j] < objectives[b, j]
+            b_better |= objectives[b, j] < objectives[a, j]
+        if a_better == b_better:
+            a_better = crowding[a] > crowding[b] or (crowding[a] == crowding[b] and coins[w] < 0.5)
+        winners[w] = a if a_better else b
+    return winners
 
 
 @njit(cache=True)
@@ -81,15 +83,13 @@ def dominates(f: NDArray[np.float64], g: NDArray[np.float64]) -> bool:
 
 
 @njit(cache=True)
-def shuffle(rng: np.random.Generator, values: NDArray[np.int64]) -> None:
-    """Bring `values` into a random order, in place (Fisher and Yates)."""
-    draws = rng.random(max(0, values.size - 1))  # all at once: quicker than one by one, and the same
+def shuffle(values: NDArray[np.int64], draws: NDArray[np.float64]) -> None:
+    """Bring `values` (n,) into the order that `draws` (n,) from 0 to 1 give, in place (Fisher and Yates)."""
     for i in range(values.size - 1, 0, -1):
-        j = int(draws[values.size - 1 - i] * (i + 1))
+        j = int(draws[i] * (i + 1))
         values[i], values[j] = values[j], values[i]
 
 
-@njit(cache=True)
 def simulated_binary_crossover(
     rng: np.random.Generator,
     parents: NDArray[np.float64],
@@ -108,21 +108,40 @@ def simulated_binary_crossover(
     K. Deb and R. B. Agrawal, "Simulated binary crossover for continuous search space", Complex Systems 9,
     1995; in the bounded form of Deb's NSGA-II code.
     """
+    pairs, variables = parents.shape[0] // 2, parents.shape[1]
+    mates = rng.random(pairs) < probability
+    return recombined(parents, mates, rng.random((pairs, variables, 3)), lower, upper, eta)
+
+
+@njit(cache=True)
+def recombined(
+    parents: NDArray[np.float64],
+    mates: NDArray[np.bool_],
+    draws: NDArray[np.float64],
+    lower: NDArray[np.float64],
+    upper: NDArray[np.float64],
+    eta: float,
+) -> NDArray[np.float64]:
+    """Return the children (n, d) of those pairs that mate (n // 2,), from three draws (n // 2, d, 3) a variable.
+
+    The first of them decides whether the variable is recombined, the third which child gets the lower value.
+    """
     children = parents.copy()
-    for first in range(0, parents.shape[0] - 1, 2):
-        if rng.random() >= probability:
+    for pair in range(mates.size):
+        if not mates[pair]:
             continue
+        first = 2 * pair
         for v in range(parents.shape[1]):
             low = min(parents[first, v], parents[first + 1, v])
             high = max(parents[first, v], parents[first + 1, v])
-            if rng.random() < 0.5 or high - low <= 1e-14 * (upper[v] - lower[v]):
+            if draws[pair, v, 0] < 0.5 or high - low <= 1e-14 * (upper[v] - lower[v]):
                 continue
-            u = rng.random()
+            u = draws[pair, v, 1]
             down = sbx_spread(u, (low - lower[v]) / (high - low), eta)
             up = sbx_spread(u, (upper[v] - high) / (high - low), eta)
             a = max(lower[v], 0.5 * (low + high - down * (high - low)))
             b = min(upper[v], 0.5 * (low + high + up * (high - low)))
-            swap = rng.random() < 0.5
+            swap = draws[pair, v, 2] < 0.5
             children[first, v] = b if swap else a
             children[first + 1, v] = a if swap else b
     return children
@@ -136,7 +155,6 @@ def sbx_spread(u: float, room: float, eta: float) -> float:
     return float(inside ** (1.0 / (eta + 1.0)))
 
 
-@njit(cache=True)
 def polynomial_mutation(
     rng: np.random.Generator,
     designs: NDArray[np.float64],
@@ -145,10 +163,34 @@ def polynomial_mutation(
     eta: float,
     probability: float,
 ) -> NDArray[np.float64]:
-    """Return mutants (n, d) of designs (n, d), row by row as in `mutate_in_place`."""
+    """Return mutants (n, d) of designs (n, d) inside the box: bounded polynomial mutation.
+
+    Each variable mutates with `probability`.
+
+    References
+    ----------
+    K. Deb and M. Goyal, "A combined genetic adaptive search (GeneAS) for engineering design", 1996; in the
+    bounded form of Deb's NSGA-II code.
+    """
+    mutates = rng.random(designs.shape) < probability
+    return mutated(designs, mutates, rng.random(designs.shape), lower, upper, eta)
+
+
+@njit(cache=True)
+def mutated(
+    designs: NDArray[np.float64],
+    mutates: NDArray[np.bool_],
+    draws: NDArray[np.float64],
+    lower: NDArray[np.float64],
+    upper: NDArray[np.float64],
+    eta: float,
+) -> NDArray[np.float64]:
+    """Return designs (n, d) with those values that mutate (n, d) moved, each by its draw (n, d)."""
     mutants = designs.copy()
     for i in range(designs.shape[0]):
-        mutate_in_place(rng, mutants[i], lower, upper, eta, probability)
+        for v in range(designs.shape[1]):
+            if mutates[i, v]:
+                mutants[i, v] = mutated_value(designs[i, v], draws[i, v], lower[v], upper[v], eta)
     return mutants
 
 
@@ -161,40 +203,25 @@ def mutate_design(
     eta: float,
     probability: float,
 ) -> NDArray[np.float64]:
-    """Return a mutant (d,) of a design (d,) inside the box, made as in `mutate_in_place`."""
+    """Return a mutant (d,) of a design (d,), by `polynomial_mutation` with one draw after the other."""
     mutant = design.copy()
-    mutate_in_place(rng, mutant, lower, upper, eta, probability)
+    for v in range(design.size):
+        if rng.random() < probability:
+            mutant[v] = mutated_value(design[v], rng.random(), lower[v], upper[v], eta)
     return mutant
 
 
 @njit(cache=True)
-def mutate_in_place(
-    rng: np.random.Generator,
-    design: NDArray[np.float64],
-    lower: NDArray[np.float64],
-    upper: NDArray[np.float64],
-    eta: float,
-    probability: float,
-) -> None:
-    """Mutate a design (d,) inside the box: bounded polynomial mutation, each variable with `probability`.
-
-    References
-    ----------
-    K. Deb and M. Goyal, "A combined genetic adaptive search (GeneAS) for engineering design", 1996; in the
-    bounded form of Deb's NSGA-II code.
-    """
-    for v in range(design.size):
-        if rng.random() >= probability:
-            continue
-        width = upper[v] - lower[v]
-        u = rng.random()
-        if u < 0.5:
-            rest = (1.0 - (design[v] - lower[v]) / width) ** (eta + 1.0)
-            step = (2.0 * u + (1.0 - 2.0 * u) * rest) ** (1.0 / (eta + 1.0)) - 1.0
-        else:
-            rest = (1.0 - (upper[v] - design[v]) / width) ** (eta + 1.0)
-            step = 1.0 - (2.0 * (1.0 - u) + (2.0 * u - 1.0) * rest) ** (1.0 / (eta + 1.0))
-        design[v] = min(max(design[v] + step * width, lower[v]), upper[v])
+def mutated_value(value: float, u: float, lower: float, upper: float, eta: float) -> float:
+    """Return the value that polynomial mutation of `value` in its bounds makes of the draw u."""
+    width = upper - lower
+    if u < 0.5:
+        rest = (1.0 - (value - lower) / width) ** (eta + 1.0)
+        step = (2.0 * u + (1.0 - 2.0 * u) * rest) ** (1.0 / (eta + 1.0)) - 1.0
+    else:
+        rest = (1.0 - (upper - value) / width) ** (eta + 1.0)
+        step = 1.0 - (2.0 * (1.0 - u) + (2.0 * u - 1.0) * rest) ** (1.0 / (eta + 1.0))
+    return min(max(value + step * width, lower), upper)
 
 
 @njit(cache=True)

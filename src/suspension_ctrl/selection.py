@@ -36,25 +36,12 @@ def select_survivors(objectives: NDArray[np.float64], size: int) -> tuple[NDArra
     NSGA-II", IEEE Trans. Evol. Comput. 6(2), 2002.
     """
     objectives = np.ascontiguousarray(objectives, dtype=float)
-    listed, rank = first_fronts(objectives, size)
+    listed, ordered = presorted(objectives)
+    listed, rank = cut_ranks(listed, moocore.pareto_rank(ordered), size)
     index, crowding, order_decides = keep_least_crowded(objectives, rank, listed, size)
     if order_decides:
         index, crowding, _ = keep_least_crowded(objectives, rank, deap_order(objectives, rank), size)
     return index, crowding
-
-
-def first_fronts(objectives: NDArray[np.float64], size: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return who is in the first fronts that together have `size` individuals or more, and who is in which.
-
-    Returns
-    -------
-    listed : (k,) ndarray
-        The individuals by rising first objective.
-    rank : (n,) ndarray
-        Number of the front of each individual, from 0; -1 for those beyond.
-    """
-    listed, ordered = presorted(objectives)
-    return cut_ranks(listed, moocore.pareto_rank(ordered), size)
 
 
 @njit(cache=True)

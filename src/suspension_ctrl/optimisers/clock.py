@@ -1,6 +1,7 @@
 """Seconds by phase: every verb of a toolbox that is a phase of the algorithm gets a stopwatch."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
+from functools import partial
 from time import perf_counter
 from typing import Any
 
@@ -13,42 +14,41 @@ class PhaseClock:
     Parameters
     ----------
     toolbox : deap.base.Toolbox
-        Its verbs are decorated in place.
+        Its verbs are replaced by timed ones.
     phases : iterable of str
         The verbs to be timed.
     """
 
     def __init__(self, toolbox: Toolbox, phases: Iterable[str]) -> None:
         self.seconds = dict.fromkeys(phases, 0.0)
-        self._inner = 0.0
+        self.inner = 0.0  # of phases inside the one that runs
         for phase in self.seconds:
-            toolbox.decorate(phase, lambda function, phase=phase: Timed(function, self, phase))
-
-    def call(self, phase: str, function: Callable[..., Any], *args: Any, **settings: Any) -> Any:
-        """Call `function` and add the time it takes, less that of phases inside it, to `phase`."""
-        outer, self._inner = self._inner, 0.0
-        start = perf_counter()
-        try:
-            return function(*args, **settings)
-        finally:
-            elapsed = perf_counter() - start
-            self.seconds[phase] += elapsed - self._inner
-            self._inner = outer + elapsed
+            setattr(toolbox, phase, Timed(getattr(toolbox, phase), self, phase))
 
 
 class Timed:
-    """A verb's function with a stopwatch around it."""
+    """A verb with a stopwatch around it."""
 
-    def __init__(self, function: Callable[..., Any], clock: PhaseClock, phase: str) -> None:
-        self.function = function
+    __slots__ = ("_clock", "_phase", "verb")
+
+    def __init__(self, verb: partial[Any], clock: PhaseClock, phase: str) -> None:
+        self.verb = verb
         self._clock = clock
         self._phase = phase
 
     def __call__(self, *args: Any, **settings: Any) -> Any:
-        """Call the function, timed."""
-        return self._clock.call(self._phase, self.function, *args, **settings)
+        """Call the verb and add the time it takes, less that of phases inside it, to its phase."""
+        clock = self._clock
+        outer, clock.inner = clock.inner, 0.0
+        start = perf_counter()
+        try:
+            return self.verb(*args, **settings)
+        finally:
+            elapsed = perf_counter() - start
+            clock.seconds[self._phase] += elapsed - clock.inner
+            clock.inner = outer + elapsed
 
 
-def untimed(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the function inside a stopwatch, or the function itself where there is none."""
-    return function.function if isinstance(function, Timed) else function
+def untimed(verb: partial[Any] | Timed) -> partial[Any]:
+    """Return the verb inside a stopwatch, or the verb itself where there is none."""
+    return verb.verb if isinstance(verb, Timed) else verb

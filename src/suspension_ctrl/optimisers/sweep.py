@@ -62,7 +62,7 @@ def sweep_sequential(
     Runs compiled if every verb is compiled and the problem has a kernel; otherwise as plain Python with
     whatever the toolbox holds. The same draws are made either way.
     """
-    compiled = [compiled_verb(getattr(toolbox, name)) for name in VERBS]
+    compiled = [compiled_verb(untimed(getattr(toolbox, name))) for name in VERBS]
     compiled.append(compiled_evaluation(toolbox, problem))
     verbs = [verb for verb in compiled if verb is not None]
     function, names = work_on, problem.objectives
@@ -129,18 +129,17 @@ def work_on(
 
 def compiled_verb(verb: partial[Any]) -> Verb | None:
     """Return a toolbox verb's compiled function with its settings in order, None if it is not compiled."""
-    function = untimed(verb.func)
-    if verb.args or not isinstance(function, CPUDispatcher):
+    if verb.args or not isinstance(verb.func, CPUDispatcher):
         return None
-    code = function.py_func.__code__
+    code = verb.func.py_func.__code__
     trailing = code.co_varnames[code.co_argcount - len(verb.keywords) : code.co_argcount]
     if set(trailing) != set(verb.keywords):
         return None
-    return function, tuple(verb.keywords[name] for name in trailing)
+    return verb.func, tuple(verb.keywords[name] for name in trailing)
 
 
 def compiled_evaluation(toolbox: Toolbox, problem: Minimisable) -> Verb | None:
     """Return the problem's kernel, or None if it has none or the toolbox evaluates in another way."""
-    evaluate = toolbox.evaluate
-    own = untimed(evaluate.func) == problem.evaluate and not evaluate.args and not evaluate.keywords
+    evaluate = untimed(toolbox.evaluate)
+    own = evaluate.func == problem.evaluate and not evaluate.args and not evaluate.keywords
     return problem.kernel if own else None
