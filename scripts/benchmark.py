@@ -17,6 +17,7 @@ from benchmarking import evaluation, process, report, searches, summary
 from peers import OURS, Contenders, contenders
 from suspension_ctrl import environment, files, paper, terminal
 from suspension_ctrl.indicators import ReferenceFront
+from suspension_ctrl.references import grid_front
 
 SETTINGS: dict[str, Any] = {
     "nodes": 200,
@@ -93,9 +94,9 @@ def main(
 def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summary.Measurements:
     """Carry out all sections, each of which leaves its timings in `folder` as soon as it is done."""
     problem = paper.ride_problem(nodes=settings["nodes"])
-    reference = ReferenceFront.on_grid(problem, settings["grid"])
+    reference = ReferenceFront.of(grid_front(problem, settings["grid"]))
     scaled = searches.scaled_problem(problem, reference)
-    scaled_front = ReferenceFront(reference.scaled(reference.objectives))
+    scaled_front = reference.in_own_scale()
     both = {f"{name}, NSGA-II": search for name, search in field.nsga2.items()}
     both |= {f"{name}, MOEA/D": search for name, search in field.moead.items()}
     repeats, limit = settings["repeats"], settings["limit"]
@@ -125,7 +126,7 @@ def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summar
                 both,
                 scaled,
                 scaled_front,
-                settings["target_share"] * scaled_front.hypervolume(scaled_front.objectives),
+                settings["target_share"] * scaled_front.volume,
                 settings["target_populations"],
                 settings["target_repeats"],
                 settings["target_limit"],

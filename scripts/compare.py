@@ -1,31 +1,41 @@
 """The paper's experiment: NSGA-II against MOEA/D-DRA on Table 1's vehicle, Tables 2 to 4 and Figure 5.
 
 Prints the measured tables beside the published ones. Writes them, every run, every final front and Figure 5
-to a folder, whose path is the last line printed.
+to a folder, whose path is the last line printed. With `--quality` every algorithm is also judged over many
+seeds: at equal iterations, evaluations and time, with statistics and a verdict; those runs are never timed and
+can be spread over processes and machines. What was stopped goes on with the same `--out`.
 """
 
+from importlib.metadata import version
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import pandas as pd
+import typer
 from typer import Option
 
+from comparing import quality as judging
 from suspension_ctrl import (
     MoeadDra,
     RideProblem,
+    checks,
+    clusters,
     environment,
     experiments,
     figures,
     files,
     paper,
+    references,
     tables,
     terminal,
 )
-from suspension_ctrl.experiments import Results
-from suspension_ctrl.indicators import ReferenceFront
+from suspension_ctrl.experiments import PlannedRun
+from suspension_ctrl.stores import PLAN, FolderStore
 
 POPULATIONS, ITERATIONS = ",".join(map(str, paper.POPULATIONS)), ",".join(map(str, paper.ITERATIONS))
-GRID = 400  # values per variable of the reference front
+ALGORITHMS = "nsga2,moead-dra"
+SEEDS = 31
+QUICK_TOLERANCE = 1e-3
 SHORT = {
     "population": "N", "iterations": "iter.", "budget": "equal", "evaluations": "evals",
     "published_seconds": "publ. [s]", "seconds": "here [s]", "microseconds_per_evaluation": "µs/eval",
@@ -40,63 +50,113 @@ def main(
     populations: Annotated[str, Option(help="Population sizes.")] = POPULATIONS,
     iterations: Annotated[str, Option(help="Iterations after the start.")] = ITERATIONS,
     repeats: Annotated[
-        int, Option(parser=terminal.whole_number, help="Runs of each algorithm at each population and iterations.")
+        int, Option(parser=terminal.whole_number, help="Timed runs of each algorithm at each configuration.")
     ] = paper.REPEATS,
     algorithms: Annotated[
         str, Option(help=f"Of {', '.join(experiments.ALGORITHMS)}; the first is the baseline.")
-    ] = "nsga2,moead-dra",
+    ] = ALGORITHMS,
     weighting: Annotated[str, Option(help="ISO 2631 weighting of ACC: Wk, Wb, Wb-table, ...")] = "Wk",
     seed: Annotated[
-        int,
-        Option(
-            parser=terminal.whole_number,
-            help="Seed of the first repeat; the next has the next.",
-        ),
+        int, Option(parser=terminal.whole_number, help="Seed of the first repeat; the next has the next.")
     ] = 0,
-    out: Annotated[Path | None, Option(help="Folder for the results, absent or empty.")] = None,
+    out: Annotated[
+        Path | None, Option(help="Folder for the results: absent, empty, or of the same command, to go on.")
+    ] = None,
     quick: Annotated[
-        bool, Option("--quick", help="Short form: populations 60,100, iterations 5,10, two repeats.")
+        bool, Option("--quick", help="Short form: populations 60,100, iterations 5,10, two repeats, three seeds.")
     ] = False,
+    quality: Annotated[bool, Option("--quality", help="Judge quality over many seeds too.")] = False,
+    seeds: Annotated[
+        int, Option(parser=terminal.whole_number, help="Runs of each algorithm in --quality.")
+    ] = SEEDS,
+    target: Annotated[
+        float, Option(parser=terminal.number, help="Share of the reference hypervolume to be reached.")
+    ] = 0.995,
+    jobs: Annotated[
+        int | None, Option(parser=terminal.whole_number, help="Processes for the runs of --quality.")
+    ] = None,
+    scheduler: Annotated[str | None, Option(help="Dask scheduler for them: tcp://host:8786 or tls://...")] = None,
+    tls_ca_file: Annotated[str | None, Option(help="Certificate of the authority, for tls://.")] = None,
+    tls_cert: Annotated[str | None, Option(help="One's own certificate.")] = None,
+    tls_key: Annotated[str | None, Option(help="One's own key.")] = None,
 ) -> None:
-    """Compare NSGA-II and MOEA/D-DRA as the paper does: Tables 2, 3 and 4 and Figure 5."""
+    """Compare NSGA-II and MOEA/D-DRA as the paper does, and with --quality as a careful reader would."""
     if quick:
-        if (populations, iterations, repeats) != (POPULATIONS, ITERATIONS, paper.REPEATS):
+        if (populations, iterations, repeats, seeds) != (POPULATIONS, ITERATIONS, paper.REPEATS, SEEDS):
             raise ValueError(
-                "quick must stand without populations, iterations and repeats, got it with one of them"
+                "quick must stand without populations, iterations, repeats and seeds, got it with one of them"
             )
-        populations, iterations, repeats = "60,100", "5,10", 2
+        populations, iterations, repeats, seeds = "60,100", "5,10", 2, 3
     arguments = locals() | {"out": str(out) if out else None}
-    problem = paper.ride_problem(weighting=weighting)
+    workers = _workers(quality, jobs, scheduler, tls_ca_file, tls_cert, tls_key)
     sizes, counts = (
         terminal.whole_numbers("populations", populations),
         terminal.whole_numbers("iterations", iterations),
     )
-    runs = experiments.plan(problem, terminal.names(algorithms), sizes, counts, repeats, seed)
-    folder = files.results_folder(out)
+    checks.at_least("seeds", seeds, 1)
+    checks.within("target", target, 0, 1)
+    problem = paper.ride_problem(weighting=weighting)
+    names = terminal.names(algorithms)
+    runs = experiments.plan(problem, names, sizes, counts, repeats, seed)
+    folder = files.results_folder(out, resumed_by=f"timed/{PLAN}")
+    store = FolderStore(folder / "timed", _plan(arguments, "seed", "repeats"))
     with environment.single_thread():
         record = environment.describe(arguments)
         experiments.warm_up(problem, runs)
-        results = list(terminal.progress(experiments.carry_out(problem, runs), len(runs)))
-        reference = ReferenceFront.on_grid(problem, GRID)
-        table = experiments.tidy(results, reference)
+        for _ in terminal.progress(experiments.carry_out(problem, runs, store), len(runs)):
+            pass
+    reference = references.cached(problem, QUICK_TOLERANCE if quick else references.TOLERANCE)
+    timed = experiments.tidy(problem, runs, store, reference.front).assign(timing=True)
     files.write_json(folder / "environment.json", record)
-    files.write_csv(folder / "runs.csv", table)
-    write_tables(table, folder)
-    write_fronts(problem, results, folder / "fronts")
-    files.write_figure(
-        folder / "figure5", figures.final_populations(experiments.final_populations(problem, results))
-    )
-    terminal.console.print(
+    files.write_csv(folder / "runs.csv", timed)
+    write_tables(timed, folder)
+    write_fronts(problem, runs, store, folder / "fronts")
+    write_figure5(experiments.final_populations(runs, store), names, folder)
+    terminal.note(
         f"ACC is weighted with {weighting}. Hypervolume and IGD+ are medians over the repeats, against the "
-        f"non-dominated designs of a {GRID} x {GRID} grid (hypervolume "
-        f"{reference.hypervolume(reference.objectives):.4f})."
+        f"non-dominated designs of a {reference.points} x {reference.points} grid (hypervolume "
+        f"{reference.front.volume:.4f}, which half as many values change by {reference.change:.1e} and a second "
+        f"grid by {reference.second:.1e})."
     )
     if min(counts) <= MoeadDra.utility_period and "moead" in algorithms:
-        terminal.console.print(
+        terminal.note(
             f"In up to {MoeadDra.utility_period} iterations MOEA/D-DRA has not allocated resources yet: "
             f"its utilities first change after iteration {MoeadDra.utility_period}."
         )
+    raised = 0
+    if quality:
+        campaign = judging.Campaign(problem, names, sizes, counts, range(seed, seed + seeds), reference.front)
+        kept = FolderStore(folder / "quality", _plan(arguments, "seed", "seeds", "iterations"))
+        table = judging.carry_out(campaign, kept, workers)
+        files.write_csv(folder / "runs.csv", pd.concat([timed, judging.last_rows(table).assign(timing=False)]))
+        clock = experiments.seconds_by_evaluations(runs, store)
+        judging.report(campaign, table, kept, clock, target, folder)
+        raised = int(table.error.ne("").sum())
     print(folder)
+    if raised:
+        terminal.complain(f"{raised} runs raised: see the column error of {folder / 'runs.csv'}")
+        raise typer.Exit(1)
+
+
+def _workers(
+    quality: bool, jobs: int | None, scheduler: str | None, ca_file: str | None, cert: str | None, key: str | None
+) -> judging.Workers:
+    files_given = [value for value in (ca_file, cert, key) if value]
+    if files_given and (len(files_given) < 3 or not scheduler):
+        raise ValueError(
+            f"tls-ca-file, tls-cert and tls-key must stand together with scheduler, got {files_given}"
+        )
+    if not quality and (jobs is not None or scheduler):
+        raise ValueError(f"jobs and scheduler must stand with quality, got {scheduler or jobs!r} without it")
+    tls = clusters.Tls(ca_file=ca_file, cert=cert, key=key) if ca_file and cert and key else None
+    return judging.Workers(jobs, scheduler, tls)
+
+
+def _plan(arguments: dict[str, Any], *also: str) -> dict[str, Any]:
+    """Return what the results of a run depend on: these arguments, and the versions that compute it."""
+    kept = {name: arguments[name] for name in ("populations", "iterations", "weighting", "algorithms", *also)}
+    packages = ("suspension-ctrl", "control", "moocore", "numba", "numpy", "scipy")
+    return kept | {name: version(name) for name in packages}
 
 
 def write_tables(runs: pd.DataFrame, folder: Path) -> None:
@@ -104,11 +164,11 @@ def write_tables(runs: pd.DataFrame, folder: Path) -> None:
     for number, family in ((2, "nsga2"), (3, "moead-dra")):
         table = tables.seconds_by_repeat(runs, published, family)
         if not table.empty:
-            files.write_csv(folder / f"table{number}.csv", table)
+            files.write_table(folder / f"table{number}", table)
             for algorithm, part in table.groupby("algorithm", sort=False):
                 terminal.show(f"Table {number}: {algorithm}, seconds published / here", tables.as_printed(part))
     table = tables.comparison(runs, published)
-    files.write_csv(folder / "table4.csv", table)
+    files.write_table(folder / "table4", table)
     terminal.show(
         f"Table 4: % is the time of {runs.algorithm.iloc[0]} over the time of each",
         table.rename(columns=SHORT),
@@ -116,10 +176,18 @@ def write_tables(runs: pd.DataFrame, folder: Path) -> None:
     )
 
 
-def write_fronts(problem: RideProblem, results: Results, folder: Path) -> None:
-    folder.mkdir()
-    for planned, run in results:
-        files.write_csv(folder / f"{planned.name}.csv", experiments.front(problem, run))
+def write_figure5(populations: pd.DataFrame, algorithms: list[str], folder: Path) -> None:
+    """Draw the first algorithm beside the second, and in further figures beside each of the others."""
+    for number, other in enumerate(algorithms[1:] or algorithms):
+        shown = populations[populations.algorithm.isin([algorithms[0], other])]
+        stem = "figure5" if number == 0 else f"figure5_{other}"
+        files.write_figure(folder / stem, figures.final_populations(shown))
+
+
+def write_fronts(problem: RideProblem, runs: list[PlannedRun], store: FolderStore, folder: Path) -> None:
+    folder.mkdir(exist_ok=True)
+    for planned in runs:
+        files.write_csv(folder / f"{planned.name}.csv", experiments.front(problem, store[planned.name].final))
 
 
 if __name__ == "__main__":

@@ -17,13 +17,28 @@ SEARCH = {
     "deap_adapter",
     "optimisers",
     "indicators",
+    "traces",
 }
-MEETING = {"paper", "optimum", "experiments", "tables", "figures"}
+MEETING = {
+    "paper",
+    "optimum",
+    "references",
+    "stores",
+    "experiments",
+    "clusters",
+    "study",
+    "lenses",
+    "statistics",
+    "verdicts",
+    "tables",
+    "figures",
+    "comparison_figures",
+}
 ALLOWED = {
     **{room: {"checks"} for room in LIBRARY},
     **{room: PHYSICS | {"checks", "datafiles"} for room in PHYSICS},
     **{room: SEARCH | {"checks"} for room in SEARCH},
-    **{room: MEETING | PHYSICS | SEARCH | {"checks", "datafiles"} for room in MEETING},
+    **{room: MEETING | PHYSICS | SEARCH | {"checks", "datafiles", "files"} for room in MEETING},
 }
 
 

@@ -7,6 +7,7 @@ import pytest
 
 from suspension_ctrl import experiments, paper, tables
 from suspension_ctrl.indicators import ReferenceFront
+from suspension_ctrl.references import grid_front
 
 CONFIGURATION = {"populations": [20, 30], "iterations": [2, 4], "repeats": 2, "seed": 7}
 
@@ -22,13 +23,15 @@ def plan(problem):
 
 
 @pytest.fixture(scope="module")
-def results(problem, plan):
-    return list(experiments.carry_out(problem, plan))
+def store(problem, plan):
+    kept = {}
+    assert list(experiments.carry_out(problem, plan, kept)) == plan
+    return kept
 
 
 @pytest.fixture(scope="module")
-def runs(problem, results):
-    return experiments.tidy(results, ReferenceFront.on_grid(problem, 40))
+def runs(problem, plan, store):
+    return experiments.tidy(problem, plan, store, ReferenceFront.of(grid_front(problem, 40)))
 
 
 def test_plan_has_every_run_once_and_algorithms_take_turns(plan):
@@ -40,10 +43,9 @@ def test_plan_has_every_run_once_and_algorithms_take_turns(plan):
     assert {run.seed for run in plan if run.repeat == 2} == {8}
 
 
-def test_runs_spend_what_was_planned(plan, results):
-    for (planned, run), expected in zip(results, plan, strict=True):
-        assert planned is expected
-        assert run.evaluations == planned.evaluations
+def test_runs_spend_what_was_planned(plan, store):
+    for planned in plan:
+        assert store[planned.name].course.evaluations.iloc[-1] == planned.evaluations
     equal = [p.evaluations for p in plan if p.population == 30 and p.iterations == 4 and p.budget == "evaluations"]
     assert equal == [150, 150]
 
@@ -59,6 +61,22 @@ def test_tidy_table_has_a_row_per_run(runs, plan):
     assert nsga2.sweep_seconds.isna().all()
     phases = [name for name in runs.columns if name.endswith("_seconds") and name != "cpu_seconds"]
     assert (runs[phases].sum(axis=1) <= runs.seconds).all()
+
+
+def test_runs_that_are_stored_are_not_made_again(problem, plan, store):
+    some = {planned.name: store[planned.name] for planned in plan[3:]}
+    assert list(experiments.carry_out(problem, plan, some)) == plan
+    assert all(some[planned.name] is store[planned.name] for planned in plan[3:])
+    for planned in plan[:3]:
+        np.testing.assert_array_equal(some[planned.name].final, store[planned.name].final)
+
+
+def test_clock_is_the_median_of_the_longest_runs(plan, store):
+    clock = experiments.seconds_by_evaluations(plan, store).set_index(["algorithm", "population", "evaluations"])
+    longest = [store[p.name].course for p in plan if p.algorithm == "moead-dra" and p.evaluations == 150]
+    assert len(longest) == 2
+    times = [course[course.evaluations == 90].seconds.item() for course in longest]
+    assert clock.seconds["moead-dra", 30, 90] == np.median(times)
 
 
 def test_tables_2_and_3_put_published_beside_measured(runs):
@@ -126,7 +144,7 @@ experiments.warm_up(problem, plan)
 modules = (checks, decomposition, operators, selection, sorting)
 functions = {name: f for module in modules for name, f in vars(module).items() if hasattr(f, "signatures")}
 before = {name: list(f.signatures) for name, f in functions.items()}
-list(experiments.carry_out(problem, plan))
+list(experiments.carry_out(problem, plan, {}))
 ties = np.array([[0.0, 1.0, 2.0], [0.0, 2.0, 1.0], [1.0, 2.0, 3.0], [2.0, 3.0, 4.0]])
 selection.select_survivors(ties, 3)
 print([name for name, f in functions.items() if list(f.signatures) != before[name]])
@@ -145,11 +163,11 @@ def test_equal_evaluations_are_whole_iterations(problem):
     assert [run.evaluations for run in runs] == [1133, 303, 1123]
 
 
-def test_fronts_are_non_dominated_and_named_with_units(problem, results):
-    frame = experiments.front(problem, results[0][1])
+def test_fronts_are_non_dominated_and_named_with_units(problem, plan, store):
+    frame = experiments.front(problem, store[plan[0].name].final)
     assert list(frame.columns) == ["spring [N/m]", "damper [N s/m]", "ACC [m/s^2]", "SWS [m]", "DTL [N]"]
     np.testing.assert_array_equal(problem.evaluate(frame.iloc[:, :2]), frame.iloc[:, 2:])
-    populations = experiments.final_populations(problem, results)
+    populations = experiments.final_populations(plan, store)
     assert set(populations.algorithm) == {"nsga2", "moead-dra"}
     assert len(populations) == 2 * (20 + 20 + 30 + 30)
 
@@ -164,7 +182,8 @@ def test_raw_moead_takes_the_papers_units():
     [
         (
             {"algorithms": ["nsga3"]},
-            "algorithms must be one of nsga2, nsga2-standard-sort, moead-dra, moead-dra-raw",
+            "algorithms must be one of nsga2, nsga2-standard-sort, nsga2-gamultiobj, moead-dra, moead-dra-raw, "
+            "random, sobol",
         ),
         ({"populations": [3]}, "population must be a whole number >= 4, got 3"),
         ({"iterations": [0]}, "iterations must be a whole number >= 1, got 0"),

@@ -22,6 +22,17 @@ def test_program_prints_what_the_readme_says(checkout: Path, tmp_path):
     assert int(printed[1].split()[0]) > 0
 
 
+def test_example_of_a_study_runs(checkout: Path, tmp_path):
+    (program,) = blocks((checkout / "docs" / "comparison.md").read_text(), "python")
+    assert len([line for line in program.splitlines() if line]) <= 25
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, cwd=tmp_path, check=True
+    )
+    rows = done.stdout.splitlines()
+    assert rows[0].split() == ["algorithm", "nsga2", "moead-dra"]
+    assert len(rows) == 2 + 2 * 2
+
+
 def test_named_files_and_targets_exist(checkout: Path):
     readme, makefile = (checkout / "README.md").read_text(), (checkout / "Makefile").read_text()
     for name in re.findall(r"\]\(([^)]+)\)|`(scripts/\w+\.py)`", readme):

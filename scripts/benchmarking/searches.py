@@ -131,8 +131,7 @@ def scaled_kernel(
 
 def scaled_problem(problem: RideProblem, reference: ReferenceFront) -> Problem:
     """Return the problem with the reference front between 0 and 1: not every MOEA/D normalises objectives."""
-    ideal, nadir = reference.objectives.min(axis=0), reference.objectives.max(axis=0)
-    span = nadir - ideal
+    ideal, span = reference.ideal, reference.nadir - reference.ideal
     _, settings = problem.kernel
     return Problem(
         evaluate=lambda designs: scaled(problem.evaluate(designs), ideal, span),

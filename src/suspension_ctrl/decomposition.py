@@ -40,24 +40,23 @@ def weight_vectors(size: int, objectives: int) -> NDArray[np.float64]:
     """
     rng = np.random.default_rng(_SAMPLE_SEED)
     candidates = rng.dirichlet(np.ones(objectives), max(5000, 5 * size))
-    weights = farthest_first(np.eye(objectives), candidates, size)
+    points = np.concatenate([np.eye(objectives), candidates])
+    weights = points[farthest_first(points, np.arange(objectives), size)]
     weights.flags.writeable = False
     return weights
 
 
 @njit(cache=True)
-def farthest_first(start: NDArray[np.float64], candidates: NDArray[np.float64], size: int) -> NDArray[np.float64]:
-    """Return `size` points: those of `start`, then each time the candidate whose nearest one is farthest."""
-    chosen = np.empty((size, start.shape[1]))
-    chosen[: start.shape[0]] = start
-    nearest = np.full(candidates.shape[0], np.inf)
+def farthest_first(points: NDArray[np.float64], start: NDArray[np.int64], size: int) -> NDArray[np.int64]:
+    """Return which `size` of the points (n, m): those in `start`, then again and again the farthest."""
+    chosen = np.empty(size, dtype=np.int64)
+    nearest = np.full(points.shape[0], np.inf)
     for i in range(size):
-        if i >= start.shape[0]:
-            chosen[i] = candidates[np.argmax(nearest)]
-        for c in range(candidates.shape[0]):
+        chosen[i] = start[i] if i < start.size else np.argmax(nearest)
+        for c in range(points.shape[0]):
             distance = 0.0
-            for j in range(candidates.shape[1]):
-                distance += (candidates[c, j] - chosen[i, j]) ** 2
+            for j in range(points.shape[1]):
+                distance += (points[c, j] - points[chosen[i], j]) ** 2
             nearest[c] = min(nearest[c], distance)
     return chosen
 

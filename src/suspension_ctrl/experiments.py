@@ -1,25 +1,30 @@
-"""The comparison of the algorithms: a plan of runs, carried out one at a time, as a tidy table."""
+"""The timed comparison of the algorithms: a plan of runs, carried out one at a time, as a tidy table."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from . import checks
-from .indicators import ReferenceFront, non_dominated
-from .optimisers import MoeadDra, Nsga2, Run, minimise
+from .indicators import ReferenceFront, evenly_spread, non_dominated
+from .optimisers import Gamultiobj, MoeadDra, Nsga2, Run, Sampling, minimise
 from .optimisers.minimise import Optimiser
 from .problems import Described, Minimisable, column_headers
 from .selection import deap_order
+from .stores import Record
 
 ALGORITHMS: dict[str, Callable[..., Optimiser]] = {
     "nsga2": Nsga2,
     "nsga2-standard-sort": partial(Nsga2, selection="deap-standard"),
+    "nsga2-gamultiobj": Gamultiobj,
     "moead-dra": MoeadDra,
     "moead-dra-raw": partial(MoeadDra, normalise=False, objective_scales=(1.0, 1.0, 1e3)),
+    "random": partial(Sampling, points="random"),
+    "sobol": partial(Sampling, points="sobol"),
 }
 """Optimisers by name. Raw MOEA/D-DRA takes equation (14) to the letter, in the paper's units (DTL in kN)."""
 
@@ -63,9 +68,6 @@ class PlannedRun:
     def optimiser(self) -> Optimiser:
         """The algorithm with its settings."""
         return optimiser(self.algorithm, self.population)
-
-
-Results = Sequence[tuple[PlannedRun, Run]]
 
 
 def optimiser(algorithm: str, population: int) -> Optimiser:
@@ -125,59 +127,89 @@ def warm_up(problem: Minimisable, runs: Sequence[PlannedRun]) -> None:
     deap_order(np.array([[0.0, 0.0], [1.0, 1.0]]), np.array([0, 1]))  # else compiled at the first tie
 
 
-def carry_out(problem: Minimisable, runs: Sequence[PlannedRun]) -> Iterator[tuple[PlannedRun, Run]]:
-    """Make the runs one after the other, handing out each when it is done."""
-    for run in runs:
-        yield run, minimise(problem, run.optimiser, evaluations=run.evaluations, seed=run.seed)
+def carry_out(
+    problem: Described, runs: Sequence[PlannedRun], store: MutableMapping[str, Record]
+) -> Iterator[PlannedRun]:
+    """Make the runs that `store` does not hold one after the other, handing out each when it is in the store."""
+    for planned in runs:
+        if planned.name not in store:
+            run = minimise(problem, planned.optimiser, evaluations=planned.evaluations, seed=planned.seed)
+            store[planned.name] = Record(run.history, population(problem, run, planned.population))
+        yield planned
 
 
-def tidy(results: Results, reference: ReferenceFront) -> pd.DataFrame:
+def population(problem: Described, run: Run, size: int) -> pd.DataFrame:
+    """Return the final designs of a run with their objectives, units in the column names.
+
+    Of a sample, which keeps all it has found, `size` designs are taken, spread evenly over its front.
+    """
+    names = column_headers([*problem.variables, *problem.objectives], problem.units)
+    kept = evenly_spread(run.objectives, size)
+    return pd.DataFrame(np.hstack([run.designs[kept], run.objectives[kept]]), columns=names)
+
+
+def front(problem: Described, final: pd.DataFrame) -> pd.DataFrame:
+    """Return the non-dominated rows of a final population."""
+    return final[non_dominated(objectives_of(problem, final))]
+
+
+def objectives_of(problem: Described, final: pd.DataFrame) -> NDArray[np.float64]:
+    """Return the objectives (n, m) in a table of a final population."""
+    return final[column_headers(problem.objectives, problem.units)].to_numpy()
+
+
+def tidy(
+    problem: Described, runs: Sequence[PlannedRun], store: Mapping[str, Record], reference: ReferenceFront
+) -> pd.DataFrame:
     """Return one row per run.
 
     Columns: algorithm, population, iterations, budget, repeat, seed, evaluations, seconds, cpu_seconds,
     ``<phase>_seconds`` for each phase of its algorithm (see `Run`), hypervolume and igd_plus of its final
     population.
     """
-    return pd.DataFrame([_row(planned, run, reference) for planned, run in results])
+    return pd.DataFrame([_row(problem, planned, store[planned.name], reference) for planned in runs])
 
 
-def _row(planned: PlannedRun, run: Run, reference: ReferenceFront) -> dict[str, Any]:
-    last = run.history.iloc[-1]
-    phases = {name: last[name] for name in run.history.columns if name.endswith("_seconds")}
+def _row(problem: Described, planned: PlannedRun, record: Record, reference: ReferenceFront) -> dict[str, Any]:
+    last = record.course.iloc[-1]
+    objectives = objectives_of(problem, record.final)
     return {
-        "algorithm": planned.algorithm,
-        "population": planned.population,
-        "iterations": planned.iterations,
-        "budget": planned.budget,
-        "repeat": planned.repeat,
-        "seed": run.seed,
-        "evaluations": run.evaluations,
-        "seconds": run.seconds,
-        "cpu_seconds": run.cpu_seconds,
-        **phases,
-        "hypervolume": reference.hypervolume(run.objectives),
-        "igd_plus": reference.igd_plus(run.objectives),
+        **{key: getattr(planned, key) for key in _KEYS},
+        "evaluations": int(last.evaluations),
+        **{name: last[name] for name in record.course.columns if name.endswith("seconds")},
+        "hypervolume": reference.hypervolume(objectives),
+        "igd_plus": reference.igd_plus(objectives),
     }
 
 
-def front(problem: Described, run: Run) -> pd.DataFrame:
-    """Return the non-dominated designs of a run with their objectives, units in the column names."""
-    return _population(problem, run)[non_dominated(run.objectives)]
+_KEYS = ("algorithm", "population", "iterations", "budget", "repeat", "seed")
 
 
-def final_populations(problem: Described, results: Results) -> pd.DataFrame:
+def final_populations(runs: Sequence[PlannedRun], store: Mapping[str, Record]) -> pd.DataFrame:
     """Return the final populations of the first repeat at equal iterations, stacked, as Figure 5 shows them.
 
     Columns: algorithm, population, iterations, then variables and objectives with their units.
     """
-    shown = [(p, run) for p, run in results if p.repeat == 1 and p.budget == EQUAL_ITERATIONS]
-    keys = ["algorithm", "population", "iterations"]
+    shown = [planned for planned in runs if planned.repeat == 1 and planned.budget == EQUAL_ITERATIONS]
     return pd.concat(
-        [_population(problem, run).assign(**{key: getattr(p, key) for key in keys}) for p, run in shown],
+        [store[p.name].final.assign(**{key: getattr(p, key) for key in _KEYS[:3]}) for p in shown],
         ignore_index=True,
     )
 
 
-def _population(problem: Described, run: Run) -> pd.DataFrame:
-    names = column_headers([*problem.variables, *problem.objectives], problem.units)
-    return pd.DataFrame(np.hstack([run.designs, run.objectives]), columns=names)
+def seconds_by_evaluations(runs: Sequence[PlannedRun], store: Mapping[str, Record]) -> pd.DataFrame:
+    """Return the median time that each algorithm took to each number of evaluations, from its longest runs.
+
+    Columns: algorithm, population, evaluations, seconds.
+    """
+    longest: dict[tuple[str, int], int] = {}
+    for p in runs:
+        key = p.algorithm, p.population
+        longest[key] = max(p.evaluations, longest.get(key, 0))
+    histories = [
+        store[p.name].course[["evaluations", "seconds"]].assign(algorithm=p.algorithm, population=p.population)
+        for p in runs
+        if p.evaluations == longest[p.algorithm, p.population]
+    ]
+    by = ["algorithm", "population", "evaluations"]
+    return pd.concat(histories).groupby(by, sort=False).seconds.median().reset_index()

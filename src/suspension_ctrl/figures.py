@@ -49,15 +49,15 @@ def final_populations(populations: pd.DataFrame) -> Figure:
 
 
 def final_population_panel(acc: Axes, dtl: Axes, populations: pd.DataFrame) -> None:
-    """Draw the populations of one configuration, a marker per algorithm: ACC and DTL over SWS."""
+    """Draw the populations of one configuration by one or two algorithms: ACC and DTL over SWS."""
     # Rings first, then small marks over them, so that neither population hides the other.
     marks: list[dict[str, Any]] = [
         {"marker": "o", "s": 22, "facecolors": "none", "linewidths": 0.5},
         {"marker": "o", "s": 4, "linewidths": 0},
-        {"marker": "x", "s": 12, "linewidths": 0.6},
-        {"marker": "+", "s": 16, "linewidths": 0.6},
     ]
-    groups = populations.groupby("algorithm", sort=False)
+    groups = list(populations.groupby("algorithm", sort=False))
+    if len(groups) > len(marks):
+        raise ValueError(f"populations must be of one or two algorithms, got {[name for name, _ in groups]}")
     for colour, mark, (algorithm, part) in zip(COLOURS, marks, groups, strict=False):
         style: dict[str, Any] = {"edgecolors": colour} if "facecolors" in mark else {"color": colour}
         for ax, objective, scale in ((acc, "ACC [m/s^2]", 1.0), (dtl, "DTL [N]", 1e-3)):

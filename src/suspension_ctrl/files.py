@@ -15,13 +15,15 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def results_folder(out: Path | None) -> Path:
+def results_folder(out: Path | None, resumed_by: str | None = None) -> Path:
     """Make and return the folder for the results of one command.
 
     Parameters
     ----------
     out : Path, optional
         Folder that is absent or empty; if not given, a new one ``results/<date-time>``.
+    resumed_by : str, optional
+        A file: a folder that holds it may hold more, as what is there is gone on with.
 
     Raises
     ------
@@ -33,7 +35,7 @@ def results_folder(out: Path | None) -> Path:
         if out is None:
             folder = _made_new(folder)
         folder.mkdir(parents=True, exist_ok=True)
-        if any(folder.iterdir()):
+        if any(folder.iterdir()) and not (resumed_by and (folder / resumed_by).exists()):
             raise ValueError(
                 f"out must be a folder that is absent or empty, got {str(folder)!r}, which is not empty"
             )
@@ -75,9 +77,23 @@ def write_csv(path: Path, frame: "pd.DataFrame") -> None:
     write_whole(path, lambda temporary: frame.to_csv(temporary, index=False))
 
 
+def write_table(stem: Path, frame: "pd.DataFrame") -> None:
+    """Write a table as CSV in full, and as Markdown and LaTeX (booktabs) with six digits."""
+    write_csv(stem.with_suffix(".csv"), frame)
+    shown = frame.map(lambda value: f"{value:.6g}" if isinstance(value, float) else value)
+    write_text(stem.with_suffix(".md"), shown.to_markdown(index=False, disable_numparse=True) + "\n")
+    latex = shown.style.hide(axis="index").format(escape="latex").format_index(escape="latex", axis="columns")
+    write_text(stem.with_suffix(".tex"), latex.to_latex(hrules=True))
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a text file."""
+    write_whole(path, lambda temporary: temporary.write_text(text))
+
+
 def write_json(path: Path, content: dict[str, Any]) -> None:
     """Write a JSON file, indented."""
-    write_whole(path, lambda temporary: temporary.write_text(json.dumps(content, indent=2) + "\n"))
+    write_text(path, json.dumps(content, indent=2) + "\n")
 
 
 def write_figure(stem: Path, figure: "Figure") -> None:

@@ -1,18 +1,36 @@
 """Quality of a set of objectives against a reference front, by moocore, in objectives scaled to that front."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import moocore
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.spatial import cKDTree
 
-from . import checks
-from .problems import Minimisable
+from .decomposition import farthest_first
 
 
 def non_dominated(objectives: ArrayLike) -> NDArray[np.bool_]:
     """Return which of the objectives (n, m), all to be minimised, no other one dominates; shape (n,)."""
     return moocore.is_nondominated(objectives, keep_weakly=True)
+
+
+def evenly_spread(objectives: NDArray[np.float64], size: int) -> NDArray[np.int64]:
+    """Return which `size` of the objectives (n, m) to keep so that they cover the set evenly, in ascending order.
+
+    The ones with the least of each objective, then each time the one farthest from all kept, each objective
+    divided by its range in the set; all of them where n is no more than `size`.
+
+    References
+    ----------
+    H. K. Singh, K. S. Bhattacharjee, T. Ray, "Distance-based subset selection for benchmarking in evolutionary
+    multi/many-objective optimization", IEEE Trans. Evol. Comput. 23(5), 2019.
+    """
+    if len(objectives) <= size:
+        return np.arange(len(objectives))
+    span = np.ptp(objectives, axis=0)
+    ends = np.unique(objectives.argmin(axis=0))[:size]
+    return np.sort(farthest_first(objectives / np.where(span > 0, span, 1.0), ends, size))
 
 
 @dataclass(frozen=True)
@@ -22,32 +40,78 @@ class ReferenceFront:
     Parameters
     ----------
     objectives : (n, m) ndarray
-        Mutually non-dominated objectives.
+        Points of the front to which distances are taken: all of a small one, of a fine one as many as
+        `SAMPLE`, spread as evenly as can be.
+    ideal, nadir : (m,) ndarray
+        Least and largest of each objective on the whole front.
+    volume : float
+        Hypervolume of the whole front in scaled objectives [-].
     """
 
     objectives: NDArray[np.float64]
+    ideal: NDArray[np.float64]
+    nadir: NDArray[np.float64]
+    volume: float
 
     HYPERVOLUME_REFERENCE = 1.1
     """Corner of the hypervolume in every scaled objective: a tenth beyond the nadir, so that ends count."""
 
+    SAMPLE = 2000
+    """Points of a fine front to which distances are taken."""
+
     @classmethod
-    def on_grid(cls, problem: Minimisable, points: int) -> "ReferenceFront":
-        """Return the non-dominated designs of a regular grid with `points` values in each variable."""
-        checks.at_least("points", points, 2)
-        axes = [np.linspace(a, b, points) for a, b in zip(problem.lower, problem.upper, strict=True)]
-        grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(axes))
-        objectives = problem.evaluate(grid)
-        return cls(objectives[non_dominated(objectives)])
+    def of(cls, objectives: NDArray[np.float64]) -> "ReferenceFront":
+        """Return the front of mutually non-dominated objectives (n, m)."""
+        ideal, nadir = objectives.min(axis=0), objectives.max(axis=0)
+        whole = cls(objectives, ideal, nadir, 0.0)
+        volume = whole.hypervolume(objectives)
+        if len(objectives) <= cls.SAMPLE:
+            return replace(whole, volume=volume)
+        return cls(objectives[evenly_spread(objectives, cls.SAMPLE)], ideal, nadir, volume)
+
+    def in_own_scale(self) -> "ReferenceFront":
+        """Return this front with its objectives scaled to it."""
+        return replace(
+            self, objectives=self.scaled(self.objectives), ideal=0 * self.ideal, nadir=0 * self.nadir + 1
+        )
 
     def scaled(self, objectives: ArrayLike) -> NDArray[np.float64]:
         """Return objectives (n, m) with this front's ideal point at 0 and its nadir at 1."""
-        ideal, nadir = self.objectives.min(axis=0), self.objectives.max(axis=0)
-        return (np.asarray(objectives, dtype=float) - ideal) / (nadir - ideal)
+        return (np.asarray(objectives, dtype=float) - self.ideal) / (self.nadir - self.ideal)
 
     def hypervolume(self, objectives: ArrayLike) -> float:
         """Return the volume that objectives (n, m) dominate below 1.1 in scaled objectives [-]."""
         return float(moocore.hypervolume(self.scaled(objectives), ref=self.HYPERVOLUME_REFERENCE))
 
+    def relative_hypervolume(self, objectives: ArrayLike) -> float:
+        """Return the hypervolume of objectives (n, m) over that of this front [-]."""
+        return self.hypervolume(objectives) / self.volume
+
     def igd_plus(self, objectives: ArrayLike) -> float:
         """Return the modified inverted generational distance IGD+ of objectives (n, m) in scaled ones [-]."""
         return float(moocore.igd_plus(self.scaled(objectives), ref=self.scaled(self.objectives)))
+
+    def epsilon(self, objectives: ArrayLike) -> float:
+        """Return the least shift by which objectives (n, m) weakly dominate this front, in scaled ones [-]."""
+        return float(moocore.epsilon_additive(self.scaled(objectives), ref=self.scaled(self.objectives)))
+
+    def spread(self, objectives: ArrayLike) -> float:
+        """Return the generalised spread of objectives (n, m) in scaled ones [-]; NaN of one point.
+
+        It is 0 where nearest neighbours are equally far apart throughout and the ends, which have the least of
+        an objective on this front, belong to the set.
+
+        References
+        ----------
+        A. Zhou, Y. Jin, Q. Zhang, B. Sendhoff, E. Tsang, "Combining model-based and genetics-based offspring
+        generation for multi-objective optimization using a convergence criterion", IEEE CEC 2006.
+        """
+        points = np.unique(self.scaled(objectives), axis=0)
+        if len(points) < 2:
+            return float("nan")
+        tree = cKDTree(points)
+        distances, _ = tree.query(points, k=[2])  # the nearest is the point itself
+        gaps = np.ravel(distances)
+        to_ends, _ = tree.query(self.scaled(self.objectives[self.objectives.argmin(axis=0)]))
+        ends = np.sum(to_ends)
+        return float((ends + np.abs(gaps - gaps.mean()).sum()) / (ends + gaps.sum()))

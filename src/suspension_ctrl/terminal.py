@@ -40,8 +40,13 @@ def run_script(main: Callable[..., None]) -> None:
 
 
 def _fail(message: str, status: int) -> None:
-    _stderr.print(f"error: {' '.join(message.split())}", markup=False, highlight=False, emoji=False)
+    complain(message)
     sys.exit(status)
+
+
+def complain(message: str) -> None:
+    """Print one line on standard error."""
+    _stderr.print(f"error: {' '.join(message.split())}", markup=False, highlight=False, emoji=False)
 
 
 def whole_number(text: str) -> int:
@@ -92,6 +97,11 @@ def progress(items: Iterable[T], total: int) -> Iterator[T]:
         for item in items:
             bar.update(task, advance=1, refresh=True)
             yield item
+
+
+def note(text: str) -> None:
+    """Print a paragraph as it is."""
+    console.print(text, markup=False, highlight=False, emoji=False)
 
 
 def show(title: str, table: pd.DataFrame, digits: dict[str, int] | None = None) -> None:

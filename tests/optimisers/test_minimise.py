@@ -11,6 +11,7 @@ import pytest
 
 from benchmarks import dtlz2, zdt1
 from suspension_ctrl import MoeadDra, Nsga2, Problem, minimise, paper
+from suspension_ctrl.optimisers import Gamultiobj, Sampling
 
 OPTIMISERS = {
     "nsga2": Nsga2(population=40),
@@ -20,6 +21,9 @@ OPTIMISERS = {
     "moead-dra": MoeadDra(population=40, utility_period=3),
     "moead-dra-raw": MoeadDra(population=40, normalise=False, objective_scales=(1.0, 1.0, 1e3)),
     "moead-dra-batch": MoeadDra(population=40, update="batch"),
+    "nsga2-gamultiobj": Gamultiobj(population=40),
+    "random": Sampling(population=40, points="random"),
+    "sobol": Sampling(population=40),
 }
 
 every_optimiser = pytest.mark.parametrize("optimiser", OPTIMISERS.values(), ids=OPTIMISERS.keys())
@@ -72,6 +76,7 @@ def test_same_seed_same_arrays(optimiser):
 PROGRAM = """
 import json, sys
 from suspension_ctrl import MoeadDra, Nsga2, minimise, paper
+from suspension_ctrl.optimisers import Gamultiobj, Sampling
 runs = [minimise(paper.ride_problem(), eval(text), iterations=6, seed=3) for text in json.loads(sys.argv[1])]
 print(json.dumps([[run.designs.tolist(), run.objectives.tolist()] for run in runs]))
 """
@@ -95,10 +100,11 @@ def test_results_are_in_the_box_and_evaluated(optimiser):
 
 
 @every_optimiser
-def test_history_has_a_row_per_iteration(optimiser):
+def test_history_has_a_row_for_the_start_and_one_per_iteration(optimiser):
     run = minimise(dtlz2(5), optimiser, iterations=4, seed=0)
     history = run.history
-    assert history.iteration.tolist() == [1, 2, 3, 4]
+    assert history.iteration.tolist() == [0, 1, 2, 3, 4]
+    assert history.evaluations.iloc[0] == optimiser.population
     assert history.evaluations.iloc[-1] == run.evaluations
     assert history.evaluations.diff().iloc[1:].eq(optimiser.evaluations_per_iteration(3)).all()
     assert history.seconds.is_monotonic_increasing

@@ -82,7 +82,7 @@ def test_time_to_target_is_that_of_the_shortest_run_that_gets_there(monkeypatch)
     """Hypervolume of one point (x, x) below 1.1 is (1.1 - x)^2: generation 4 is the first below 0.1."""
     times = iter(np.arange(1.0, 1000.0))
     monkeypatch.setattr(searches, "timed", lambda run, calls=1: timing.Timing(next(times), 0.0, run()))
-    reference = ReferenceFront(np.array([[0.0, 1.0], [1.0, 0.0]]))
+    reference = ReferenceFront.of(np.array([[0.0, 1.0], [1.0, 0.0]]))
 
     def prepare(task):
         x = 0.5 - 0.1 * task.generations - 0.01

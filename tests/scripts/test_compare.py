@@ -28,9 +28,12 @@ def test_prints_tables_and_last_the_folder(quick):
 def test_writes_everything(quick):
     out, _ = quick
     names = {path.name for path in out.iterdir()}
-    tables = {"runs.csv", "table2.csv", "table3.csv", "table4.csv"}
-    assert names == tables | {"environment.json", "figure5.png", "figure5.pdf", "fronts"}
+    tables = {f"table{n}{ending}" for n in (2, 3, 4) for ending in (".csv", ".md", ".tex")}
+    others = ("", "_moead-dra", "_moead-dra-raw")  # the first algorithm beside each of the others
+    pictures = {f"figure5{other}.{ending}" for other in others for ending in ("png", "pdf")}
+    assert names == tables | pictures | {"runs.csv", "environment.json", "fronts", "timed"}
     runs = pd.read_csv(out / "runs.csv")
+    assert runs.timing.all()
     assert len(list((out / "fronts").iterdir())) == len(runs) == 2 * 2 * 2 * (4 + 2)
     record = json.loads((out / "environment.json").read_text())
     assert record["arguments"]["seed"] == 5
@@ -59,10 +62,7 @@ def test_figure_is_a_picture_of_its_size(quick):
 
 def test_same_seed_same_results_but_for_the_times(quick, script, tmp_path):
     out, _ = quick
-    again = script(
-        "compare", "--populations", "60,100", "--iterations", "5,10", "--repeats", 2, "--seed", 5,
-        "--weighting", "Wb", "--out", tmp_path / "again",
-    )  # fmt: skip
+    again = script("compare", "--quick", "--seed", 5, "--weighting", "Wb", "--out", tmp_path / "again")
     assert again.returncode == 0, again.stderr
     quality = [
         "algorithm",
@@ -80,7 +80,7 @@ def test_same_seed_same_results_but_for_the_times(quick, script, tmp_path):
 
 
 def test_default_folder_is_new_and_below_results(script, tmp_path):
-    done = script("compare", "--populations", "20", "--iterations", "1", "--repeats", "1", cwd=tmp_path)
+    done = script("compare", "--quick", "--algorithms", "nsga2", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     folder = tmp_path / done.stdout.splitlines()[-1]
     assert folder.parent == tmp_path / "results"
@@ -94,13 +94,20 @@ def test_default_folder_is_new_and_below_results(script, tmp_path):
         (["--populations", "12"], "population must be >= 15 for 3 objectives"),
         (["--populations", "500,x"], "populations must be whole numbers separated by commas, got '500,x'"),
         (["--iterations", "0"], "iterations must be a whole number >= 1, got 0"),
-        (["--quick", "--repeats", "3"], "quick must stand without populations, iterations and repeats"),
+        (["--quick", "--repeats", "3"], "quick must stand without populations, iterations, repeats and seeds"),
         (["--repeats", "0"], "repeats must be a whole number >= 1, got 0"),
         (["--repeats", "two"], "Invalid value for '--repeats': must be a whole number, got 'two'"),
         (["--algorithms", "nsga3"], "algorithms must be one of nsga2, "),
         (["--weighting", "Wz"], "weighting must be one of Wk, "),
         (["--seed", "-1"], "seed must be a whole number >= 0, got -1"),
         (["--speed", "3"], "--speed"),
+        (["--jobs", "2"], "jobs and scheduler must stand with quality, got 2 without it"),
+        (["--quality", "--jobs", "0"], "jobs must be a whole number >= 1, got 0"),
+        (["--quality", "--jobs", "2", "--scheduler", "tcp://h:1"], "jobs must stand without scheduler, got 2 and"),
+        (["--quality", "--tls-key", "k"], "tls-ca-file, tls-cert and tls-key must stand together with scheduler"),
+        (["--quality", "--seeds", "0"], "seeds must be a whole number >= 1, got 0"),
+        (["--quality", "--target", "1.5"], "target must be a number from 0 to 1, got 1.5"),
+        (["--quick", "--seeds", "5"], "quick must stand without populations, iterations, repeats and seeds"),
         (["--out", "/proc/results"], "out must be a folder that can be written, got '/proc/results'"),
         (["--out", "."], "out must be a folder that is absent or empty, got '.', which is not empty"),
     ],

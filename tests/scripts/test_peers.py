@@ -10,6 +10,7 @@ import peers
 from benchmarking import searches
 from suspension_ctrl import MoeadDra, Nsga2, minimise, paper
 from suspension_ctrl.indicators import ReferenceFront
+from suspension_ctrl.references import grid_front
 
 # Other libraries warn of what they are going to change; that is theirs to mend.
 pytestmark = pytest.mark.filterwarnings("ignore")
@@ -31,7 +32,7 @@ def field():
 
 @pytest.fixture(scope="module")
 def reference(problem):
-    return ReferenceFront.on_grid(problem, 100)
+    return ReferenceFront.of(grid_front(problem, 100))
 
 
 def test_all_are_found_or_absent_with_a_reason(field):
@@ -65,7 +66,7 @@ def test_nsga2_of_every_library(field, problem, reference):
 
 def test_moead_of_every_library(field, problem, reference):
     scaled = searches.scaled_problem(problem, reference)
-    front = ReferenceFront(reference.scaled(reference.objectives))
+    front = reference.in_own_scale()
     task = peers.Task(scaled, 100, 10, 2)
     for name, prepare in field.moead.items():
         assert 0.9 * task.evaluations <= searches.evaluations(prepare, task) <= task.evaluations, name

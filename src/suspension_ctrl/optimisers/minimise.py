@@ -71,9 +71,9 @@ class Run:
 
     @cached_property
     def history(self) -> "pd.DataFrame":
-        """One row per iteration, everything counted from the start of the run.
+        """One row for the start, iteration 0, and one per iteration, everything counted from the start of the run.
 
-        Columns: ``iteration``, ``evaluations``, ``seconds``, ``<phase>_seconds`` for each phase,
+        Columns: ``iteration``, ``evaluations``, ``seconds``, ``cpu_seconds``, ``<phase>_seconds`` for each phase,
         ``ideal_<objective>`` for each objective. In a sequential MOEA/D-DRA whose sweep runs compiled, children
         are evaluated inside the phase ``sweep``, and ``evaluate`` is the start alone.
         """
@@ -139,10 +139,10 @@ def minimise(
         wall_start, cpu_start = perf_counter(), process_time()
         state = next(search)
         wall, cpu = wall + perf_counter() - wall_start, cpu + process_time() - cpu_start
-        rows.append((iteration, state.evaluations, wall, *clock.seconds.values(), *state.ideal))
+        rows.append((iteration, state.evaluations, wall, cpu, *clock.seconds.values(), *state.ideal))
     seconds = [f"{phase}_seconds" for phase in clock.seconds]
     ideal = [f"ideal_{name}" for name in problem.objectives]
-    log = Log(["iteration", "evaluations", "seconds", *seconds, *ideal], rows[1:])
+    log = Log(["iteration", "evaluations", "seconds", "cpu_seconds", *seconds, *ideal], rows)
     return Run(state.designs, state.objectives, int(state.evaluations), wall, cpu, int(seed), log)
 
 

@@ -1,0 +1,139 @@
+"""Is a difference real, and how large: rank tests, effect sizes and intervals over repeated runs."""
+
+from collections.abc import Sequence
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import ArrayLike, NDArray
+from scipy import stats
+from statsmodels.stats.multitest import multipletests
+
+SIGNIFICANCE = 0.05
+CONFIDENCE = 0.95
+RESAMPLES = 9999
+
+
+def quartiles(table: pd.DataFrame, by: Sequence[str], values: Sequence[str]) -> pd.DataFrame:
+    """Return the number of runs, and median and quartiles of each of the values, by group.
+
+    Parameters
+    ----------
+    table : DataFrame
+        One row per run.
+    by : sequence of str
+        Columns that make a group.
+    values : sequence of str
+        Columns of which the median is taken.
+
+    Returns
+    -------
+    DataFrame
+        A row per group in order of appearance: `by`, runs, then ``<value>``, ``<value> q1``, ``<value> q3``.
+    """
+    groups = table.groupby(list(by), sort=False)
+    columns: dict[str, Any] = {"runs": groups.size()}
+    for value in values:
+        columns[value] = groups[value].median()
+        for name, q in (("q1", 0.25), ("q3", 0.75)):
+            columns[f"{value} {name}"] = groups[value].quantile(q)
+    return pd.DataFrame(columns).reset_index()
+
+
+def a12(first: ArrayLike, second: ArrayLike) -> float:
+    """Return the chance that a value of the first sample exceeds one of the second, ties counting half [-].
+
+    References
+    ----------
+    A. Vargha and H. D. Delaney, "A critique and improvement of the CL common language effect size statistics of
+    McGraw and Wong", Journal of Educational and Behavioral Statistics 25(2), 2000.
+    """
+    first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
+    return float(stats.mannwhitneyu(first, second, method="asymptotic").statistic / (first.size * second.size))
+
+
+def size_in_words(effect: float) -> str:
+    """Return what Vargha and Delaney call an effect A12: negligible, small (0.56), medium (0.64), large (0.71)."""
+    distance = abs(effect - 0.5)
+    for word, least in (("large", 0.21), ("medium", 0.14), ("small", 0.06)):
+        if distance >= least - 1e-12:  # 0.71 - 0.5 is a little less than 0.21 in binary
+            return word
+    return "negligible"
+
+
+def holm(p_values: ArrayLike) -> NDArray[np.float64]:
+    """Return p-values (n,) adjusted by Holm for all n tests being made at once; NaN where there is none."""
+    p = np.asarray(p_values, dtype=float)
+    adjusted = np.full(p.shape, np.nan)
+    known = ~np.isnan(p)
+    if known.any():
+        adjusted[known] = multipletests(p[known], alpha=SIGNIFICANCE, method="holm")[1]
+    return adjusted
+
+
+def ratio_of_medians(first: ArrayLike, second: ArrayLike, seed: int = 0) -> tuple[float, float, float]:
+    """Return the ratio of the first sample's median to the second's and its 95 % bootstrap interval."""
+    first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
+
+    def ratio(x: NDArray[np.float64], y: NDArray[np.float64], axis: int = -1) -> NDArray[np.float64]:
+        return np.median(x, axis=axis) / np.median(y, axis=axis)
+
+    if min(first.size, second.size) < 2:
+        value = float(ratio(first, second))
+        return value, np.nan, np.nan
+    interval = stats.bootstrap(
+        (first, second),
+        ratio,
+        n_resamples=RESAMPLES,
+        confidence_level=CONFIDENCE,
+        method="percentile",  # quantiles have no jackknife, which other methods use
+        rng=np.random.default_rng(seed),
+    ).confidence_interval
+    return float(ratio(first, second)), float(interval.low), float(interval.high)
+
+
+def pairwise(table: pd.DataFrame, by: Sequence[str], value: str) -> pd.DataFrame:
+    """Compare every two algorithms in one value, group by group.
+
+    Parameters
+    ----------
+    table : DataFrame
+        One row per run, with a column ``algorithm``.
+    by : sequence of str
+        Columns that make a group.
+    value : str
+        What is compared.
+
+    Returns
+    -------
+    DataFrame
+        A row per group and pair: `by`, first, second, both medians, ratio of the medians with its bootstrap
+        interval (ratio, low, high), p of the two-sided Mann-Whitney test, p_holm adjusted for all tests of the
+        table, a12 of the first over the second and its size in words.
+    """
+    rows: list[dict[str, Any]] = []
+    for key, group in table.groupby(list(by), sort=False):
+        samples = {name: part[value].dropna() for name, part in group.groupby("algorithm", sort=False)}
+        for first, second in combinations(samples, 2):
+            if samples[first].size and samples[second].size:
+                pair = dict(zip(by, key, strict=True)) | {"first": first, "second": second}
+                rows.append(pair | _compared(samples[first], samples[second]))
+    compared = pd.DataFrame(rows)
+    return compared.assign(p_holm=holm(compared["p"])) if len(compared) else compared
+
+
+def _compared(first: "pd.Series[float]", second: "pd.Series[float]") -> dict[str, Any]:
+    ratio, low, high = ratio_of_medians(first, second)
+    effect = a12(first, second)
+    alike = np.ptp(np.concatenate([first, second])) == 0  # a rank test of equal values has nothing to rank
+    return {
+        "median_first": first.median(),
+        "median_second": second.median(),
+        "ratio": ratio,
+        "ratio_low": low,
+        "ratio_high": high,
+        "p": 1.0 if alike else float(stats.mannwhitneyu(first, second).pvalue),
+        "a12": effect,
+        "size": size_in_words(effect),
+    }

@@ -1,0 +1,99 @@
+"""The comparison over many seeds: the same tables wherever the runs are made, and after whatever stopped them."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+ARGUMENTS = ("--quick", "--quality", "--algorithms", "nsga2,sobol")
+TABLES = [f"{name}{ending}" for name in ("equal", "differences") for ending in (".csv", ".md", ".tex")]
+SAME = ["quality.csv"]
+
+
+@pytest.fixture(scope="module")
+def alone(script, tmp_path_factory):
+    out = tmp_path_factory.mktemp("alone") / "results"
+    done = script("compare", *ARGUMENTS, "--out", out)
+    assert done.returncode == 0, done.stderr
+    return out, done
+
+
+def test_says_what_came_of_it(alone):
+    out, done = alone
+    words = (out / "verdict.md").read_text()
+    assert "Hypervolume of the final population, nsga2 against sobol. At equal iterations" in words
+    assert "Hypervolume of the archive cut to N" in words
+    for lens in ("At equal iterations", "At equal evaluations", "At equal time"):
+        assert words.count(lens) == 2
+    assert "Final populations, medians" in done.stdout
+    assert "To 0.995 of the reference hypervolume" in done.stdout
+    assert done.stdout.splitlines()[-1] == str(out)
+
+
+def test_rows_say_whether_their_time_is_a_timing(alone):
+    runs = pd.read_csv(alone[0] / "runs.csv")
+    assert runs.timing.sum() == 2 * 2 * 2 * 2
+    judged = runs[~runs.timing]
+    assert len(judged) == 2 * 2 * 3
+    assert judged.relative_hypervolume.between(0.5, 1).all()
+    assert judged.seconds.gt(0).all()
+
+
+def test_writes_tables_and_figures(alone):
+    out, _ = alone
+    names = {path.name for path in out.iterdir()}
+    figures = {
+        f"{kind}_n{n}.{e}"
+        for kind in ("anytime", "boxes", "attainment")
+        for n in (60, 100)
+        for e in ("png", "pdf")
+    }
+    assert {*TABLES, *SAME, "to_reach.csv", "verdict.md"} | figures <= names
+    quality = pd.read_csv(out / "quality.csv")
+    assert "seconds" not in quality
+    last = quality[(quality.population == 100) & (quality.evaluations == 1100)]
+    assert set(last.set) == {"population", "archive", "archive of N"}
+    assert "N=" not in (out / "equal.tex").read_text()
+    assert r"\toprule" in (out / "equal.tex").read_text()
+
+
+def test_two_processes_give_the_same_tables(alone, script, tmp_path):
+    done = script("compare", *ARGUMENTS, "--jobs", 2, "--out", tmp_path / "spread")
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "spread" / "quality.csv").read_bytes() == (alone[0] / "quality.csv").read_bytes()
+
+
+def test_killed_and_started_again_it_ends_with_the_same_tables(alone, checkout, script, tmp_path):
+    """Killed among the timed runs, then among the others; what was finished is not made again."""
+    out = tmp_path / "killed"
+    command = [sys.executable, str(checkout / "scripts" / "compare.py"), *ARGUMENTS, "--out", str(out)]
+    for folder, runs in (("timed", 5), ("quality", 4)):
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=os.environ)
+        while len(list((out / folder / "runs").glob("[!.]*.csv"))) < runs and process.poll() is None:
+            time.sleep(0.005)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    before = stamps(out)
+    assert 16 < len(before) < 16 + 12
+    done = script("compare", *ARGUMENTS, "--out", out)
+    assert done.returncode == 0, done.stderr
+    assert (out / "quality.csv").read_bytes() == (alone[0] / "quality.csv").read_bytes()
+    assert {name: stamp for name, stamp in stamps(out).items() if name in before} == before
+    for name in sorted(path.name for path in (alone[0] / "fronts").iterdir()):
+        assert (out / "fronts" / name).read_bytes() == (alone[0] / "fronts" / name).read_bytes()
+
+
+def stamps(out: Path) -> dict[str, int]:
+    return {str(path): path.stat().st_mtime_ns for path in out.glob("*/runs/[!.]*.csv")}
+
+
+def test_another_command_does_not_go_on_in_the_folder(alone, script):
+    done = script("compare", *ARGUMENTS, "--seed", 1, "--out", alone[0])
+    assert done.returncode == 2
+    assert done.stderr.startswith("error: seed must be 0 as in '")
+    assert done.stderr.count("\n") == 1
