@@ -6,6 +6,7 @@ seeds: at equal iterations, evaluations and time, with statistics and a verdict;
 can be spread over processes and machines. What was stopped goes on with the same `--out`.
 """
 
+import platform
 from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated, Any
@@ -30,7 +31,7 @@ from suspension_ctrl import (
     terminal,
 )
 from suspension_ctrl.experiments import PlannedRun
-from suspension_ctrl.stores import PLAN, FolderStore
+from suspension_ctrl.stores import FolderStore
 
 POPULATIONS, ITERATIONS = ",".join(map(str, paper.POPULATIONS)), ",".join(map(str, paper.ITERATIONS))
 ALGORITHMS = "nsga2,moead-dra"
@@ -98,16 +99,19 @@ def main(
     problem = paper.ride_problem(weighting=weighting)
     names = terminal.names(algorithms)
     runs = experiments.plan(problem, names, sizes, counts, repeats, seed)
-    folder = files.results_folder(out, resumed_by=f"timed/{PLAN}")
-    store = FolderStore(folder / "timed", _plan(arguments, "seed", "repeats"))
+    folder = files.results_folder(out, resumed_by="timed")
+    machine = {"processor": environment.processor_name(), "python": platform.python_version()}
+    store = FolderStore(folder / "timed", machine | _plan(arguments, "seed", "repeats"))
     with environment.single_thread():
         record = environment.describe(arguments)
         experiments.warm_up(problem, runs)
         for _ in terminal.progress(experiments.carry_out(problem, runs, store), len(runs)):
             pass
-    reference = references.cached(problem, QUICK_TOLERANCE if quick else references.TOLERANCE)
+    tolerance = QUICK_TOLERANCE if quick else references.TOLERANCE
+    reference = references.cached(problem, tolerance)
     timed = experiments.tidy(problem, runs, store, reference.front).assign(timing=True)
-    files.write_json(folder / "environment.json", record)
+    if not (folder / "environment.json").exists():  # of the session that began the timed runs
+        files.write_json(folder / "environment.json", record)
     files.write_csv(folder / "runs.csv", timed)
     write_tables(timed, folder)
     write_fronts(problem, runs, store, folder / "fronts")
@@ -126,7 +130,8 @@ def main(
     raised = 0
     if quality:
         campaign = judging.Campaign(problem, names, sizes, counts, range(seed, seed + seeds), reference.front)
-        kept = FolderStore(folder / "quality", _plan(arguments, "seed", "seeds", "iterations"))
+        judged_by = {"reference": references.key(problem, tolerance)}
+        kept = FolderStore(folder / "quality", judged_by | _plan(arguments, "seed", "seeds"))
         table = judging.carry_out(campaign, kept, workers)
         files.write_csv(folder / "runs.csv", pd.concat([timed, judging.last_rows(table).assign(timing=False)]))
         clock = experiments.seconds_by_evaluations(runs, store)

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
+import typer
 from deap import benchmarks
 from numpy.typing import NDArray
 from typer import Option
@@ -37,31 +38,41 @@ def main(
 ) -> None:
     """Compare evolutionary algorithms with samples on problems of 2 to 8 variables."""
     checks.at_least("seeds", seeds, 1)
+    numbers = terminal.whole_numbers("variables", variables)
+    if not all(2 <= d <= 30 for d in numbers):
+        raise ValueError(f"variables must be >= 2 and <= 30, got {variables!r}")
+    if evaluations < 2 * population:
+        raise ValueError(f"evaluations must be >= {2 * population}, a start and an iteration, got {evaluations}")
+    problems = {
+        f"{name}-{d}": row_by_row(function, d, objectives)
+        for name, (function, objectives) in FUNCTIONS.items()
+        for d in numbers
+        if d >= objectives
+    }
     one = Study(
-        problems={
-            f"{name}-{d}": row_by_row(function, d, objectives)
-            for name, (function, objectives) in FUNCTIONS.items()
-            for d in terminal.whole_numbers("variables", variables)
-            if d >= objectives
-        },
+        problems=problems,
         algorithms={name: experiments.optimiser(name, population) for name in ALGORITHMS},
         seeds=range(seeds),
         budgets=[evaluations],
+        references={name: true_front(name) for name in problems},
     )
-    one = Study(**vars(one) | {"references": {name: true_front(name) for name in one.problems}})
     folder = files.results_folder(out)
     with nullcontext() if jobs is None else clusters.local_cluster(jobs) as client:
         store: dict[str, Any] = {}
-        for _ in terminal.progress(one.carry_out(store, client), len(one.runs())):
-            pass
-    table = one.table(store).drop(columns="seconds")
+        made = terminal.progress(one.carry_out(store, client), len(one.runs()))
+        errors = {run.name: error for run, error in made if error}
+    table = one.table(store, errors).drop(columns="seconds")
     final = table[table.set == study.POPULATION]
     files.write_csv(folder / "runs.csv", table)
     medians = final.pivot_table("relative_hypervolume", "problem", "algorithm", "median", sort=False)
     files.write_table(folder / "medians", medians.reset_index())
-    files.write_table(folder / "differences", statistics.pairwise(final, ["problem"], "relative_hypervolume"))
+    compared = statistics.pairwise(final, ["problem"], ["relative_hypervolume"], ALGORITHMS)
+    files.write_table(folder / "differences", compared)
     terminal.show("Hypervolume / reference, medians", medians.reset_index(), dict.fromkeys(ALGORITHMS, 4))
     print(folder)
+    if errors:
+        terminal.complain(f"{len(errors)} runs raised: see the column error of {folder / 'runs.csv'}")
+        raise typer.Exit(1)
 
 
 def row_by_row(function: Callable[..., Any], variables: int, objectives: int) -> Problem:
@@ -83,7 +94,8 @@ def true_front(name: str) -> ReferenceFront:
     x = np.linspace(0, 1, 1000)
     if name.startswith("zdt1"):
         return ReferenceFront.of(np.stack([x, 1 - np.sqrt(x)], axis=1))
-    a, b = (angle.ravel() for angle in np.meshgrid(x[::10] * np.pi / 2, x[::10] * np.pi / 2))
+    angles = np.linspace(0, np.pi / 2, 101)
+    a, b = (angle.ravel() for angle in np.meshgrid(angles, angles))
     sphere = np.stack([np.cos(a) * np.cos(b), np.cos(a) * np.sin(b), np.sin(a)], axis=1)
     return ReferenceFront.of(np.unique(sphere.round(12), axis=0))
 

@@ -111,6 +111,27 @@ def test_a_local_cluster_listens_on_loopback_alone(cluster):
     assert all(address.startswith("0100007F:") for address in listening)
 
 
+def test_a_scheduler_that_is_lost_or_has_no_worker_is_told_in_one_line(tmp_path):
+    file = tmp_path / "scheduler.json"
+    command = ("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
+    with running(tmp_path, *command, "--scheduler-file", str(file)) as scheduler:
+        while not file.exists():
+            time.sleep(0.05)
+        address = pd.read_json(file, typ="series").address
+        with (
+            pytest.raises(ValueError, match=r"^scheduler must have a worker"),
+            clusters.scheduler_at(address, timeout=1.0),
+        ):
+            pass
+        worker = ("distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard")
+        with running(tmp_path, *worker), clusters.scheduler_at(address) as client:
+            made = study().carry_out({}, client)
+            next(made)
+            scheduler.kill()
+            with pytest.raises(ConnectionError, match=r"^scheduler lost: "):
+                list(made)
+
+
 def test_an_evaluation_spread_over_workers_gives_the_same_run(cluster):
     spread = clusters.distributed(dtlz2(5), cluster, chunk=7)
     ours, theirs = (minimise(p, Nsga2(population=20), iterations=3, seed=1) for p in (dtlz2(5), spread))

@@ -48,6 +48,9 @@ def test_an_even_selection_of_a_line():
     assert evenly_spread(line, 5).tolist() == [0, 2, 4, 6, 8]
     assert evenly_spread(line, 3).tolist() == [0, 4, 8]
     assert evenly_spread(line, 1).tolist() == [0]
+    copies = np.repeat(line[:3], 4, axis=0)
+    assert len(set(evenly_spread(copies, 6))) == 6
+    assert len(np.unique(copies[evenly_spread(copies, 3)], axis=0)) == 3
     assert evenly_spread(line, 9).tolist() == evenly_spread(line, 20).tolist() == list(range(9))
 
 

@@ -34,7 +34,7 @@ def test_seconds_are_in_proportion_between_those_timed(timed):
 
 def test_each_lens_takes_the_last_state_within_its_limit(timed):
     """Two iterations: 30 and 14 evaluations; as many as the most, 30; the 3 s of the first, 20."""
-    equal = lenses.at_equal(timed, [2], {("big", 10): 10, ("small", 10): 2})
+    equal = lenses.at_equal(timed, ["big", "small"], [2], {("big", 10): 10, ("small", 10): 2})
     found = equal[equal.seed == 1].set_index(["lens", "algorithm"]).evaluations.to_dict()
     assert found == {
         (lenses.ITERATIONS, "big"): 30, (lenses.ITERATIONS, "small"): 14,
@@ -42,6 +42,20 @@ def test_each_lens_takes_the_last_state_within_its_limit(timed):
         (lenses.TIME, "big"): 30, (lenses.TIME, "small"): 20,
     }  # fmt: skip
     assert (equal.iterations == 2).all()
+
+
+def test_who_is_first_does_not_depend_on_which_run_is_missing(timed):
+    """Without the first run of the first algorithm its other one still sets the time."""
+    cost = {("big", 10): 10, ("small", 10): 2}
+    gap = timed[(timed.algorithm == "small") | (timed.seed == 1)]
+    gap = pd.concat([gap[gap.algorithm == "small"], gap[gap.algorithm == "big"]])
+    equal = lenses.at_equal(gap, ["big", "small"], [2], cost)
+    time = equal[equal.lens == lenses.TIME].set_index(["algorithm", "seed"]).evaluations
+    assert time.to_dict() == {("big", 1): 30, ("small", 0): 20, ("small", 1): 20}
+    none = lenses.at_equal(timed[timed.algorithm == "small"], ["big", "small"], [2], cost)
+    assert lenses.TIME not in set(none.lens)
+    pairs = statistics.pairwise(equal, ["lens"], ["relative_hypervolume"], ["big", "small"])
+    assert set(zip(pairs["first"], pairs["second"], strict=True)) == {("big", "small")}
 
 
 def test_time_to_reach_a_quality(timed):
@@ -63,7 +77,7 @@ def compared(shift: float) -> pd.DataFrame:
         for name, add in (("a", 0.0), ("b", shift if lens == "equal time" else 0.0))
         for value in rng.normal(0.9, 0.01, 31) + add
     ]
-    return statistics.pairwise(pd.DataFrame(rows), ["lens", "population", "iterations"], "value")
+    return statistics.pairwise(pd.DataFrame(rows), ["lens", "population", "iterations"], ["value"], ["a", "b"])
 
 
 def test_verdict_says_who_is_ahead_and_where_nobody_is():

@@ -50,6 +50,10 @@ def test_bootstrap_interval_is_that_of_plain_resampling():
     assert (ratio, low, high) == statistics.ratio_of_medians(first, second)
 
 
+def test_there_is_no_ratio_to_nothing():
+    assert np.isnan(statistics.ratio_of_medians([1.0, 2.0], [0.0, 1.0])).all()
+
+
 def table() -> pd.DataFrame:
     rng = np.random.default_rng(1)
     values = {"a": rng.normal(1, 0.1, 31), "b": rng.normal(1.01, 0.1, 31), "c": rng.normal(2, 0.1, 31)}
@@ -63,7 +67,7 @@ def table() -> pd.DataFrame:
 
 
 def test_pairs_are_all_compared_within_their_group():
-    pairs = statistics.pairwise(table(), ["population"], "value")
+    pairs = statistics.pairwise(table(), ["population"], ["value"], ["a", "b", "c"])
     assert list(zip(pairs["population"], pairs["first"], pairs["second"], strict=True)) == [
         (n, *pair) for n in (10, 20) for pair in (("a", "b"), ("a", "c"), ("b", "c"))
     ]
@@ -78,13 +82,13 @@ def test_pairs_are_all_compared_within_their_group():
 
 def test_equal_runs_do_not_differ():
     same = pd.DataFrame({"n": 1, "algorithm": ["a"] * 5 + ["b"] * 5, "value": 2.0})
-    pair = statistics.pairwise(same, ["n"], "value").iloc[0]
+    pair = statistics.pairwise(same, ["n"], ["value"], ["a", "b"]).iloc[0]
     assert (pair.p, pair.a12, pair["size"], pair.ratio) == (1, 0.5, "negligible", 1)
 
 
 def test_one_run_each_can_be_compared():
     single = pd.DataFrame({"n": 1, "algorithm": ["a", "b"], "value": [1.0, 2.0]})
-    pair = statistics.pairwise(single, ["n"], "value").iloc[0]
+    pair = statistics.pairwise(single, ["n"], ["value"], ["a", "b"]).iloc[0]
     assert pair.ratio == 0.5
     assert np.isnan(pair.ratio_low)
     assert pair.p_holm == 1

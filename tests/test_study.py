@@ -124,12 +124,31 @@ def test_a_run_that_raises_is_recorded_and_the_others_go_on():
     assert found.seed.nunique() == 12
 
 
+def test_a_reference_that_cannot_be_made_is_the_error_of_its_runs():
+    problems = {"p": Problem(evaluate=failing, lower=(0,), upper=(1,), objectives=("f1", "f2")), "zdt1": zdt1(4)}
+    algorithms = {"random": Sampling(population=4, points="random")}
+    found = Study(problems=problems, algorithms=algorithms, seeds=range(3), budgets=[40]).run()
+    assert (found[found.problem == "p"].error == "RuntimeError: the road ends here").all()
+    assert (found[found.problem == "zdt1"].error == "").all()
+    assert found.groupby("problem").seed.nunique().tolist() == [3, 3]
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [
         ({"seeds": []}, r"seeds must be one or more, got \[\]"),
         ({"algorithms": {}}, r"algorithms must be one or more, got \{\}"),
         ({"seeds": [-1]}, "seeds must be a whole number >= 0, got -1"),
+        ({"seeds": [1, 2, 1]}, r"seeds must be different, got \[1, 2, 1\]"),
+        ({"budgets": [40, 8]}, "budgets must be a whole number >= 20, got 8"),
+        ({"algorithms": {"a/b": Nsga2(population=20)}}, r"names must be of letters, digits and ._\+-, got 'a/b'"),
+        (
+            {
+                "problems": {"p": zdt1(4), "p_q": zdt1(4)},
+                "algorithms": {"q_a": Nsga2(population=20), "a": Nsga2(population=20)},
+            },
+            "names must not give two runs the same name",
+        ),
         ({"references": {"zdt2": ZDT1_FRONT}}, "references must be one of zdt1, got 'zdt2'"),
     ],
 )

@@ -123,7 +123,11 @@ def carry_out(campaign: Campaign, store: FolderStore, workers: Workers) -> pd.Da
 def last_rows(quality: pd.DataFrame) -> pd.DataFrame:
     """Return one row per run, as in the table of timed runs: its population at the end, or its error."""
     ends = quality[quality.error.ne("") | quality.set.eq(study.POPULATION)]
-    return ends.groupby(["population", "algorithm", "seed"], sort=False).tail(1).drop(columns=["set", "size"])
+    return (
+        ends.groupby(["population", "algorithm", "seed"], sort=False)
+        .tail(1)
+        .drop(columns=["set", "size", "budget"])
+    )
 
 
 def report(
@@ -134,22 +138,29 @@ def report(
     target: float,
     folder: Path,
 ) -> None:
-    """Write and print what follows from the runs that ended: tables, verdict, figures."""
-    timed = lenses.with_seconds(quality[quality.error.eq("")].drop(columns="error"), clock)
+    """Write and print what follows from the runs that ended, if any: tables, verdict, figures."""
+    ended = quality[quality.error.eq("")].drop(columns="error")
+    if ended.empty:
+        return
+    timed = lenses.with_seconds(ended, clock)
     files.write_csv(folder / "quality.csv", timed.drop(columns="seconds"))
-    equal = lenses.at_equal(timed, campaign.iterations, campaign.cost())
+    equal = lenses.at_equal(timed, campaign.algorithms, campaign.iterations, campaign.cost())
     by = [*CONFIGURATION, "set", "algorithm"]
-    spent = equal.groupby(by, sort=False).evaluations.median().astype(int).reset_index()
+    spent = equal.groupby(by, sort=False)[["evaluations", "seconds"]].median().reset_index()
     summary = spent.merge(statistics.quartiles(equal, by, INDICATORS), on=by)
-    compared = statistics.pairwise(equal, [*CONFIGURATION, "set"], VALUE)
+    compared = statistics.pairwise(equal, [*CONFIGURATION, "set"], INDICATORS, campaign.algorithms)
     reached = lenses.reached_by(lenses.to_reach(timed, target))
     for name, table in (("equal", summary), ("differences", compared), ("to_reach", reached)):
         files.write_table(folder / name, table.rename(columns=_headers(table.columns)))
     judged = {"final population": study.POPULATION, "archive cut to N": study.CUT_ARCHIVE}
     words = [
-        verdicts.verdict(compared[compared.set == chosen], *campaign.algorithms[:2], f"Hypervolume of the {what}")
+        verdicts.verdict(
+            compared[(compared.set == chosen) & (compared.value == VALUE)],
+            *campaign.algorithms[:2],
+            f"Hypervolume of the {what}",
+        )
         for what, chosen in judged.items()
-        if len(campaign.algorithms) > 1
+        if len(compared)
     ]
     files.write_text(folder / "verdict.md", "\n\n".join(words) + "\n")
     _show(summary, reached, words, target)
@@ -158,7 +169,19 @@ def report(
 
 def _headers(columns: Sequence[str]) -> dict[str, str]:
     units = {"seconds": "s"}
-    plain = {"lens", "population", "iterations", "set", "algorithm", "first", "second", "size", "runs", "reached"}
+    plain = {
+        "value",
+        "lens",
+        "population",
+        "iterations",
+        "set",
+        "algorithm",
+        "first",
+        "second",
+        "size",
+        "runs",
+        "reached",
+    }
     return {c: c if c in plain else f"{c.replace('_', ' ')} [{units.get(c, '-')}]" for c in columns}
 
 
@@ -214,12 +237,14 @@ def draw(
 def _draw_attainment(campaign: Campaign, population: int, store: Mapping[str, Record], folder: Path) -> None:
     names = campaign.algorithms[:2]
     runs = campaign.studies()[population].runs()
-    sides = [
-        pd.concat(
-            [store[r.name].final.assign(seed=r.seed) for r in runs if r.algorithm == name and r.name in store]
-        )
+    kept = {
+        name: {r.seed: store[r.name].final for r in runs if r.algorithm == name and r.name in store}
         for name in names
-    ]
+    }
+    shared = sorted(set(kept[names[0]]) & set(kept[names[1]]))
+    if not shared:
+        return
+    sides = [pd.concat([kept[name][seed].assign(seed=seed) for seed in shared]) for name in names]
     headers = dict(
         zip(
             campaign.problem.objectives,

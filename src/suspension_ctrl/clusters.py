@@ -70,7 +70,7 @@ def scheduler_at(address: str, tls: Tls | None = None, timeout: float = 10.0) ->
     Raises
     ------
     ValueError
-        If the address has another form, or no scheduler answers there.
+        If the address has another form, no scheduler answers there, or it has no worker.
     """
     from distributed import Client
     from distributed.security import Security
@@ -88,6 +88,10 @@ def scheduler_at(address: str, tls: Tls | None = None, timeout: float = 10.0) ->
     except (OSError, ValueError) as error:
         raise ValueError(f"scheduler must be one that answers, got {address!r}: {error}") from error
     with client:
+        try:
+            client.wait_for_workers(1, timeout=timeout)
+        except TimeoutError:
+            raise ValueError(f"scheduler must have a worker, got {address!r} without one") from None
         yield client
 
 
@@ -97,29 +101,32 @@ def outcomes(
     """Call the function with each of the arguments and hand out name, result and error of each as it ends.
 
     A call that raises has no result and its error in one line, otherwise the error is empty. On a cluster a
-    call whose worker dies is repeated on another one; only where it takes three workers with it is that its
-    error.
+    call whose worker dies is repeated on another one; only where it takes four workers with it is that its
+    error. A scheduler that is lost raises ConnectionError.
     """
     if client is None:
         for name, values in arguments.items():
-            yield name, *_outcome(function, values)
+            yield name, *outcome(function, values)
         return
     from distributed import as_completed
 
     futures = {
-        client.submit(_outcome, function, values, key=f"{name}-{uuid4()}", pure=False): name
+        client.submit(outcome, function, values, key=f"{name}-{uuid4()}", pure=False): name
         for name, values in arguments.items()
     }
     for future in as_completed(futures, loop=client.loop):
         name = futures.pop(future)
         if future.status == "error":
             yield name, None, _line(future.exception())
+        elif future.status != "finished":
+            raise ConnectionError(f"scheduler lost: {future.status} {name}; what was finished is kept")
         else:
             yield name, *future.result()
         future.release()
 
 
-def _outcome(function: Callable[..., T], arguments: tuple[Any, ...]) -> tuple[T | None, str]:
+def outcome(function: Callable[..., T], arguments: tuple[Any, ...]) -> tuple[T | None, str]:
+    """Call the function and return its result, or None and what it raised in one line."""
     try:
         return function(*arguments), ""
     except Exception as error:  # whatever an evaluation raises, the other runs go on
@@ -132,6 +139,8 @@ def _line(error: BaseException) -> str:
 
 def distributed(problem: Described, client: "Client", chunk: int = 16) -> Problem:
     """Return the problem with its evaluation spread over a cluster, for one that takes long for each design.
+
+    It has no kernel: MOEA/D-DRA should then make its children in batches (``update="batch"``).
 
     Parameters
     ----------

@@ -58,6 +58,7 @@ def farthest_first(points: NDArray[np.float64], start: NDArray[np.int64], size: 
             for j in range(points.shape[1]):
                 distance += (points[c, j] - points[chosen[i], j]) ** 2
             nearest[c] = min(nearest[c], distance)
+        nearest[chosen[i]] = -1.0  # never again, also where only copies are left
     return chosen
 
 

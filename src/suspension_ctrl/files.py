@@ -23,7 +23,7 @@ def results_folder(out: Path | None, resumed_by: str | None = None) -> Path:
     out : Path, optional
         Folder that is absent or empty; if not given, a new one ``results/<date-time>``.
     resumed_by : str, optional
-        A file: a folder that holds it may hold more, as what is there is gone on with.
+        A name: a folder that holds it may hold more, as what is there is gone on with.
 
     Raises
     ------
@@ -35,11 +35,11 @@ def results_folder(out: Path | None, resumed_by: str | None = None) -> Path:
         if out is None:
             folder = _made_new(folder)
         folder.mkdir(parents=True, exist_ok=True)
-        if any(folder.iterdir()) and not (resumed_by and (folder / resumed_by).exists()):
+        if any(folder.glob("[!.]*")) and not (resumed_by and (folder / resumed_by).exists()):
             raise ValueError(
                 f"out must be a folder that is absent or empty, got {str(folder)!r}, which is not empty"
             )
-        with NamedTemporaryFile(dir=folder):
+        with NamedTemporaryFile(dir=folder, prefix="."):
             return folder
     except OSError as error:
         raise ValueError(
@@ -67,6 +67,8 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> None:
     try:
         write(temporary)
         temporary.chmod(0o644)
+        with temporary.open("rb") as written:
+            os.fsync(written.fileno())  # the content is on the disk before the name is
         os.replace(temporary, path)
     finally:
         temporary.unlink(missing_ok=True)

@@ -32,7 +32,10 @@ def with_seconds(quality: pd.DataFrame, clock: pd.DataFrame) -> pd.DataFrame:
 
 
 def at_equal(
-    quality: pd.DataFrame, iterations: Sequence[int], cost: Mapping[tuple[str, int], int]
+    quality: pd.DataFrame,
+    algorithms: Sequence[str],
+    iterations: Sequence[int],
+    cost: Mapping[tuple[str, int], int],
 ) -> pd.DataFrame:
     """Return what each run has reached where the algorithms have the same iterations, evaluations or time.
 
@@ -40,6 +43,8 @@ def at_equal(
     ----------
     quality : DataFrame
         From `with_seconds`.
+    algorithms : sequence of str
+        Those that are compared; the first sets the time.
     iterations : sequence of int
         Numbers of iterations that are compared.
     cost : mapping
@@ -53,17 +58,15 @@ def at_equal(
         first algorithm takes for them. Who has spent all its evaluations in less time stands there with them.
     """
     parts = []
-    first = quality.algorithm.iloc[0]
     for population in quality.population.unique():
         part = quality[quality.population == population]
-        names = part.algorithm.unique()
         for count in iterations:
-            spent = {name: population + count * cost[name, population] for name in names}
-            reference = part[(part.algorithm == first) & (part.evaluations <= spent[first])]
+            spent = {name: population + count * cost[name, population] for name in algorithms}
+            timed = part[(part.algorithm == algorithms[0]) & (part.evaluations <= spent[algorithms[0]])]
             limits = {
                 ITERATIONS: part.evaluations <= part.algorithm.map(spent),
                 EVALUATIONS: part.evaluations <= max(spent.values()),
-                TIME: part.seconds <= reference.seconds.max(),
+                TIME: part.seconds <= timed.seconds.max(),  # none where the first has no run
             }
             for lens, within in limits.items():
                 last = part[within].groupby(RUN, sort=False).tail(1)

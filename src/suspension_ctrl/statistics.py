@@ -1,7 +1,7 @@
 """Is a difference real, and how large: rank tests, effect sizes and intervals over repeated runs."""
 
 from collections.abc import Sequence
-from itertools import combinations
+from itertools import combinations, product
 from typing import Any
 
 import numpy as np
@@ -73,12 +73,17 @@ def holm(p_values: ArrayLike) -> NDArray[np.float64]:
 
 
 def ratio_of_medians(first: ArrayLike, second: ArrayLike, seed: int = 0) -> tuple[float, float, float]:
-    """Return the ratio of the first sample's median to the second's and its 95 % bootstrap interval."""
+    """Return the ratio of the first sample's median to the second's and its 95 % bootstrap interval.
+
+    All NaN where the second sample has values that are not positive, the interval where a sample has one value.
+    """
     first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
 
     def ratio(x: NDArray[np.float64], y: NDArray[np.float64], axis: int = -1) -> NDArray[np.float64]:
         return np.median(x, axis=axis) / np.median(y, axis=axis)
 
+    if not (second > 0).all():
+        return np.nan, np.nan, np.nan
     if min(first.size, second.size) < 2:
         value = float(ratio(first, second))
         return value, np.nan, np.nan
@@ -93,8 +98,10 @@ def ratio_of_medians(first: ArrayLike, second: ArrayLike, seed: int = 0) -> tupl
     return float(ratio(first, second)), float(interval.low), float(interval.high)
 
 
-def pairwise(table: pd.DataFrame, by: Sequence[str], value: str) -> pd.DataFrame:
-    """Compare every two algorithms in one value, group by group.
+def pairwise(
+    table: pd.DataFrame, by: Sequence[str], values: Sequence[str], algorithms: Sequence[str]
+) -> pd.DataFrame:
+    """Compare every two algorithms in each of the values, group by group.
 
     Parameters
     ----------
@@ -102,22 +109,24 @@ def pairwise(table: pd.DataFrame, by: Sequence[str], value: str) -> pd.DataFrame
         One row per run, with a column ``algorithm``.
     by : sequence of str
         Columns that make a group.
-    value : str
-        What is compared.
+    values : sequence of str
+        Columns that are compared.
+    algorithms : sequence of str
+        The algorithms, in the order in which they stand in pairs.
 
     Returns
     -------
     DataFrame
-        A row per group and pair: `by`, first, second, both medians, ratio of the medians with its bootstrap
-        interval (ratio, low, high), p of the two-sided Mann-Whitney test, p_holm adjusted for all tests of the
-        table, a12 of the first over the second and its size in words.
+        A row per value, group and pair: value, `by`, first, second, both medians, ratio of the medians with its
+        bootstrap interval (ratio, low, high), p of the two-sided Mann-Whitney test, p_holm adjusted for all
+        tests of the table, a12 of the first over the second and its size in words.
     """
     rows: list[dict[str, Any]] = []
-    for key, group in table.groupby(list(by), sort=False):
-        samples = {name: part[value].dropna() for name, part in group.groupby("algorithm", sort=False)}
+    for value, (key, group) in product(values, list(table.groupby(list(by), sort=False))):
+        samples = {name: group.loc[group.algorithm == name, value].dropna() for name in algorithms}
         for first, second in combinations(samples, 2):
             if samples[first].size and samples[second].size:
-                pair = dict(zip(by, key, strict=True)) | {"first": first, "second": second}
+                pair = {"value": value, **dict(zip(by, key, strict=True)), "first": first, "second": second}
                 rows.append(pair | _compared(samples[first], samples[second]))
     compared = pd.DataFrame(rows)
     return compared.assign(p_holm=holm(compared["p"])) if len(compared) else compared

@@ -46,10 +46,7 @@ class FolderStore(MutableMapping[str, Record]):
 
     def __init__(self, folder: Path, plan: dict[str, Any]) -> None:
         self._course, self._final = folder / "runs", folder / "final"
-        for part in (self._course, self._final):
-            part.mkdir(parents=True, exist_ok=True)
-            for unfinished in part.glob(".*"):  # left by a process that was killed as it wrote
-                unfinished.unlink()
+        folder.mkdir(parents=True, exist_ok=True)
         path = folder / PLAN
         if not path.exists():
             files.write_json(path, plan)
@@ -60,6 +57,10 @@ class FolderStore(MutableMapping[str, Record]):
                     f"{name} must be {there.get(name)!r} as in {str(path)!r} to go on there, "
                     f"got {wanted.get(name)!r}"
                 )
+        for part in (self._course, self._final):
+            part.mkdir(exist_ok=True)
+            for unfinished in part.glob(".*"):  # left by a process that was killed as it wrote
+                unfinished.unlink()
 
     def __getitem__(self, name: str) -> Record:
         import pandas as pd

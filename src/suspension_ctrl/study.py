@@ -1,5 +1,6 @@
 """Quality of algorithms on problems over seeds and budgets: one tidy table, of runs made in any order anywhere."""
 
+import re
 from collections.abc import Iterator, Mapping, MutableMapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
@@ -11,7 +12,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from . import checks
-from .clusters import outcomes
+from .clusters import outcome, outcomes
 from .indicators import ReferenceFront, evenly_spread, non_dominated
 from .optimisers.minimise import Optimiser
 from .problems import Minimisable
@@ -67,12 +68,13 @@ class Study:
         Evaluations at which a run is judged, by its state after the last iteration within the budget.
     references : mapping of str to ReferenceFront, optional
         By name of a problem. Without one, the non-dominated designs of the first seed's runs of all algorithms
-        are the reference.
+        are the reference, for which these runs are made once more, here.
 
     Raises
     ------
     ValueError
-        If a part of it is empty, or a name of a reference is not one of a problem.
+        If a part of it is empty, seeds or names of runs repeat, names hold other than letters, digits and
+        ``._+-``, a budget does not cover the start, or a name of a reference is not one of a problem.
     """
 
     problems: Mapping[str, Minimisable]
@@ -87,6 +89,17 @@ class Study:
                 raise ValueError(f"{name} must be one or more, got {getattr(self, name)!r}")
         for seed in self.seeds:
             checks.at_least("seeds", seed, 0)
+        if len(set(self.seeds)) < len(self.seeds):
+            raise ValueError(f"seeds must be different, got {list(self.seeds)}")
+        for budget in self.budgets:
+            checks.at_least("budgets", budget, max(o.population for o in self.algorithms.values()))
+        for name in (*self.problems, *self.algorithms):
+            if not re.fullmatch(r"[\w.+-]+", name):
+                raise ValueError(f"names must be of letters, digits and ._+-, got {name!r}")
+        if len({run.name for run in self.runs()}) < len(self.runs()):
+            raise ValueError(
+                f"names must not give two runs the same name, got {[*self.problems, *self.algorithms]}"
+            )
         for name in self.references:
             checks.one_of("references", name, list(self.problems))
 
@@ -114,7 +127,14 @@ class Study:
         they give does not depend on it.
         """
         missing = [run for run in self.runs() if run.name not in store]
-        references = {name: self.reference(name) for name in {run.problem for run in missing}}
+        references: dict[str, ReferenceFront] = {}
+        for problem in {run.problem for run in missing}:
+            reference, error = outcome(self.reference, (problem,))
+            if reference is None:
+                yield from ((run, error) for run in missing if run.problem == problem)
+            else:
+                references[problem] = reference
+        missing = [run for run in missing if run.problem in references]
         work = {
             run.name: (
                 self.problems[run.problem],

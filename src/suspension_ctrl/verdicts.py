@@ -14,7 +14,7 @@ def verdict(compared: pd.DataFrame, first: str, second: str, value: str) -> str:
     Parameters
     ----------
     compared : DataFrame
-        From `statistics.pairwise` of a value of which more is better, grouped by lens, population, iterations.
+        From `statistics.pairwise`: rows of one value of which more is better, by lens, population, iterations.
     first, second : str
         The algorithms, in the order in which the table has them.
     value : str

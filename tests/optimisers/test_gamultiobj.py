@@ -78,6 +78,14 @@ def test_mutants_stay_in_the_box_and_within_the_step(unit, seed, step):
     assert (moved <= step * (1 + 1e-9) + 1e-12).all()
 
 
+def test_mutants_leave_the_bounds_on_which_they_lie():
+    corners = np.array([LOWER, UPPER, [LOWER[0], UPPER[1], 10.5]])
+    mutants = gamultiobj.feasible_steps(
+        np.random.default_rng(4), np.repeat(corners, 50, axis=0), 0.1, LOWER, UPPER
+    )
+    assert (mutants != np.repeat(corners, 50, axis=0)).all()
+
+
 def test_directions_of_mutants_are_even():
     """From the middle of the box, a step that never meets a bound: no direction is preferred."""
     designs = np.tile((LOWER + UPPER) / 2, (20_000, 1))

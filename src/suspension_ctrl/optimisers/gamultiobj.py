@@ -6,9 +6,10 @@ crossover, the others from adaptive-feasible mutation; at most a fraction 0.35 o
 front as long as others exist; crowding distance in objective space.
 
 Our reading, where nothing is documented: one child per pair of parents; beyond the first front survivors are
-taken rank by rank, less crowded ones first; a mutant goes in a uniformly random direction, as far as drawn
-uniformly up to a step and the bounds; "adaptive with respect to the last successful or unsuccessful generation"
-is Rechenberg's rule: the step doubles where more than a fifth of the mutants survived, and halves otherwise.
+taken rank by rank, less crowded ones first; a mutant goes in a uniformly random direction, turned away from bounds
+on which it lies, as far as drawn uniformly up to a step and the bounds; "adaptive with respect to the last
+successful or unsuccessful generation" is Rechenberg's rule: the step doubles where more than a fifth of the
+mutants survived, and halves otherwise.
 """
 
 from collections.abc import Iterator
@@ -125,6 +126,8 @@ def feasible_steps(
     """Return mutants (n, d): a step in a random direction, up to `step` widths of the box long and inside it."""
     direction = rng.normal(size=designs.shape)
     direction *= (upper - lower) / np.linalg.norm(direction, axis=1, keepdims=True)
+    blocked = ((direction > 0) & (designs >= upper)) | ((direction < 0) & (designs <= lower))
+    direction[blocked] *= -1  # a direction that satisfies the bounds, as documented: off a bound, not against it
     bound = np.where(direction > 0, upper, lower)
     room = np.min((bound - designs) / direction, axis=1, initial=step)
     moved = designs + (rng.random(len(designs)) * room)[:, np.newaxis] * direction
