@@ -15,7 +15,8 @@ import pandas as pd
 import typer
 from typer import Option
 
-from comparing import quality as judging
+from comparing import reports
+from comparing.campaign import Campaign, Workers, carry_out
 from suspension_ctrl import (
     MoeadDra,
     RideProblem,
@@ -129,13 +130,13 @@ def main(
         )
     raised = 0
     if quality:
-        campaign = judging.Campaign(problem, names, sizes, counts, range(seed, seed + seeds), reference.front)
+        campaign = Campaign(problem, names, sizes, counts, range(seed, seed + seeds), reference.front)
         judged_by = {"reference": references.key(problem, tolerance)}
         kept = FolderStore(folder / "quality", judged_by | _plan(arguments, "seed", "seeds"))
-        table = judging.carry_out(campaign, kept, workers)
-        files.write_csv(folder / "runs.csv", pd.concat([timed, judging.last_rows(table).assign(timing=False)]))
+        table = carry_out(campaign, kept, workers)
+        files.write_csv(folder / "runs.csv", pd.concat([timed, reports.last_rows(table).assign(timing=False)]))
         clock = experiments.seconds_by_evaluations(runs, store)
-        judging.report(campaign, table, kept, clock, target, folder)
+        reports.report(campaign, table, kept, clock, target, folder)
         raised = int(table.error.ne("").sum())
     print(folder)
     if raised:
@@ -145,7 +146,7 @@ def main(
 
 def _workers(
     quality: bool, jobs: int | None, scheduler: str | None, ca_file: str | None, cert: str | None, key: str | None
-) -> judging.Workers:
+) -> Workers:
     files_given = [value for value in (ca_file, cert, key) if value]
     if files_given and (len(files_given) < 3 or not scheduler):
         raise ValueError(
@@ -154,7 +155,7 @@ def _workers(
     if not quality and (jobs is not None or scheduler):
         raise ValueError(f"jobs and scheduler must stand with quality, got {scheduler or jobs!r} without it")
     tls = clusters.Tls(ca_file=ca_file, cert=cert, key=key) if ca_file and cert and key else None
-    return judging.Workers(jobs, scheduler, tls)
+    return Workers(jobs, scheduler, tls)
 
 
 def _plan(arguments: dict[str, Any], *also: str) -> dict[str, Any]:

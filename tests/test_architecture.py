@@ -70,7 +70,7 @@ def test_every_module_has_its_place():
 
 def test_public_names():
     assert suspension_ctrl.__all__ == [
-        *("MoeadDra", "Nsga2", "PowerLawRoad", "Problem", "QuarterCar"),
-        *("RideProblem", "Run", "minimise", "weighting"),
+        *("Gamultiobj", "MoeadDra", "Nsga2", "PowerLawRoad", "Problem", "QuarterCar"),
+        *("RideProblem", "Run", "Sampling", "minimise", "weighting"),
     ]
     assert all(hasattr(suspension_ctrl, name) for name in suspension_ctrl.__all__)

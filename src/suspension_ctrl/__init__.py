@@ -1,13 +1,14 @@
 """Ride optimisation of vehicle suspensions: linear ride models, ISO 2631 comfort, NSGA-II and MOEA/D-DRA."""
 
 from .objectives import RideProblem
-from .optimisers import MoeadDra, Nsga2, Run, minimise
+from .optimisers import Gamultiobj, MoeadDra, Nsga2, Run, Sampling, minimise
 from .problems import Problem
 from .roads import PowerLawRoad
 from .vehicles import QuarterCar
 from .weightings import weighting
 
 __all__ = [
+    "Gamultiobj",
     "MoeadDra",
     "Nsga2",
     "PowerLawRoad",
@@ -15,6 +16,7 @@ __all__ = [
     "QuarterCar",
     "RideProblem",
     "Run",
+    "Sampling",
     "minimise",
     "weighting",
 ]

@@ -54,6 +54,13 @@ def local_cluster(jobs: int) -> Iterator["Client"]:
         yield client
 
 
+def check_address(address: str, tls: Tls | None) -> None:
+    """Raise ValueError unless the address begins with ``tcp://``, or with ``tls://`` where `tls` is given."""
+    wanted = "tls://" if tls else "tcp://"
+    if not address.startswith(wanted):
+        raise ValueError(f"scheduler must be {wanted}host:port, got {address!r}")
+
+
 @contextmanager
 def scheduler_at(address: str, tls: Tls | None = None, timeout: float = 10.0) -> Iterator["Client"]:
     """Connect to a running scheduler.
@@ -75,9 +82,7 @@ def scheduler_at(address: str, tls: Tls | None = None, timeout: float = 10.0) ->
     from distributed import Client
     from distributed.security import Security
 
-    wanted = "tls://" if tls else "tcp://"
-    if not address.startswith(wanted):
-        raise ValueError(f"scheduler must be {wanted}host:port, got {address!r}")
+    check_address(address, tls)
     security = None
     if tls:
         security = Security(

@@ -104,6 +104,7 @@ def test_default_folder_is_new_and_below_results(script, tmp_path):
         (["--jobs", "2"], "jobs and scheduler must stand with quality, got 2 without it"),
         (["--quality", "--jobs", "0"], "jobs must be a whole number >= 1, got 0"),
         (["--quality", "--jobs", "2", "--scheduler", "tcp://h:1"], "jobs must stand without scheduler, got 2 and"),
+        (["--quality", "--scheduler", "host:8786"], "scheduler must be tcp://host:port, got 'host:8786'"),
         (["--quality", "--tls-key", "k"], "tls-ca-file, tls-cert and tls-key must stand together with scheduler"),
         (["--quality", "--seeds", "0"], "seeds must be a whole number >= 1, got 0"),
         (["--quality", "--target", "1.5"], "target must be a number from 0 to 1, got 1.5"),

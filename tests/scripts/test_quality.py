@@ -4,14 +4,15 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from comparing import quality
+from comparing import campaign as campaigns
+from comparing import reports
 from suspension_ctrl import Problem, experiments, paper
 from suspension_ctrl.indicators import ReferenceFront
 from suspension_ctrl.references import grid_front
 from suspension_ctrl.stores import FolderStore
 
 
-def campaign(raises) -> quality.Campaign:
+def campaign(raises) -> campaigns.Campaign:
     ride = paper.ride_problem()
 
     def evaluate(designs: np.ndarray) -> np.ndarray:
@@ -24,7 +25,7 @@ def campaign(raises) -> quality.Campaign:
         variables=ride.variables, units=ride.units,
     )  # fmt: skip
     reference = ReferenceFront.of(grid_front(ride, 40))
-    return quality.Campaign(problem, ["nsga2", "sobol"], [20], [2], range(8), reference)
+    return campaigns.Campaign(problem, ["nsga2", "sobol"], [20], [2], range(8), reference)
 
 
 def clock() -> pd.DataFrame:
@@ -33,10 +34,10 @@ def clock() -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["algorithm", "population", "evaluations", "seconds"])
 
 
-def reported(one: quality.Campaign, folder) -> pd.DataFrame:
+def reported(one: campaigns.Campaign, folder) -> pd.DataFrame:
     store = FolderStore(folder / "quality", {})
-    table = quality.carry_out(one, store, quality.Workers())
-    quality.report(one, table, store, clock(), 0.9, folder)
+    table = campaigns.carry_out(one, store, campaigns.Workers())
+    reports.report(one, table, store, clock(), 0.9, folder)
     return table
 
 
@@ -46,7 +47,7 @@ def test_runs_that_raise_leave_the_others_in_tables_and_figures(tmp_path):
     ride = paper.ride_problem()
     limit = ride.lower[0] + (ride.upper[0] - ride.lower[0]) * first
     table = reported(campaign(lambda x: x[0, 0] >= limit - 1e-6), tmp_path)
-    rows = quality.last_rows(table)
+    rows = reports.last_rows(table)
     assert len(rows) == 16
     raised = rows[rows.error != ""]
     assert ("nsga2", 0) in set(zip(raised.algorithm, raised.seed, strict=True))
@@ -88,4 +89,4 @@ def test_budgets_hold_every_state_that_is_compared():
     one = campaign(lambda x: False)
     assert one.budgets(20) == [20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 60]
     with pytest.raises(ValueError, match=r"^jobs must stand without scheduler, got 2 and 'tcp://h:1'$"):
-        quality.Workers(2, "tcp://h:1")
+        campaigns.Workers(2, "tcp://h:1")
