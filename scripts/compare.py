@@ -111,7 +111,7 @@ def main(
     tolerance = QUICK_TOLERANCE if quick else references.TOLERANCE
     reference = references.cached(problem, tolerance)
     timed = experiments.tidy(problem, runs, store, reference.front).assign(timing=True)
-    if not (folder / "environment.json").exists():  # of the session that began the timed runs
+    if not (folder / "environment.json").exists():  # of the command that began the timed runs
         files.write_json(folder / "environment.json", record)
     files.write_csv(folder / "runs.csv", timed)
     write_tables(timed, folder)
