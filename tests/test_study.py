@@ -92,6 +92,24 @@ def test_what_a_killed_process_left_half_written_is_no_run(tmp_path):
     assert list((tmp_path / "runs").iterdir()) == []
 
 
+def test_a_run_of_which_only_half_could_be_written_is_no_run(small, tmp_path, monkeypatch):
+    store = FolderStore(tmp_path, {})
+    written = []
+
+    def once(path, frame):
+        if written:
+            raise OSError(28, "No space left on device")
+        written.append(path)
+        frame.to_csv(path, index=False)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(files, "write_csv", once)
+        with pytest.raises(OSError, match="No space left on device"):
+            next(small.carry_out(store))
+    assert len(written) == 1
+    assert list(FolderStore(tmp_path, {})) == []
+
+
 def test_a_store_forgets_what_is_deleted(small, tmp_path):
     store = FolderStore(tmp_path, {})
     name = next(small.carry_out(store))[0].name

@@ -26,5 +26,5 @@ def campaign(seeds: range) -> Study:
 def test_campaign(benchmark, workers):
     with clusters.local_cluster(workers) as client:
         campaign(range(4 * workers)).run(client)  # processes import and compile what they need
-        table = benchmark.pedantic(campaign(range(RUNS // 2)).run, args=(client,), rounds=3)
+        table = benchmark.pedantic(campaign(range(RUNS // 2)).run, args=(client,), rounds=1)
     assert table.seed.nunique() * table.algorithm.nunique() == RUNS
