@@ -117,17 +117,7 @@ def main(
     write_tables(timed, folder)
     write_fronts(problem, runs, store, folder / "fronts")
     write_figure5(experiments.final_populations(runs, store), names, folder)
-    terminal.note(
-        f"ACC is weighted with {weighting}. Hypervolume and IGD+ are medians over the repeats, against the "
-        f"non-dominated designs of a {reference.points} x {reference.points} grid (hypervolume "
-        f"{reference.front.volume:.4f}, which half as many values change by {reference.change:.1e} and a second "
-        f"grid by {reference.second:.1e})."
-    )
-    if min(counts) <= MoeadDra.utility_period and "moead" in algorithms:
-        terminal.note(
-            f"In up to {MoeadDra.utility_period} iterations MOEA/D-DRA has not allocated resources yet: "
-            f"its utilities first change after iteration {MoeadDra.utility_period}."
-        )
+    explain(weighting, reference, counts, names)
     raised = 0
     if quality:
         campaign = Campaign(problem, names, sizes, counts, range(seed, seed + seeds), reference.front)
@@ -142,6 +132,21 @@ def main(
     if raised:
         terminal.complain(f"{raised} runs raised: see the column error of {folder / 'runs.csv'}")
         raise typer.Exit(1)
+
+
+def explain(weighting: str, reference: references.Refined, counts: list[int], algorithms: list[str]) -> None:
+    """Say what the tables rest on."""
+    terminal.note(
+        f"ACC is weighted with {weighting}. Hypervolume and IGD+ are medians over the repeats, against the "
+        f"non-dominated designs of a {reference.points} x {reference.points} grid (hypervolume "
+        f"{reference.front.volume:.4f}, which half as many values change by {reference.change:.1e} and a second "
+        f"grid by {reference.second:.1e})."
+    )
+    if min(counts) <= MoeadDra.utility_period and any(name.startswith("moead") for name in algorithms):
+        terminal.note(
+            f"In up to {MoeadDra.utility_period} iterations MOEA/D-DRA has not allocated resources yet: "
+            f"its utilities first change after iteration {MoeadDra.utility_period}."
+        )
 
 
 def _workers(
