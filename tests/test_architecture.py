@@ -7,7 +7,17 @@ import suspension_ctrl
 
 PACKAGE = Path(suspension_ctrl.__file__).parent
 LIBRARY = {"checks", "datafiles", "files", "environment", "terminal"}
-PHYSICS = {"vehicles", "roads", "weightings", "quadrature", "responses", "objectives"}
+PHYSICS = {
+    "vehicles",
+    "isotropy",
+    "coherence",
+    "roads",
+    "profiles",
+    "weightings",
+    "quadrature",
+    "responses",
+    "objectives",
+}
 SEARCH = {
     "problems",
     "operators",
@@ -70,7 +80,7 @@ def test_every_module_has_its_place():
 
 def test_public_names():
     assert suspension_ctrl.__all__ == [
-        *("Gamultiobj", "MoeadDra", "Nsga2", "PowerLawRoad", "Problem", "QuarterCar"),
-        *("RideProblem", "Run", "Sampling", "minimise", "weighting"),
+        *("Gamultiobj", "Iso8608Road", "MoeadDra", "Nsga2", "PowerLawRoad", "Problem", "QuarterCar"),
+        *("RideProblem", "Run", "Sampling", "TwoSlopeRoad", "minimise", "weighting"),
     ]
     assert all(hasattr(suspension_ctrl, name) for name in suspension_ctrl.__all__)

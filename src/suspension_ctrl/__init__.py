@@ -3,12 +3,13 @@
 from .objectives import RideProblem
 from .optimisers import Gamultiobj, MoeadDra, Nsga2, Run, Sampling, minimise
 from .problems import Problem
-from .roads import PowerLawRoad
+from .roads import Iso8608Road, PowerLawRoad, TwoSlopeRoad
 from .vehicles import QuarterCar
 from .weightings import weighting
 
 __all__ = [
     "Gamultiobj",
+    "Iso8608Road",
     "MoeadDra",
     "Nsga2",
     "PowerLawRoad",
@@ -17,6 +18,7 @@ __all__ = [
     "RideProblem",
     "Run",
     "Sampling",
+    "TwoSlopeRoad",
     "minimise",
     "weighting",
 ]
