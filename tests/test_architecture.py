@@ -13,6 +13,10 @@ PHYSICS = {
     "coherence",
     "roads",
     "profiles",
+    "road_tables",
+    "measured_roads",
+    "road_files",
+    "roughness",
     "weightings",
     "quadrature",
     "responses",
@@ -80,7 +84,16 @@ def test_every_module_has_its_place():
 
 def test_public_names():
     assert suspension_ctrl.__all__ == [
-        *("Gamultiobj", "Iso8608Road", "MoeadDra", "Nsga2", "PowerLawRoad", "Problem", "QuarterCar"),
+        *(
+            "Gamultiobj",
+            "Iso8608Road",
+            "MeasuredRoad",
+            "MoeadDra",
+            "Nsga2",
+            "PowerLawRoad",
+            "Problem",
+            "QuarterCar",
+        ),
         *("RideProblem", "Run", "Sampling", "TwoSlopeRoad", "minimise", "weighting"),
     ]
     assert all(hasattr(suspension_ctrl, name) for name in suspension_ctrl.__all__)
