@@ -1,16 +1,23 @@
 """Ride optimisation of vehicle suspensions: linear ride models, ISO 2631 comfort, NSGA-II and MOEA/D-DRA."""
 
+from .cars import FullCar, HalfCar, QuarterCar
+from .cases import LoadCase
+from .handling import RollGeometry
 from .measured_roads import MeasuredRoad
+from .mounted import FlexibleBody, Seat
 from .objectives import RideProblem
 from .optimisers import Gamultiobj, MoeadDra, Nsga2, Run, Sampling, minimise
 from .problems import Problem
 from .roads import Iso8608Road, PowerLawRoad, TwoSlopeRoad
-from .vehicles import QuarterCar
 from .weightings import weighting
 
 __all__ = [
+    "FlexibleBody",
+    "FullCar",
     "Gamultiobj",
+    "HalfCar",
     "Iso8608Road",
+    "LoadCase",
     "MeasuredRoad",
     "MoeadDra",
     "Nsga2",
@@ -18,8 +25,10 @@ __all__ = [
     "Problem",
     "QuarterCar",
     "RideProblem",
+    "RollGeometry",
     "Run",
     "Sampling",
+    "Seat",
     "TwoSlopeRoad",
     "minimise",
     "weighting",

@@ -16,6 +16,12 @@ def positive(name: str, value: float, unit: str = "") -> None:
         raise ValueError(f"{name} must be finite and > 0{' ' * bool(unit)}{unit}, got {value!r}")
 
 
+def not_negative(name: str, value: float, unit: str = "") -> None:
+    """Raise ValueError unless `value` is a finite number of zero or more."""
+    if not (_is_real(value) and 0 <= value <= _LARGEST):
+        raise ValueError(f"{name} must be finite and >= 0{' ' * bool(unit)}{unit}, got {value!r}")
+
+
 def at_least(name: str, value: int, minimum: int) -> None:
     """Raise ValueError unless `value` is a whole number of at least `minimum`."""
     if not (isinstance(value, int | np.integer) and not isinstance(value, bool) and value >= minimum):
@@ -33,6 +39,13 @@ def interval(name: str, value: ArrayLike, unit: str) -> None:
     pair = list(value) if isinstance(value, Sequence | np.ndarray) else []
     if not (len(pair) == 2 and all(map(_is_real, pair)) and 0 <= pair[0] < pair[1] <= _LARGEST):
         raise ValueError(f"{name} must be finite with 0 <= lower < upper [{unit}], got {value!r}")
+
+
+def position(name: str, value: object) -> None:
+    """Raise ValueError unless `value` is a pair of finite numbers."""
+    pair = list(value) if isinstance(value, Sequence | np.ndarray) and not isinstance(value, str) else []
+    if not (len(pair) == 2 and all(_is_real(x) and abs(x) <= _LARGEST for x in pair)):
+        raise ValueError(f"{name} must be two finite numbers, x and y [m], got {value!r}")
 
 
 def one_of(name: str, value: object, allowed: Collection[object]) -> None:

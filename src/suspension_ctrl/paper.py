@@ -7,9 +7,9 @@ suspension optimization", 2010.
 from typing import TYPE_CHECKING, Any
 
 from . import datafiles
+from .cars import QuarterCar
 from .objectives import RideProblem
 from .roads import PowerLawRoad
-from .vehicles import QuarterCar
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -6,8 +6,8 @@ import control
 import numpy as np
 from numpy.typing import NDArray
 
+from .cars import QuarterCar
 from .profiles import Profile
-from .vehicles import QuarterCar
 
 SPEED = 80 / 3.6
 """Speed of the reference quarter car [m/s]."""

@@ -1,106 +1,185 @@
-"""Vehicles as python-control models: masses and tyres are the plant, a strut is feedback around it.
+"""What every vehicle can do: masses and tyres are the plant, struts are feedback around it.
 
-Signs: deflections are positive in extension, forces positive in tension, as in equations (7) and (11).
+Deflections are positive in extension, forces in tension, as in equations (7) and (11) of the paper.
 """
 
-from dataclasses import dataclass
-from typing import ClassVar
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import fields
+from typing import TYPE_CHECKING
 
 import control
 import numpy as np
+from numpy.typing import NDArray
 
 from . import checks
+from .assembly import Assembly, ResponseName, StrutParameter
+from .modes import Mode, modes_of
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Settings = Mapping[str, float | tuple[float, float]]
+"""Coefficients of struts: ``{"front.spring": 2e4, ...}``, or in pairs, ``{"front": (2e4, 1500.0), ...}``."""
+
+_UNITS = {"mass": "kg", "inertia": "kg m^2", "stiffness": "N/m", "damping": "N s/m"}
 
 
-@dataclass(frozen=True, kw_only=True)
-class QuarterCar:
-    """Two-degree-of-freedom quarter vehicle model [1]_, equations (1) and (2).
+def unit_of(parameter: str) -> str:
+    """Return the unit of a vehicle's parameter, which its name tells: ``"body_mass"`` is in kg, a length in m."""
+    return _UNITS.get(parameter.rsplit("_", 1)[-1], "m")
 
-    Parameters
-    ----------
-    body_mass : float
-        Mass of the body on this wheel, M_b [kg].
-    wheel_mass : float
-        Mass of the wheel, M_w [kg].
-    tyre_stiffness : float
-        Vertical stiffness of the tyre, K_t [N/m].
 
-    Raises
-    ------
-    ValueError
-        If a parameter is not finite and above zero.
+class Vehicle(ABC):
+    """What all vehicles have in common; each says how it is assembled."""
 
-    References
-    ----------
-    .. [1] T. J. Yuen and R. Ramli, "Comparison of computational efficiency of MOEA/D and NSGA-II for
-       passive vehicle suspension optimization", 2010.
-    """
+    @abstractmethod
+    def assembly(self) -> Assembly:
+        """Return the vehicle taken apart."""
 
-    body_mass: float
-    wheel_mass: float
-    tyre_stiffness: float
+    @property
+    def responses(self) -> tuple[str, ...]:
+        """Names of the responses; accelerations ``("acceleration", x, y)`` can be asked for beside them."""
+        return tuple(self.assembly().responses)
 
-    responses: ClassVar[tuple[str, ...]] = ("body_acceleration", "suspension_travel", "tyre_load")
+    @property
+    def struts(self) -> tuple[str, ...]:
+        """Names of the struts."""
+        return tuple(strut.name for strut in self.assembly().struts)
 
-    def __post_init__(self) -> None:
-        checks.positive("body_mass", self.body_mass, "kg")
-        checks.positive("wheel_mass", self.wheel_mass, "kg")
-        checks.positive("tyre_stiffness", self.tyre_stiffness, "N/m")
+    @property
+    def contact_points(self) -> NDArray[np.float64]:
+        """Where each road input touches the ground, x forward and y to the left [m], (r, 2)."""
+        return np.array(list(self.assembly().contacts.values()))
 
-    def plant(self) -> control.StateSpace:
-        """Return the vehicle without its strut, which has a port here instead.
+    @property
+    def parameters(self) -> tuple[StrutParameter, ...]:
+        """Coefficients of the struts."""
+        return tuple(self.assembly().parameters)
 
-        Returns
-        -------
-        control.StateSpace
-            Inputs ``road`` x_0 [m] and ``strut`` (its tension [N]); outputs ``body_acceleration`` [m/s^2],
-            ``suspension_travel`` z_2 - z_1 [m], ``tyre_load`` K_t (z_1 - x_0) [N], and the strut's
-            ``deflection`` [m] and ``deflection_rate`` [m/s].
-        """
-        m_b, m_w, k_t = self.body_mass, self.wheel_mass, self.tyre_stiffness
-        # states z1, dz1/dt, z2, dz2/dt: wheel and body
-        a = np.array([[0, 1, 0, 0], [-k_t / m_w, 0, 0, 0], [0, 0, 0, 1], [0, 0, 0, 0]])
-        b = np.array([[0, 0], [k_t / m_w, 1 / m_w], [0, 0], [0, -1 / m_b]])
-        travel, travel_rate = [-1, 0, 1, 0], [0, -1, 0, 1]
-        c = np.array([[0, 0, 0, 0], travel, [k_t, 0, 0, 0], travel, travel_rate])
-        d = np.array([[0, -1 / m_b], [0, 0], [-k_t, 0], [0, 0], [0, 0]])
-        return control.ss(
-            a,
-            b,
-            c,
-            d,
-            states=["wheel_displacement", "wheel_velocity", "body_displacement", "body_velocity"],
-            inputs=["road", "strut"],
-            outputs=[*self.responses, "deflection", "deflection_rate"],
-            name="quarter_car_plant",
-        )
-
-    def closed(self, spring: float, damper: float) -> control.StateSpace:
-        """Return the vehicle with its strut.
+    def plant(self, responses: Sequence[ResponseName] | None = None) -> control.StateSpace:
+        """Return the vehicle without its struts, each of which has a port here instead.
 
         Parameters
         ----------
-        spring : float
-            Spring stiffness K_s [N/m].
-        damper : float
-            Damping coefficient C_s [N s/m].
+        responses : sequence of str or ("acceleration", x, y), optional
+            Its first outputs; all that have a name if not given.
 
         Returns
         -------
         control.StateSpace
-            From ``road`` [m] to ``body_acceleration`` [m/s^2], ``suspension_travel`` [m] and
-            ``tyre_load`` [N].
+            Inputs ``<wheel>_road`` [m], where a tyre is damped ``<wheel>_road_rate`` [m/s], and ``<strut>_strut``
+            (its tension [N]); outputs the responses, then ``<strut>_deflection`` [m] and
+            ``<strut>_deflection_rate`` [m/s]. A quarter car has nothing before the underscore.
+        """
+        plant = self.assembly().plant(self.responses if responses is None else responses)
+        plant.update_names(name="plant")
+        return plant
+
+    def with_struts(
+        self, settings: Settings, responses: Sequence[ResponseName] | None = None
+    ) -> control.StateSpace:
+        """Return the vehicle with its struts, from roads to responses.
+
+        Parameters
+        ----------
+        settings : mapping
+            The coefficients, each above zero but for anti-roll bars, which may have none.
+        responses : sequence of str or ("acceleration", x, y), optional
+            All that have a name if not given.
+
+        Returns
+        -------
+        control.StateSpace
+            From roads [m], and their rates [m/s] where a tyre is damped, to the responses.
 
         Raises
         ------
         ValueError
-            If a coefficient is not finite and above zero.
+            If a coefficient is unknown, missing, or out of range.
         """
-        checks.positive("spring", spring, "N/m")
-        checks.positive("damper", damper, "N s/m")
-        plant, strut = self.plant(), control.ss([], [], [], [[spring, damper]])
-        closed = plant.lft(strut)
+        plant = self.plant(responses)
+        closed = plant.lft(control.ss([], [], [], np.hstack(self.strut_gains(settings))))
+        struts = len(self.struts)
         closed.update_names(
-            states=plant.state_labels, inputs=["road"], outputs=list(self.responses), name="quarter_car"
+            states=plant.state_labels,
+            inputs=plant.input_labels[:-struts],
+            outputs=plant.output_labels[: -2 * struts],
+            name="vehicle",
         )
         return closed
+
+    def strut_gains(self, settings: Settings) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return tensions of the struts by their deflections and by the rates of those, (q, q) each."""
+        values = self.coefficients(settings)
+        q = len(self.struts)
+        gains = np.zeros((2, q, q))
+        for parameter in self.parameters:
+            gains[parameter.order] += values[parameter.name] * parameter.gain
+        return gains[0], gains[1]
+
+    def coefficients(self, settings: Settings) -> dict[str, float]:
+        """Return every coefficient by its name, defaults included; ValueError where `settings` does not fit."""
+        given: dict[str, float] = {}
+        for name, value in settings.items():
+            if isinstance(value, Sequence):
+                spring, damper = value if len(value) == 2 else (float("nan"), float("nan"))
+                given |= {f"{name}.spring": spring, f"{name}.damper": damper}
+            else:
+                given[name] = value
+        known = {parameter.name: parameter for parameter in self.parameters}
+        for name in given:
+            checks.one_of("struts", name, known)
+        missing = [name for name, parameter in known.items() if name not in given and parameter.default is None]
+        if missing:
+            raise ValueError(f"struts must have {', '.join(known)}, got none for {', '.join(missing)}")
+        for name, value in given.items():
+            check = checks.not_negative if known[name].default == 0 else checks.positive
+            check(name, value, known[name].unit)
+        return {name: given.get(name, p.default or 0.0) for name, p in known.items()}
+
+    def modes(self, settings: Settings) -> "pd.DataFrame":
+        """Return the modes of the vehicle with its struts, by rising frequency.
+
+        Returns
+        -------
+        DataFrame
+            ``name``, ``frequency [Hz]`` (undamped), ``damping ratio [-]``, and by coordinate the complex amplitude
+            in the mode, the largest being 1 (metres, and radians for pitch and roll). A real pole, of what is
+            damped too much to swing, is a row with damping ratio 1. The name is that of where most kinetic energy
+            is.
+        """
+        assembly = self.assembly()
+        found = modes_of(self.with_struts(settings), assembly.coordinates, np.diag(assembly.mass_matrix()))
+        return Mode.table(found, assembly.coordinates)
+
+
+class Car(Vehicle):
+    """A vehicle with more than one strut, whose coefficients are given by name."""
+
+    def closed(self, settings: Settings, responses: Sequence[ResponseName] | None = None) -> control.StateSpace:
+        """Return the vehicle with its struts, as `with_struts`: ``{"front": (spring, damper), ...}``."""
+        return self.with_struts(settings, responses)
+
+
+def check_parameters(vehicle: Vehicle) -> None:
+    """Raise ValueError unless all fields of a dataclass are finite and above zero; tyres may have no damping."""
+    for field in fields(vehicle):  # type: ignore[arg-type]
+        check = checks.not_negative if field.name.endswith("tyre_damping") else checks.positive
+        check(field.name, getattr(vehicle, field.name), unit_of(field.name))
+
+
+def spring_and_damper(
+    name: str, share: Sequence[float], defaults: tuple[float | None, float | None] = (None, None)
+) -> list[StrutParameter]:
+    """Return the two coefficients called `name`, of those struts whose `share` (q,) is 1."""
+    gain, prefix = np.diag(share), f"{name}." if name else ""
+    return [
+        StrutParameter(f"{prefix}spring", "N/m", gain, 0, defaults[0]),
+        StrutParameter(f"{prefix}damper", "N s/m", gain, 1, defaults[1]),
+    ]
+
+
+def anti_roll_bar(name: str, difference: Sequence[float], track: float) -> StrutParameter:
+    """Return the stiffness of a bar that resists a `difference` (q,) of travels, none if it is not given."""
+    return StrutParameter(name, "N m/rad", np.outer(difference, difference) / track**2, 0, 0.0)

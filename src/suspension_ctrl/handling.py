@@ -1,0 +1,161 @@
+"""Statics and roll of a vehicle on its struts: static tyre loads, roll gradient, load transfer, roll damping.
+
+In steady cornering the body leans by a moment m h a_y about the roll axis, which lies h below its centre of
+gravity, and its weight leans with it. What springs, bars and tyres carry of that moment is the elastic part of the
+lateral load transfer; forces through the roll centres and at the wheels carry the rest (W. F. Milliken and
+D. L. Milliken, "Race Car Vehicle Dynamics", SAE 1995, chapter 18).
+"""
+
+from dataclasses import dataclass, fields
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import checks
+from .assembly import GRAVITY, Assembly
+
+Real = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class RollGeometry:
+    """Heights that matter in cornering.
+
+    Parameters
+    ----------
+    roll_arm : float
+        Height of the body's centre of gravity above the roll axis [m]; what sits in it is taken to be as high.
+    front_roll_centre, rear_roll_centre : float
+        Height of the roll centres above the ground [m].
+    wheel_centre : float
+        Height of the centres of the wheels above the ground [m].
+
+    Raises
+    ------
+    ValueError
+        If the arm or the height of the wheels is not above zero, or a roll centre not finite.
+    """
+
+    roll_arm: float
+    front_roll_centre: float
+    rear_roll_centre: float
+    wheel_centre: float
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if field.name.endswith("roll_centre"):
+                checks.within(field.name, value, -10, 10)
+            else:
+                checks.positive(field.name, value, "m")
+
+
+class Mechanics(NamedTuple):
+    """Matrices of a vehicle with n coordinates and v coefficients of struts.
+
+    Parameters
+    ----------
+    coordinates : list of str
+    mass : (n, n) ndarray
+    stiffness, damping : (n, n) ndarray
+        Of tyres and supports.
+    by_stiffness, by_damping : (v, n, n) ndarray
+        Of the struts, for coefficients of 1.
+    weights : (n,) ndarray
+        Mass that weighs on each coordinate [kg].
+    tyre_loads : (t, n) ndarray
+        Tension of each tyre by coordinate.
+    tyres : list of str
+        Their names.
+    """
+
+    coordinates: list[str]
+    mass: Real
+    stiffness: Real
+    damping: Real
+    by_stiffness: Real
+    by_damping: Real
+    weights: Real
+    tyre_loads: Real
+    tyres: list[str]
+
+    @classmethod
+    def of(cls, assembly: Assembly) -> "Mechanics":
+        """Take them from a vehicle."""
+        links = [*assembly.tyres, *assembly.supports]
+        e, _ = assembly.elongations(links)
+        p, _ = assembly.elongations(assembly.struts)
+        k, c = (np.array([getattr(link, name) for link in links]) for name in ("stiffness", "damping"))
+        by_stiffness, by_damping = (
+            np.array([p.T @ (q.gain * (q.order == order)) @ p for q in assembly.parameters]) for order in (0, 1)
+        )
+        coordinates = assembly.coordinates
+        return cls(
+            coordinates,
+            assembly.mass_matrix(),
+            e.T @ (k[:, None] * e),
+            e.T @ (c[:, None] * e),
+            by_stiffness,
+            by_damping,
+            np.array([assembly.masses.get(name, 0.0) for name in coordinates]),
+            (k[:, None] * e)[: len(assembly.tyres)],
+            [tyre.name for tyre in assembly.tyres],
+        )
+
+    def stiffness_of(self, coefficients: Real) -> Real:
+        """Return the stiffness matrices (p, n, n) of designs with these coefficients (p, v)."""
+        return self.stiffness + np.tensordot(coefficients, self.by_stiffness, axes=1)
+
+    def static_loads(self, coefficients: Real) -> Real:
+        """Return the load (p, t) of each tyre on level ground [N]."""
+        displacement = np.linalg.solve(self.stiffness_of(coefficients), -GRAVITY * self.weights[:, None])
+        loads: Real = -(self.tyre_loads @ displacement)[..., 0]
+        return loads
+
+    def roll_gradient(self, coefficients: Real, geometry: RollGeometry) -> Real:
+        """Return the angle (p,) by which the body leans in a steady curve [deg/g]."""
+        lean = self._lean(coefficients, geometry)
+        return np.degrees(lean[:, self.coordinates.index("roll")])
+
+    def front_load_transfer(self, coefficients: Real, geometry: RollGeometry, assembly: Assembly) -> Real:
+        """Return the share (p,) of the lateral load transfer that the front axle carries [-]."""
+        elastic = self.tyre_loads @ self._lean(coefficients, geometry)[..., None]
+        transfer = {}
+        for axle, centre in (("front", geometry.front_roll_centre), ("rear", geometry.rear_roll_centre)):
+            tyre = self.tyres.index(f"{axle}_left")
+            other = "rear" if axle == "front" else "front"
+            x, y = assembly.contacts[f"{axle}_left_road"]
+            x_other = assembly.contacts[f"{other}_left_road"][0]
+            body = self._sprung_mass() * x_other / (x_other - x) * centre
+            wheels = 2 * assembly.masses[f"{axle}_left_wheel"] * geometry.wheel_centre
+            transfer[axle] = elastic[:, tyre, 0] + GRAVITY * (body + wheels) / (2 * y)
+        return transfer["front"] / (transfer["front"] + transfer["rear"])
+
+    def roll_damping(self, coefficients: Real) -> Real:
+        """Return the damping ratio (p,) of the mode with most of its kinetic energy in roll, 1 if it creeps."""
+        n = len(self.coordinates)
+        k = self.stiffness_of(coefficients)
+        c = self.damping + np.tensordot(coefficients, self.by_damping, axes=1)
+        inverse = np.linalg.inv(self.mass)
+        a = np.zeros((len(coefficients), 2 * n, 2 * n))
+        a[:, :n, n:], a[:, n:, :n], a[:, n:, n:] = np.eye(n), -inverse @ k, -inverse @ c
+        poles, vectors = np.linalg.eig(a)
+        energy = np.diag(self.mass)[:, None] * np.abs(vectors[:, n:]) ** 2
+        share = energy[:, self.coordinates.index("roll")] / energy.sum(axis=1)
+        pole = np.take_along_axis(poles, share.argmax(axis=1)[:, None], axis=1)[:, 0]
+        ratio: Real = -pole.real / np.abs(pole)
+        return ratio
+
+    def _lean(self, coefficients: Real, geometry: RollGeometry) -> Real:
+        """Return the displacement of each coordinate (p, n) at 1 g to the left."""
+        moment = self._sprung_mass() * GRAVITY * geometry.roll_arm
+        roll = self.coordinates.index("roll")
+        stiffness = self.stiffness_of(coefficients)
+        stiffness[:, roll, roll] -= moment  # the weight leans too
+        load = np.zeros((len(self.coordinates), 1))
+        load[roll] = moment
+        return np.asarray(np.linalg.solve(stiffness, load)[..., 0], dtype=float)
+
+    def _sprung_mass(self) -> float:
+        return sum(w for name, w in zip(self.coordinates, self.weights, strict=True) if not name.endswith("wheel"))

@@ -1,0 +1,143 @@
+"""What is judged of a ride, by name: discomfort, suspension travel, tyre load, at any place of any vehicle.
+
+A measure is written as
+
+- ``ACC``, ``ACC driver``, ``ACC (1.2, -0.4)``: weighted acceleration of the body's centre of gravity, of a seat,
+  or of a point (x, y) of the body;
+- ``SWS``, ``SWS front``: travel of the strut, or of the one with the most of several;
+- ``DTL``, ``DTL rear_left``: load of the tyre, likewise; ``DLC``: over its static load (dynamic load coefficient);
+- a root sum of squares of any responses, each with a factor and a weighting of ISO 2631 or none:
+  ``Wk driver_acceleration + 0.63 We roll_acceleration + 0.4 We pitch_acceleration``, where 0.63 and 0.4 m/rad are
+  the factors of ISO 2631-1, 8.2.2.1, for roll and pitch of a seated person;
+- ``roll_gradient``, ``roll_damping``, ``front_load_transfer``: see `handling`; with ``-`` in front more is better.
+
+``comfort = ...`` gives any of them a name of its own.
+"""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from . import weightings
+from .assembly import Response, ResponseName
+from .vehicles import Vehicle
+
+HANDLING = {"roll_gradient": "deg/g", "roll_damping": "-", "front_load_transfer": "-"}
+"""Measures of handling and their units."""
+
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_POINT = rf"\(\s*({_NUMBER})\s*,\s*({_NUMBER})\s*\)"
+_KINDS = {"SWS": "travel", "DTL": "load", "DLC": "load"}
+_UNITS = {"ACC": "m/s^2", "SWS": "m", "DTL": "N", "DLC": "-"}
+
+
+@dataclass(frozen=True)
+class Term:
+    """A response, its weighting of ISO 2631 and its factor; over the static load of a tyre if `relative`."""
+
+    response: ResponseName
+    weighting: str | None = None
+    factor: float = 1.0
+    relative: bool = False
+
+
+@dataclass(frozen=True)
+class Measure:
+    """What a text means on a vehicle.
+
+    Parameters
+    ----------
+    name, unit : str
+    terms : tuple of Term
+        None for a measure of handling, whose name is `handling`.
+    worst : bool
+        Whether the largest of the terms counts, or the root of the sum of their squares.
+    sign : float
+        -1 where more is better.
+    handling : str
+    """
+
+    name: str
+    unit: str
+    terms: tuple[Term, ...] = ()
+    worst: bool = False
+    sign: float = 1.0
+    handling: str = ""
+
+
+def name_of(text: str) -> str:
+    """Return the name of the measure that is written so: what stands before ``=``, or all of it."""
+    return text.split("=", 1)[0].strip() if "=" in text else " ".join(text.split())
+
+
+def measure(text: str, vehicle: Vehicle, weighting: str | None) -> Measure:
+    """Return what a text means on this vehicle, where ACC has this weighting; ValueError if it means nothing."""
+    if not isinstance(text, str) or not text.strip():
+        raise ValueError(f"measure must be a text such as 'SWS front', got {text!r}")
+    body = text.split("=", 1)[-1].strip()
+    sign = -1.0 if body.startswith("-") else 1.0
+    body = body.removeprefix("-").strip()
+    name = name_of(text)
+    if body in HANDLING:
+        return Measure(name, HANDLING[body], sign=sign, handling=body)
+    kind, _, where = body.partition(" ")
+    if kind in _KINDS:
+        terms = _at_corners(kind, where.strip(), vehicle)
+        return Measure(name, _UNITS[kind], terms, len(terms) > 1, sign)
+    if kind == "ACC":
+        return Measure(name, _UNITS[kind], (Term(_accelerated(where.strip(), vehicle), weighting),), False, sign)
+    terms = tuple(_term(part.strip(), vehicle) for part in re.split(r"\+(?![^(]*\))", body))
+    return Measure(name, _unit(terms, vehicle), terms, False, sign)
+
+
+def _at_corners(kind: str, where: str, vehicle: Vehicle) -> tuple[Term, ...]:
+    """Terms of the struts or tyres whose name is `where` or begins with it; all wheels if it is empty."""
+    tyres = {tyre.name for tyre in vehicle.assembly().tyres}
+    found = {
+        str(response.where): name
+        for name, response in vehicle.assembly().responses.items()
+        if response.kind == _KINDS[kind] and (where or response.where in tyres)
+    }
+    chosen = {end: name for end, name in found.items() if where in ("", end) or end.startswith(f"{where}_")}
+    if not chosen:
+        raise ValueError(
+            f"{kind} must be of one of {', '.join(filter(None, found)) or 'all wheels'}, got {where!r}"
+        )
+    return tuple(Term(name, relative=kind == "DLC") for name in chosen.values())
+
+
+def _accelerated(where: str, vehicle: Vehicle) -> ResponseName:
+    if point := re.fullmatch(_POINT, where):
+        return ("acceleration", float(point[1]), float(point[2]))
+    name = f"{where or 'body'}_acceleration"
+    if name not in vehicle.responses:
+        known = [r.removesuffix("_acceleration") for r in vehicle.responses if r.endswith("_acceleration")]
+        raise ValueError(f"ACC must be of one of {', '.join(known)} or a point (x, y), got {where!r}")
+    return name
+
+
+def _term(text: str, vehicle: Vehicle) -> Term:
+    found = re.fullmatch(rf"(?:({_NUMBER})\s+)?(?:(\S+)\s+)?(\w+|acceleration\s*{_POINT})", text)
+    if not found:
+        raise ValueError(
+            f"measure must be ACC, SWS, DTL, DLC, or terms like '0.4 We pitch_acceleration', got {text!r}"
+        )
+    factor, weighting, response = found[1], found[2], found[3]
+    if weighting is not None:
+        weightings.by_name(weighting)
+    if found[4] is not None:
+        return Term(("acceleration", float(found[4]), float(found[5])), weighting, float(factor or 1))
+    vehicle.assembly().resolved([response])
+    return Term(response, weighting, float(factor or 1))
+
+
+def _unit(terms: Sequence[Term], vehicle: Vehicle) -> str:
+    """Return the unit of the first term: factors of further ones carry theirs to it."""
+    response = next(iter(vehicle.assembly().resolved([terms[0].response]).values()))
+    return _response_unit(response)
+
+
+def _response_unit(response: Response) -> str:
+    if response.kind == "acceleration":
+        return "rad/s^2" if response.where in ("pitch", "roll") else "m/s^2"
+    return {"travel": "m", "load": "N"}[response.kind]

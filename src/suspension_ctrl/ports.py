@@ -1,0 +1,85 @@
+"""A vehicle's frequency response from roads and struts to responses and deflections."""
+
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol
+
+import control
+import numpy as np
+from numpy.typing import NDArray
+
+from .assembly import ResponseName, StrutParameter
+
+Complex = NDArray[np.complex128]
+Real = NDArray[np.float64]
+
+
+class Plant(Protocol):
+    """The part of a vehicle that its responses to roads are computed from."""
+
+    @property
+    def struts(self) -> tuple[str, ...]:
+        """Names of the struts (q,)."""
+
+    @property
+    def contact_points(self) -> Real:
+        """Where the roads touch (r, 2) [m]."""
+
+    @property
+    def parameters(self) -> tuple[StrutParameter, ...]:
+        """Coefficients of the struts."""
+
+    def plant(
+        self, responses: Sequence[ResponseName] | None = None
+    ) -> control.StateSpace | control.FrequencyResponseData:
+        """Return the model: from roads, their rates, struts to responses, deflections and rates of the struts."""
+
+
+class Ports(NamedTuple):
+    """Frequency response of a plant at n frequencies.
+
+    Parameters
+    ----------
+    h : (n, m + q, r + q) complex ndarray
+        Responses, then deflections of struts, by roads and by tensions of struts.
+    m, r : int
+        Numbers of responses and of roads.
+    """
+
+    h: Complex
+    m: int
+    r: int
+
+    @classmethod
+    def of(
+        cls, vehicle: Plant, f: Real, responses: Sequence[ResponseName], gains: tuple[Real, Real] | None = None
+    ) -> "Ports":
+        """Take it at the frequencies `f` (n,) [Hz], ascending.
+
+        With `gains`, tensions of the struts by deflections and by their rates (q, q), there are such struts in
+        place already and the ports are for what is added to them. A body on springs does not drift away at low
+        frequency, which would cost digits.
+        """
+        omega = 2 * np.pi * f
+        m, q, r = len(responses), len(vehicle.struts), len(vehicle.contact_points)
+        plant = vehicle.plant(responses)
+        if gains is not None:
+            plant = _around(plant, np.hstack(gains))
+        h = np.moveaxis(plant.frequency_response(omega, squeeze=False).frdata, 2, 0)[:, : m + q]
+        roads, struts = h[:, :, :r], h[:, :, -q:]
+        if h.shape[2] > r + q:  # damped tyres follow the road's rate too
+            roads = roads + 1j * omega[:, None, None] * h[:, :, r : 2 * r]
+        return cls(np.concatenate([roads, struts], axis=2), m, r)
+
+
+def _around(
+    plant: control.StateSpace | control.FrequencyResponseData, gain: Real
+) -> control.StateSpace | control.FrequencyResponseData:
+    """Return the plant with a static `gain` (q, 2 q) from its last outputs to its last inputs, which all stay."""
+    q = len(gain)
+    if isinstance(plant, control.StateSpace):
+        b, c, d = plant.B[:, -q:], plant.C[-2 * q :], plant.D[:, -q:]  # no strut moves at once by its tension
+        return control.ss(plant.A + b @ gain @ c, plant.B, plant.C + d @ gain @ c, plant.D)
+    h = np.moveaxis(plant.frdata, 2, 0)
+    loop = np.eye(q) - gain @ h[:, -2 * q :, -q:]
+    closed = h + h[:, :, -q:] @ np.linalg.solve(loop, gain @ h[:, -2 * q :])
+    return control.frd(np.moveaxis(closed, 0, 2), plant.omega, smooth=True)
