@@ -119,6 +119,7 @@ def test_profiles_cannot_be_changed():
             "distance must be even, each step within 1% of the mean 1.5 m",
         ),
         (lambda: Profile([0, 2, 1], [[0], [0], [0]]), "distance must ascend, got 1.0 out of order"),
+        (lambda: Profile([0, 1e-7, 2e-7], [[0], [0], [0]]), "distance must have steps of 1e-06 m at least"),
         (lambda: Profile([0, 1, 2], [[0], [np.nan], [0]]), "height must be finite, got nan"),
         (lambda: Profile([0, 1, 2], [[0, 0], [0, 0], [0, 0]]), "height must have the shape"),
         (lambda: Profile([0], [[0]]), "a profile must have two points and a track"),

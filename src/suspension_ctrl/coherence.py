@@ -3,7 +3,7 @@
 It is the cross-spectrum of two tracks over their common spectrum; `scipy.signal.coherence` returns its square.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
@@ -148,8 +148,8 @@ class Tabulated:
         If a parameter is out of range or the lengths differ.
     """
 
-    wavenumber: tuple[float, ...]
-    coherence: tuple[float, ...]
+    wavenumber: tuple[float, ...] = field(repr=False)
+    coherence: tuple[float, ...] = field(repr=False)
     distance: float
 
     def __post_init__(self) -> None:

@@ -188,10 +188,10 @@ def _segment_points(profile: Profile, segment: float | None) -> int:
     points = whole // SEGMENTS if segment is None else round(min(segment / profile.step, whole + 1))
     if not _LEAST <= points <= whole:
         least = _LEAST * profile.step
-        allowed = f"segment from {least:g} to {whole * profile.step:g} m, got {segment!r}"
+        allowed = f"a segment from {least:g} to {whole * profile.step:g} m, got {segment!r}"
         if segment is None:
-            allowed = f"{_LEAST * SEGMENTS} points at least, or a longer segment than an eighth, got {whole}"
-        raise ValueError(f"a profile in steps of {profile.step:g} m must have a {allowed}")
+            allowed = f"{_LEAST * SEGMENTS} points at least, or longer segments than an eighth, got {whole} points"
+        raise ValueError(f"a profile in steps of {profile.step:g} m must have {allowed}")
     return points
 
 

@@ -10,6 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import checks
 from .coherence import Coherence, Surface, coherence_matrix
 
+_CLOSEST = 1e-6
+"""Least mean distance between two points [m]."""
 UNEVEN = 0.01
 """What the distance between two points may differ from the mean by, as a part of it."""
 
@@ -32,7 +34,7 @@ class Profile:
     Parameters
     ----------
     distance : (n,) array_like
-        Ascending [m]; steps may differ from their mean by 1 % of it.
+        Ascending [m]; steps may differ from their mean, a micrometre at least, by 1 % of it.
     height : (n, tracks) array_like
         Elevation of each track [m].
     tracks : (tracks,) sequence of float
@@ -160,6 +162,8 @@ def _check_even(distance: NDArray[np.float64]) -> None:
     mean = (distance[-1] - distance[0]) / steps.size
     if not (steps > 0).all():
         raise ValueError(f"distance must ascend, got {distance[np.argmax(~(steps > 0)) + 1]} out of order")
+    if mean < _CLOSEST:
+        raise ValueError(f"distance must have steps of {_CLOSEST:g} m at least, got {mean:g} m")
     worst = int(np.abs(steps - mean).argmax())
     if not abs(steps[worst] - mean) <= UNEVEN * mean:
         raise ValueError(
