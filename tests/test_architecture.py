@@ -14,6 +14,7 @@ SEARCH = {
     "decomposition",
     "selection",
     "sorting",
+    "feasibility",
     "deap_adapter",
     "optimisers",
     "indicators",
@@ -70,7 +71,7 @@ def test_every_module_has_its_place():
 
 def test_public_names():
     assert suspension_ctrl.__all__ == [
-        *("Gamultiobj", "MoeadDra", "Nsga2", "PowerLawRoad", "Problem", "QuarterCar"),
+        *("Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "PowerLawRoad", "Problem", "QuarterCar"),
         *("RideProblem", "Run", "Sampling", "minimise", "weighting"),
     ]
     assert all(hasattr(suspension_ctrl, name) for name in suspension_ctrl.__all__)

@@ -137,11 +137,11 @@ def test_table_4_with_a_baseline_that_spends_less():
 
 FRESH_PROCESS = """
 import numpy as np
-from suspension_ctrl import checks, decomposition, experiments, operators, paper, selection, sorting
+from suspension_ctrl import checks, decomposition, experiments, feasibility, operators, paper, selection, sorting
 problem = paper.ride_problem()
 plan = experiments.plan(problem, ["nsga2", "moead-dra"], [20], [12], 1, 0)
 experiments.warm_up(problem, plan)
-modules = (checks, decomposition, operators, selection, sorting)
+modules = (checks, decomposition, feasibility, operators, selection, sorting)
 functions = {name: f for module in modules for name, f in vars(module).items() if hasattr(f, "signatures")}
 before = {name: list(f.signatures) for name, f in functions.items()}
 list(experiments.carry_out(problem, plan, {}))

@@ -58,6 +58,7 @@ class RideProblem:
     nodes: int = 256
 
     objectives: ClassVar[tuple[str, ...]] = ("ACC", "SWS", "DTL")
+    constraints: ClassVar[tuple[str, ...]] = ()
     variables: ClassVar[tuple[str, ...]] = ("spring", "damper")
     units: ClassVar[dict[str, str]] = {
         "spring": "N/m", "damper": "N s/m", "ACC": "m/s^2", "SWS": "m", "DTL": "N",
