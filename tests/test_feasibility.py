@@ -40,7 +40,7 @@ def constrained_dominates(a: np.ndarray, b: np.ndarray, m: int) -> bool:
         return True
     if violation_a > 0 and violation_b > 0:
         return violation_a < violation_b
-    return violation_b == 0 and all(a[:m] <= b[:m]) and any(a[:m] < b[:m])
+    return violation_a == violation_b == 0 and all(a[:m] <= b[:m]) and any(a[:m] < b[:m])
 
 
 @settings(max_examples=600)

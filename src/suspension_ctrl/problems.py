@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import checks
 
 Kernel = tuple[Callable[..., NDArray[np.float64]], tuple[Any, ...]]
-"""A numba-compiled function of one design (d,) to its objectives, then constraints (m + c,), and more arguments."""
+"""A numba-compiled function of one design (d,) to its objectives and constraints (m + c,), and its arguments."""
 
 
 class Minimisable(Protocol):

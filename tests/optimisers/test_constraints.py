@@ -1,4 +1,4 @@
-"""Constraints g <= 0: every optimiser keeps to them, reaches constrained fronts, and says where none can be met."""
+"""Constraints g <= 0: every optimiser keeps to them, reaches constrained fronts, and says where it finds none."""
 
 import re
 import warnings
@@ -34,10 +34,10 @@ def closed_form(name: str) -> ReferenceFront:
 
 
 def disc() -> Problem:
-    """f = (a, b) over [-1, 1]^2, feasible in a disc of radius 0.1 about (0.5, 0.5): 0.8 % of the box."""
+    """f = (a, b) over [-1, 1]^2, feasible in a disc of radius 0.05 about (0.5, 0.5): 0.2 % of the box."""
 
     def evaluate(x):
-        return np.column_stack([x, ((x - 0.5) ** 2).sum(axis=1) / 0.1**2 - 1])
+        return np.column_stack([x, ((x - 0.5) ** 2).sum(axis=1) / 0.05**2 - 1])
 
     return Problem(
         evaluate=evaluate, lower=(-1, -1), upper=(1, 1), objectives=("a", "b"), constraints=("outside",)
@@ -92,7 +92,7 @@ def test_without_its_constraints_a_search_ends_outside_them(problem, optimiser):
     bound = minimise(problem, optimiser, iterations=40, seed=0)
     m = len(problem.objectives)
     assert (violations(problem.evaluate(free.designs), m) > 0).mean() > 0.2
-    assert bound.feasible.mean() > 0.9
+    assert bound.feasible.all()
 
 
 @every_optimiser
@@ -132,13 +132,12 @@ def test_a_small_feasible_region_is_found_and_kept(optimiser):
 
 @every_optimiser
 def test_equal_objectives_leave_the_choice_to_the_constraint(optimiser):
-    """Where all objectives are equal a feasible design still drives out infeasible ones."""
+    """Where all objectives are equal feasible designs still drive out infeasible ones."""
     problem = Problem(
         evaluate=lambda x: np.column_stack([0 * x, 0 * x, x - 0.2]),
         lower=(0,), upper=(1,), objectives=("a", "b"), constraints=("g",),
     )  # fmt: skip
-    run = minimise(problem, optimiser, iterations=40, seed=0)
-    assert run.feasible.mean() > 0.9
+    assert minimise(problem, optimiser, iterations=40, seed=0).feasible.all()
 
 
 @every_optimiser
