@@ -66,27 +66,22 @@ def refined(problem: Minimisable, tolerance: float = TOLERANCE) -> Refined:
     """
     checks.positive("tolerance", tolerance)
     variables = len(problem.lower)
-    points, before, feasible = _FIRST, None, False
+    points, before = _FIRST, None
     while points**variables <= _MOST:
         objectives = grid_front(problem, points)
-        feasible = len(objectives) > 0
-        if not feasible:
-            points *= 2
-            continue
-        front = ReferenceFront.of(objectives)
-        change = np.inf if before is None else 1 - front.relative_hypervolume(before)
-        if abs(change) <= tolerance:
-            second = 1 - front.relative_hypervolume(grid_front(problem, round(points / np.sqrt(2))))
-            if abs(second) <= tolerance:
-                return Refined(front, points, change, second)
-        points, before = 2 * points, objectives
-    if problem.constraints and not feasible:
-        raise ValueError(
-            f"problem must have a feasible design on a grid of {_MOST} designs, got none; give a reference front"
-        )
+        if len(objectives) and np.ptp(objectives, axis=0).all():  # otherwise there is nothing to scale by
+            front = ReferenceFront.of(objectives)
+            change = np.inf if before is None else 1 - front.relative_hypervolume(before)
+            if abs(change) <= tolerance:
+                second = 1 - front.relative_hypervolume(grid_front(problem, round(points / np.sqrt(2))))
+                if abs(second) <= tolerance:
+                    return Refined(front, points, change, second)
+            before = objectives
+        points *= 2
+    none = " (no front of feasible designs found)" if problem.constraints and before is None else ""
     raise ValueError(
         f"problem must have a front that a grid of {_MOST} designs settles to {tolerance:g}, got one of "
-        f"{variables} variables that does not; give a reference front"
+        f"{variables} variables that does not{none}; give a reference front"
     )
 
 
