@@ -1,16 +1,23 @@
-"""Test problems with known Pareto fronts, as `Problem`s.
+"""Test problems with known Pareto fronts, as `Problem`s; those of Binh and Korn, of Srinivas and Deb, and C2-DTLZ2
+have constraints.
 
 E. Zitzler, K. Deb, L. Thiele, "Comparison of multiobjective evolutionary algorithms: empirical results",
 Evolutionary Computation 8(2), 2000; K. Deb, L. Thiele, M. Laumanns, E. Zitzler, "Scalable multi-objective
 optimization test problems", CEC 2002. UF1 to UF4 and UF7, whose Pareto sets are curves in the box: Q. Zhang, A.
 Zhou, S. Zhao, P. N. Suganthan, W. Liu, S. Tiwari, "Multiobjective optimization test instances for the CEC 2009
 special session and competition", University of Essex, report CES-487, 2008.
+T. T. Binh, U. Korn, "MOBES: a multiobjective evolution strategy for
+constrained optimization problems", Mendel 1997; N. Srinivas, K. Deb, "Multiobjective optimization using
+nondominated sorting in genetic algorithms", Evolutionary Computation 2(3), 1994; H. Jain, K. Deb, "An evolutionary
+many-objective optimization algorithm using reference-point based nondominated sorting approach, part II", IEEE
+Trans. Evol. Comput. 18(4), 2014.
 """
 
 from collections.abc import Callable
 
 import numpy as np
 from numba import njit
+from scipy.optimize import brentq
 
 from suspension_ctrl import Problem
 
@@ -169,3 +176,88 @@ def _of_kernel(kernel: Callable, rest: tuple[float, float], variables: int = 12)
         objectives=("f1", "f2"),
         kernel=(kernel, ()),
     )
+
+
+@njit
+def _bnh_kernel(x):
+    a, b = x
+    return np.array([
+        4 * a**2 + 4 * b**2, (a - 5) ** 2 + (b - 5) ** 2,
+        ((a - 5) ** 2 + b**2) / 25 - 1, 1 - ((a - 8) ** 2 + (b + 3) ** 2) / 7.7,
+    ])  # fmt: skip
+
+
+@njit
+def _srn_kernel(x):
+    a, b = x
+    return np.array([
+        2 + (a - 2) ** 2 + (b - 1) ** 2, 9 * a - (b - 1) ** 2, (a**2 + b**2) / 225 - 1, (a - 3 * b) / 10 + 1,
+    ])  # fmt: skip
+
+
+@njit
+def _c2dtlz2_kernel(x):
+    f = _dtlz2_kernel(x)
+    nearest = ((f - 1 / np.sqrt(3.0)) ** 2).sum()
+    for j in range(3):
+        nearest = min(nearest, (f**2).sum() - 2 * f[j] + 1)
+    return np.append(f, nearest - 0.4**2)
+
+
+def _constrained(kernel: Callable, lower: tuple, upper: tuple, m: int, c: int, compiled: bool) -> Problem:
+    return Problem(
+        evaluate=lambda designs: np.array([kernel(design) for design in designs]).reshape(-1, m + c),
+        lower=lower,
+        upper=upper,
+        objectives=tuple(f"f{j + 1}" for j in range(m)),
+        constraints=tuple(f"g{j + 1}" for j in range(c)),
+        kernel=(kernel, ()) if compiled else None,
+    )
+
+
+def bnh(*, compiled: bool = True) -> Problem:
+    return _constrained(_bnh_kernel, (0.0, 0.0), (5.0, 3.0), 2, 2, compiled)
+
+
+def srn(*, compiled: bool = True) -> Problem:
+    return _constrained(_srn_kernel, (-20.0, -20.0), (20.0, 20.0), 2, 2, compiled)
+
+
+def c2dtlz2(variables: int = 7, *, compiled: bool = True) -> Problem:
+    return _constrained(_c2dtlz2_kernel, (0.0,) * variables, (1.0,) * variables, 3, 1, compiled)
+
+
+def bnh_set(n: int) -> np.ndarray:
+    """Pareto-optimal designs (2 n, 2): a = b up to 3, then along the bound b = 3."""
+    low, high = np.linspace(0, 3, n), np.linspace(3, 5, n)
+    return np.concatenate([np.stack([low, low], axis=1), np.stack([high, np.full(n, 3.0)], axis=1)])
+
+
+def srn_set(n: int) -> np.ndarray:
+    """Pareto-optimal designs (3 n, 2), from the least of f1 to the least of f2.
+
+    Where no constraint is active, f1 + f2 has its least at a = -2.5 for any b. At the ends of that line the set
+    goes on along the line a - 3 b + 10 = 0 to the least of f1 on it, a = 1.1, and along the circle of radius 15 to
+    the least of f2 on it, where its derivative 9 b + 2 a (b - 1) by the angle is zero.
+    """
+    line = np.linspace(1.1, -2.5, n)
+    inside = np.linspace(2.5, np.sqrt(225 - 2.5**2), n)
+    angles = [np.arctan2(inside[-1], -2.5), 3 * np.pi / 4]
+    last = brentq(lambda t: -9 * np.sin(t) - 2 * (15 * np.sin(t) - 1) * np.cos(t), *angles)
+    circle = np.linspace(angles[0], last, n)
+    return np.concatenate([
+        np.stack([line, (line + 10) / 3], axis=1),
+        np.stack([np.full(n, -2.5), inside], axis=1),
+        15 * np.stack([np.cos(circle), np.sin(circle)], axis=1),
+    ])  # fmt: skip
+
+
+def c2dtlz2_front(n: int) -> np.ndarray:
+    """Pareto-optimal objectives: what of the unit sphere is within 0.4 of a corner or of the middle.
+
+    Towards the origin a point comes no farther from a unit vector as long as it stays outside the sphere.
+    """
+    a, b = (angle.ravel() for angle in np.meshgrid(*[np.linspace(0, np.pi / 2, n)] * 2))
+    sphere = np.stack([np.cos(a) * np.cos(b), np.cos(a) * np.sin(b), np.sin(a)], axis=1)
+    centres = np.concatenate([np.eye(3), np.full((1, 3), 1 / np.sqrt(3))])
+    return sphere[np.linalg.norm(sphere[:, None] - centres, axis=2).min(axis=1) <= 0.4]

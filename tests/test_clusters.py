@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from benchmarks import dtlz2, zdt1
+from benchmarks import dtlz2, srn, zdt1
 from suspension_ctrl import Nsga2, Problem, clusters, minimise
 from suspension_ctrl.optimisers import Sampling
 from suspension_ctrl.study import Study
@@ -137,6 +137,8 @@ def test_an_evaluation_spread_over_workers_gives_the_same_run(cluster):
     ours, theirs = (minimise(p, Nsga2(population=20), iterations=3, seed=1) for p in (dtlz2(5), spread))
     np.testing.assert_array_equal(ours.objectives, theirs.objectives)
     assert (spread.variables, spread.objectives) == (dtlz2(5).variables, dtlz2(5).objectives)
+    assert spread.constraints == ()
+    assert clusters.distributed(srn(), cluster).constraints == ("g1", "g2")
     with pytest.raises(ValueError, match=r"^chunk must be a whole number >= 1, got 0$"):
         clusters.distributed(dtlz2(5), cluster, chunk=0)
 

@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 
-from benchmarks import dtlz2
+from benchmarks import dtlz2, srn
 from suspension_ctrl import MoeadDra, Nsga2, minimise
 
 OPTIMISERS = {"nsga2": Nsga2(population=24), "moead-dra": MoeadDra(population=24)}
@@ -46,9 +46,11 @@ print(imported, len(compiled))
 
 
 def run(name: str) -> np.ndarray:
-    """Designs and objectives that a search ends with, long enough for MOEA/D-DRA to update its utilities."""
-    found = minimise(dtlz2(5), OPTIMISERS[name], iterations=60, seed=4)
-    return np.hstack([found.designs, found.objectives])
+    """What two searches end with, long enough for MOEA/D-DRA to update its utilities; one has constraints."""
+    runs = [
+        minimise(problem, OPTIMISERS[name], iterations=60, seed=4) for problem in (dtlz2(5), srn(compiled=False))
+    ]
+    return np.concatenate([np.hstack([r.designs, r.objectives, r.constraints]).ravel() for r in runs])
 
 
 @pytest.mark.parametrize("name", OPTIMISERS)

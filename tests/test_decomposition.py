@@ -179,6 +179,36 @@ def test_utilities_follow_relative_progress_at_the_present_ideal_point():
     np.testing.assert_allclose(updated, [1.0, 0.8 * 0.975, 0.8 * 0.95, 0.8 * 0.95, 0.8 * 0.95], rtol=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("child", "replaced"),
+    [
+        ([9.0, 9.0, -1.0, 0.0], [True, True, True, False]),  # feasible and bad: infeasible ones make room
+        ([0.0, 0.0, -1.0, -1.0], [True, True, True, True]),  # feasible and good: everyone does
+        ([0.0, 0.0, 0.25, 0.25], [True, False, False, False]),  # only those of larger violation
+        ([0.0, 0.0, 2.0, 0.0], [False, False, False, False]),
+    ],
+)
+def test_whom_a_child_replaces_with_constraints(child, replaced):
+    """Partners of violation 1, 0.5, 0.4 and none: slack of one constraint makes up for no other."""
+    values = np.array([[1.0, 1.0, 1.0, -9.0], [1.0, 1.0, 0.5, -1.0], [1.0, 1.0, 0.2, 0.2], [1.0, 1.0, 0.0, -1.0]])
+    designs, ideal = np.zeros((4, 1)), np.array([1.0, 1.0])
+    decomposition.replace_worse(
+        np.random.default_rng(0), np.ones(1), np.array(child), np.arange(4), designs, values,
+        np.full((4, 2), 0.5), ideal, 4,
+    )  # fmt: skip
+    np.testing.assert_array_equal(designs[:, 0] == 1, replaced)
+    feasible = max(child[2:]) <= 0
+    np.testing.assert_array_equal(ideal, np.minimum(child[:2], 1.0) if feasible else 1.0)
+
+
+def test_utilities_of_infeasible_designs_follow_their_violation():
+    """By hand, threshold 0.001: violation halved, met at last, as it was, down by 0.0005; g is worse in all."""
+    before = np.array([[1.0, 1.0, 2.0], [1.0, 1.0, 2.0], [1.0, 1.0, 2.0], [1.0, 1.0, 2.0]])
+    after = np.array([[9.0, 9.0, 1.0], [9.0, 9.0, -1.0], [9.0, 9.0, 2.0], [9.0, 9.0, 1.999]])
+    updated = decomposition.updated_utility(np.full(4, 0.8), before, after, np.ones((4, 2)), np.zeros(2), 0.001)
+    np.testing.assert_allclose(updated, [1.0, 1.0, 0.8 * 0.95, 0.8 * 0.975], rtol=1e-9)
+
+
 @given(st.integers(0, 2**32))
 def test_utilities_stay_between_zero_and_one(seed):
     rng = np.random.default_rng(seed)

@@ -5,7 +5,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from suspension_ctrl import experiments, paper, tables
+from benchmarks import srn
+from suspension_ctrl import InfeasibleWarning, Problem, experiments, paper, tables
 from suspension_ctrl.indicators import ReferenceFront
 from suspension_ctrl.references import grid_front
 
@@ -137,11 +138,11 @@ def test_table_4_with_a_baseline_that_spends_less():
 
 FRESH_PROCESS = """
 import numpy as np
-from suspension_ctrl import checks, decomposition, experiments, operators, paper, selection, sorting
+from suspension_ctrl import checks, decomposition, experiments, feasibility, operators, paper, selection, sorting
 problem = paper.ride_problem()
 plan = experiments.plan(problem, ["nsga2", "moead-dra"], [20], [12], 1, 0)
 experiments.warm_up(problem, plan)
-modules = (checks, decomposition, operators, selection, sorting)
+modules = (checks, decomposition, feasibility, operators, selection, sorting)
 functions = {name: f for module in modules for name, f in vars(module).items() if hasattr(f, "signatures")}
 before = {name: list(f.signatures) for name, f in functions.items()}
 list(experiments.carry_out(problem, plan, {}))
@@ -170,6 +171,45 @@ def test_fronts_are_non_dominated_and_named_with_units(problem, plan, store):
     populations = experiments.final_populations(plan, store)
     assert set(populations.algorithm) == {"nsga2", "moead-dra"}
     assert len(populations) == 2 * (20 + 20 + 30 + 30)
+
+
+def test_final_populations_tell_violations_where_there_are_constraints():
+    """After the start alone some of SRN's designs are infeasible: the front and the indicators leave them out."""
+    problem = srn()
+    planned = experiments.plan(problem, ["nsga2"], [20], [1], 1, 5)
+    store = {}
+    list(experiments.carry_out(problem, planned, store))
+    final = store[planned[0].name].final
+    assert list(final.columns) == ["x1", "x2", "f1", "f2", "violation"]
+    values = problem.evaluate(final[["x1", "x2"]].to_numpy())
+    np.testing.assert_array_equal(final[["f1", "f2"]], values[:, :2])
+    feasible = (values[:, 2:] <= 0).all(axis=1)
+    np.testing.assert_array_equal(final.violation == 0, feasible)
+    assert 0 < feasible.sum() < 20
+    front = experiments.front(problem, final)
+    assert 0 < len(front) <= feasible.sum()
+    assert front.violation.eq(0).all()
+    reference = ReferenceFront.of(grid_front(problem, 40))
+    row = experiments.tidy(problem, planned, store, reference).iloc[0]
+    assert row.hypervolume == reference.hypervolume(values[feasible, :2])
+    assert row.igd_plus == reference.igd_plus(values[feasible, :2])
+
+
+def test_runs_without_a_feasible_design_have_rows_too():
+    problem = Problem(
+        evaluate=lambda x: np.column_stack([x, 1 - x, 0 * x + 1]),
+        lower=(0,), upper=(1,), objectives=("f1", "f2"), constraints=("g",),
+    )  # fmt: skip
+    planned = experiments.plan(problem, ["nsga2", "moead-dra"], [20], [2], 1, 5)
+    experiments.warm_up(problem, planned)
+    store = {}
+    with pytest.warns(InfeasibleWarning, match=r"^no feasible design among \d+ evaluated, .* 1: g 1$"):
+        list(experiments.carry_out(problem, planned, store))
+    front = ReferenceFront.of(np.array([[0.0, 1.0], [1.0, 0.0]]))
+    table = experiments.tidy(problem, planned, store, front)
+    assert table.hypervolume.eq(0).all()
+    assert np.isposinf(table.igd_plus).all()
+    assert experiments.front(problem, store[planned[0].name].final).empty
 
 
 def test_raw_moead_takes_the_papers_units():

@@ -115,3 +115,11 @@ def test_reference_front_of_the_ride_problem():
     assert 0.15 < shares[2] < shares[1] < shares[0] < 0.3
     with pytest.raises(ValueError, match=r"^points must be a whole number >= 2, got 1$"):
         grid_front(problem, 1)
+
+
+def test_an_empty_set_is_worse_than_any():
+    """As a search leaves it that finds no feasible design: nothing dominated, and nowhere near."""
+    front, nothing = ReferenceFront.of(sphere(5)), np.empty((0, 3))
+    assert front.hypervolume(nothing) == front.relative_hypervolume(nothing) == 0
+    assert front.igd_plus(nothing) == front.epsilon(nothing) == np.inf
+    assert np.isnan(front.spread(nothing))

@@ -36,6 +36,9 @@ def test_headers_carry_units():
             "kernel must be a function compiled by numba and a tuple, got (<built-in",
         ),
         ({"kernel": len}, "kernel must be a function compiled by numba and a tuple, got <built-in"),
+        ({"constraints": ("c", "c")}, "constraints must be names different from all others, got ('c', 'c')"),
+        ({"constraints": ("a",)}, "constraints must be names different from all others, got ('a',)"),
+        ({"constraints": "c"}, "constraints must be names different from all others, got 'c'"),
         ({"variables": ("x", "x", "y")}, "variables must be 2 different names, got ('x', 'x', 'y')"),
         ({"variables": "kc"}, "variables must be 2 different names, got 'kc'"),
         ({"variables": ("k",)}, "variables must be 2 different names, got ('k',)"),
@@ -47,8 +50,18 @@ def test_rejects_bad_problems(change, message):
 
 
 def test_the_first_bad_design_is_named():
-    designs = np.array([[0.1, 0.2], [0.2, 0.9]])
-    found = evaluate_checked(lambda x: [[1, 2], [3, 4]], designs, ("a", "b"))
+    designs, problem = np.array([[0.1, 0.2], [0.2, 0.9]]), Problem(**GOOD)
+    found = evaluate_checked(lambda x: [[1, 2], [3, 4]], designs, problem)
     assert found.tolist() == [[1.0, 2.0], [3.0, 4.0]]
     with pytest.raises(ValueError, match=r"got \[0.2, nan\] for design \[0.2, 0.9\]$"):
-        evaluate_checked(lambda x: [[1, 2], [0.2, np.nan]], designs, ("a", "b"))
+        evaluate_checked(lambda x: [[1, 2], [0.2, np.nan]], designs, problem)
+    limited = Problem(**GOOD, constraints=("limit",))
+    assert evaluate_checked(lambda x: np.hstack([x, x[:, :1]]), designs, limited).shape == (2, 3)
+    with pytest.raises(
+        ValueError, match=r"^evaluate must return shape \(2, 3\) for designs \(2, 2\), got \(2, 2\)$"
+    ):
+        evaluate_checked(lambda x: x, designs, limited)
+    with pytest.raises(
+        ValueError, match=r"^evaluate must return finite objectives and constraints, got \[1.0, 2.0, inf\]"
+    ):
+        evaluate_checked(lambda x: [[1, 2, np.inf], [1, 2, 3]], designs, limited)

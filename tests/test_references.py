@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from benchmarks import srn, srn_set
 from suspension_ctrl import Problem, references
 from suspension_ctrl.indicators import ReferenceFront
 
@@ -78,6 +79,61 @@ def test_too_many_variables_are_refused():
     problem = Problem(evaluate=lambda x: x[:, :2], lower=(0,) * 5, upper=(1,) * 5, objectives=("f1", "f2"))
     with pytest.raises(ValueError, match=r"^problem must have a front that a grid of 20000000 designs settles"):
         references.refined(problem)
+
+
+def limited(bound: float, evaluate=None) -> Problem:
+    """The line with x >= bound: its front goes from (bound, 1 - bound) to (1, 0)."""
+    line = evaluate or Line()
+    return Problem(
+        evaluate=lambda x: np.column_stack([line(x), bound - x[:, 0]]),
+        lower=(0, 0), upper=(1, 1), objectives=("f1", "f2"), constraints=("least",),
+    )  # fmt: skip
+
+
+def test_only_feasible_designs_make_a_front():
+    """The feasible half of the line: in its own scale the same 0.71 below 1.1, less as many triangles as steps."""
+    found = references.refined(limited(0.5), 2e-3)
+    assert found.front.ideal[0] >= 0.5
+    steps = np.count_nonzero(np.linspace(0, 1, found.points) >= 0.5) - 1
+    assert found.front.volume == pytest.approx(0.71 - 0.5 / steps, rel=1e-9)
+
+
+def test_the_front_of_a_constrained_problem_is_its_closed_form():
+    """The ends count most: a grid of 800 steps of 0.05 misses each by as much as one step, of a range of 200."""
+    grid = ReferenceFront.of(references.grid_front(srn(), 800))
+    true = ReferenceFront.of(srn().evaluate(srn_set(500))[:, :2])
+    assert true.relative_hypervolume(grid.objectives) == pytest.approx(1, abs=2e-3)
+
+
+@pytest.mark.parametrize(("bound", "found"), [(0.9999, 1), (2.0, 0)])
+def test_without_a_front_of_feasible_designs_there_is_no_reference(bound, found, monkeypatch):
+    """One point, the bound of the box, has no range to scale by; no point at all is no front either."""
+    monkeypatch.setattr(references, "_MOST", 100_000)
+    assert references.grid_front(limited(bound), 100).shape == (found, 2)
+    with pytest.raises(
+        ValueError, match=r"^problem must have .* does not \(no front of feasible designs found\); give"
+    ):
+        references.refined(limited(bound))
+
+
+def test_a_feasible_region_that_the_coarsest_grid_misses_is_found():
+    """From 0.991 to 0.994 there is no value of 100, whose last are 0.990 and 1, and one of 200, 198/199."""
+    line = Line()
+    problem = Problem(
+        evaluate=lambda x: np.column_stack([line(x), np.abs(x[:, 0] - 0.9925) - 0.0015]),
+        lower=(0, 0), upper=(1, 1), objectives=("f1", "f2"), constraints=("narrow",),
+    )  # fmt: skip
+    assert len(references.grid_front(problem, 100)) == 0
+    assert references.refined(problem, 0.25).points > 200
+
+
+def test_constraints_make_another_front():
+    """Also where they are met throughout the sample that tells problems apart, as far as their values differ."""
+    line = Line()
+    keys = {
+        references.key(problem, 1e-2) for problem in (line.problem(), limited(-1.0, line), limited(-2.0, line))
+    }
+    assert len(keys) == 3
 
 
 def test_a_fine_front_is_measured_by_an_even_sample():

@@ -98,3 +98,24 @@ def test_quartiles_by_group():
     rows = pd.DataFrame({"k": ["x"] * 5 + ["y"], "v": [1.0, 2, 3, 4, 5, 7]})
     found = statistics.quartiles(rows, ["k"], ["v"])
     assert found.to_numpy().tolist() == [["x", 5, 3, 2, 4], ["y", 1, 7, 7, 7]]
+
+
+def test_infinite_values_rank_last():
+    """Runs without a feasible design are infinitely far from the front: quartiles and tests take them so.
+
+    By hand: of 1, 2, inf, inf, inf the quartiles are the second, third and fourth; of 8 pairs with 3 and 4 the
+    first sample is larger in 6.
+    """
+    table = pd.DataFrame({"algorithm": "a", "igd_plus": [np.inf, 1.0, np.inf, 2.0, np.inf]})
+    row = statistics.quartiles(table, ["algorithm"], ["igd_plus"]).iloc[0]
+    assert [row["igd_plus q1"], row["igd_plus"], row["igd_plus q3"]] == [2.0, np.inf, np.inf]
+    mixed = pd.DataFrame({"algorithm": list("aaaa"), "igd_plus": [1.0, np.inf, np.inf, np.inf]})
+    other = pd.DataFrame({"algorithm": list("bb"), "igd_plus": [3.0, 4.0]})
+    compared = statistics.pairwise(
+        pd.concat([mixed, other]).assign(group=1), ["group"], ["igd_plus"], ["a", "b"]
+    ).iloc[0]
+    assert compared.a12 == 6 / 8
+    assert compared.median_first == np.inf
+    assert np.isnan(compared.ratio)
+    alike = pd.DataFrame({"algorithm": list("aabb"), "igd_plus": np.inf, "group": 1})
+    assert statistics.pairwise(alike, ["group"], ["igd_plus"], ["a", "b"]).p.tolist() == [1.0]

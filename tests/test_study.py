@@ -4,12 +4,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from benchmarks import dtlz2, zdt1
+from benchmarks import dtlz2, srn, srn_set, zdt1
 from suspension_ctrl import MoeadDra, Nsga2, Problem, files, minimise, study
 from suspension_ctrl.indicators import ReferenceFront, non_dominated
 from suspension_ctrl.optimisers import Sampling
 from suspension_ctrl.stores import FolderStore
 from suspension_ctrl.study import ARCHIVE, CUT_ARCHIVE, INDICATORS, POPULATION, Study
+from suspension_ctrl.traces import trace
 
 F1 = np.linspace(0, 1, 200)
 ZDT1_FRONT = ReferenceFront.of(np.stack([F1, 1 - np.sqrt(F1)], axis=1))
@@ -205,3 +206,69 @@ def test_nothing_is_judged_twice_by_name(small):
     assert len(set(names)) == len(names) == 8
     assert names[0] == "zdt1_nsga2_n20_s3"
     assert study.StudyRun("p", "a", 5, 1).name == "p_a_n5_s1"
+
+
+def nowhere(designs: np.ndarray) -> np.ndarray:
+    return np.column_stack([designs, 1 - designs, 0 * designs + 1])
+
+
+NOWHERE = Problem(
+    evaluate=nowhere, lower=(0,), upper=(1,), objectives=("f1", "f2"), constraints=("g",)
+)  # fmt: skip
+
+
+def test_only_feasible_designs_are_judged():
+    """Population, archive and what is cut of it, against what a run and a trace of it give by hand."""
+    problem, front = srn(), ReferenceFront.of(srn().evaluate(srn_set(200))[:, :2])
+    algorithms = {"nsga2": Nsga2(population=20), "moead": MoeadDra(population=20)}
+    store = {}
+    one = Study(
+        problems={"srn": problem}, algorithms=algorithms, seeds=[2], budgets=[20, 200], references={"srn": front}
+    )
+    assert all(error == "" for _, error in one.carry_out(store))
+    table = one.table(store)
+    for name, optimiser in algorithms.items():
+        rows = table[table.algorithm == name].set_index(["budget", "set"])
+        for budget in (20, 200):
+            seen = trace(problem, optimiser, [budget], seed=2)
+            for kept, objectives, feasible in (
+                (POPULATION, seen.states[budget].objectives, seen.states[budget].violation == 0),
+                (ARCHIVE, seen.objectives, seen.feasible),
+            ):
+                best = objectives[feasible][non_dominated(objectives[feasible])]
+                row = rows.loc[budget, kept]
+                assert row["size"] == len(best) > 0
+                assert row.relative_hypervolume == front.relative_hypervolume(best)
+                assert row.igd_plus == front.igd_plus(best)
+        assert rows.loc[(20, POPULATION), "size"] < non_dominated(seen.objectives[:20]).sum()
+        final = store[one.runs()[list(algorithms).index(name)].name].final
+        assert list(final.columns) == ["f1", "f2", "violation"]
+        np.testing.assert_array_equal(final.violation, seen.states[200].violation)
+
+
+def test_a_run_without_a_feasible_design_has_no_hypervolume(tmp_path):
+    """It is no error, also not when it is read back from disk; statistics rank it below all others."""
+    front = ReferenceFront.of(np.array([[0.0, 1.0], [1.0, 0.0]]))
+    algorithms = {
+        "nsga2": Nsga2(population=20),
+        "moead": MoeadDra(population=20),
+        "sobol": Sampling(population=20),
+    }
+    one = Study(
+        problems={"p": NOWHERE}, algorithms=algorithms, seeds=[1, 2], budgets=[40], references={"p": front}
+    )
+    store = FolderStore(tmp_path, {})
+    assert all(error == "" for _, error in one.carry_out(store))
+    table = one.table(store)
+    assert table.relative_hypervolume.eq(0).all()
+    assert table["size"].eq(0).all()
+    assert np.isposinf(table[["igd_plus", "epsilon"]]).all(axis=None)
+    assert table.spread.isna().all()
+    assert all(store[run.name].final.violation.eq(1).all() for run in one.runs())
+
+
+def test_without_a_feasible_design_there_is_no_reference():
+    found = Study(problems={"p": NOWHERE}, algorithms={"a": Nsga2(population=20)}, seeds=[1], budgets=[40]).run()
+    assert found.error.tolist() == [
+        "ValueError: references must hold 'p', of which the runs from seed 1 found no feasible design, got []"
+    ]

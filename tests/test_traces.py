@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from benchmarks import dtlz2
+from benchmarks import dtlz2, srn
 from suspension_ctrl import MoeadDra, Nsga2, minimise, paper
 from suspension_ctrl.optimisers import Gamultiobj, Sampling
 from suspension_ctrl.traces import trace
@@ -15,6 +15,7 @@ OPTIMISERS = {
     "sobol": Sampling(population=30),
 }
 PROBLEMS = {"ride": paper.ride_problem(), "compiled": dtlz2(5, compiled=True), "plain": dtlz2(5)}
+CONSTRAINED = {"compiled": srn(), "plain": srn(compiled=False)}
 
 
 @pytest.mark.parametrize("problem", PROBLEMS.values(), ids=PROBLEMS.keys())
@@ -40,6 +41,20 @@ def test_all_that_is_evaluated_is_kept_in_order(problem, optimiser):
     np.testing.assert_array_equal(seen.objectives.min(axis=0), seen.states[290].ideal)
     kept = {tuple(row) for row in seen.objectives}
     assert {tuple(row) for row in seen.states[290].objectives} <= kept
+
+
+@pytest.mark.parametrize("problem", CONSTRAINED.values(), ids=CONSTRAINED.keys())
+@pytest.mark.parametrize("optimiser", OPTIMISERS.values(), ids=OPTIMISERS.keys())
+def test_constraints_are_kept_with_the_objectives(problem, optimiser):
+    seen = trace(problem, optimiser, [30, 290], seed=3)
+    values = problem.evaluate(seen.designs)
+    np.testing.assert_array_equal(np.hstack([seen.objectives, seen.constraints]), values)
+    met = (values[:, 2:] <= 0).all(axis=1)
+    np.testing.assert_array_equal(seen.feasible, met)
+    assert 0 < met.sum() < len(met)
+    run = minimise(problem, optimiser, evaluations=290, seed=3)
+    np.testing.assert_array_equal(seen.states[290].constraints, run.constraints)
+    np.testing.assert_array_equal(seen.states[290].ideal, values[met, :2].min(axis=0))
 
 
 def test_budgets_must_cover_the_start():

@@ -6,7 +6,7 @@ from pathlib import Path
 import pandas as pd
 
 from comparing.campaign import Campaign
-from suspension_ctrl import comparison_figures, files, lenses, study
+from suspension_ctrl import comparison_figures, experiments, files, lenses, study
 from suspension_ctrl.problems import column_headers
 from suspension_ctrl.stores import Record
 from suspension_ctrl.study import INDICATORS
@@ -44,10 +44,16 @@ def _draw_attainment(campaign: Campaign, population: int, store: Mapping[str, Re
     names = campaign.algorithms[:2]
     runs = campaign.studies()[population].runs()
     kept = {
-        name: {r.seed: store[r.name].final for r in runs if r.algorithm == name and r.name in store}
+        name: {
+            r.seed: experiments.feasible_rows(campaign.problem, store[r.name].final)
+            for r in runs
+            if r.algorithm == name and r.name in store
+        }
         for name in names
     }
-    shared = sorted(set(kept[names[0]]) & set(kept[names[1]]))
+    shared = sorted(
+        seed for seed in kept[names[0]] if len(kept[names[0]][seed]) and len(kept[names[1]].get(seed, ()))
+    )
     if not shared:
         return
     sides = [pd.concat([kept[name][seed].assign(seed=seed) for seed in shared]) for name in names]

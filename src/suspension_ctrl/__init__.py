@@ -2,6 +2,7 @@
 
 from .cars import FullCar, HalfCar, QuarterCar
 from .cases import LoadCase
+from .feasibility import InfeasibleWarning
 from .handling import RollGeometry
 from .measured_roads import MeasuredRoad
 from .mounted import FlexibleBody, Seat
@@ -16,6 +17,7 @@ __all__ = [
     "FullCar",
     "Gamultiobj",
     "HalfCar",
+    "InfeasibleWarning",
     "Iso8608Road",
     "LoadCase",
     "MeasuredRoad",

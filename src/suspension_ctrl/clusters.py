@@ -167,6 +167,7 @@ def distributed(problem: Described, client: "Client", chunk: int = 16) -> Proble
         lower=problem.lower,
         upper=problem.upper,
         objectives=problem.objectives,
+        constraints=problem.constraints,
         variables=problem.variables,
         units=problem.units,
     )

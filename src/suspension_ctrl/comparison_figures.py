@@ -52,10 +52,13 @@ def anytime(
 
 
 def boxes(ax: Axes, runs: pd.DataFrame, value: str) -> None:
-    """Draw a box per algorithm of a value over the runs: median, quartiles, and what lies beyond 1.5 ranges."""
+    """Draw a box per algorithm of a value over the runs: median, quartiles, and what lies beyond 1.5 ranges.
+
+    Values that are not finite, those of runs without a feasible design, are left out.
+    """
     groups = list(runs.groupby("algorithm", sort=False))
     box = ax.boxplot(
-        [part[value].dropna() for _, part in groups],
+        [part[value][np.isfinite(part[value])] for _, part in groups],
         tick_labels=[str(name) for name, _ in groups],
         patch_artist=True,
         medianprops={"color": "black"},
@@ -77,7 +80,7 @@ def attainment_differences(
     ----------
     ax : Axes
     first, second : DataFrame
-        Final populations of both, with a column ``seed``; seeds that both have are shown.
+        Final populations of both, feasible designs, with a column ``seed``; seeds that both have are shown.
     objectives : (str, str)
         The columns for the horizontal and the vertical axis.
 

@@ -11,6 +11,7 @@ from numba import njit
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from .feasibility import any_feasible, lower_ideal, violation_of
 from .operators import draw_below
 
 ZERO_WEIGHT = 1e-4
@@ -79,9 +80,12 @@ def corner_subproblems(weights: NDArray[np.float64]) -> NDArray[np.int64]:
 
 @njit(cache=True, inline="always")  # a call for each comparison would cost more than what it compares
 def tchebycheff(objectives: NDArray[np.float64], weight: NDArray[np.float64], ideal: NDArray[np.float64]) -> float:
-    """Return g(F | lambda) = max_j lambda_j |F_j - z_j|; all arguments (m,), equation (14)."""
+    """Return g(F | lambda) = max_j lambda_j |F_j - z_j|; all arguments (m,), equation (14).
+
+    Whatever follows the m objectives is left out.
+    """
     g = 0.0
-    for j in range(objectives.size):
+    for j in range(ideal.size):
         g = max(g, weight[j] * abs(objectives[j] - ideal[j]))
     return g
 
@@ -133,26 +137,36 @@ def mating_range(
 def replace_worse(
     rng: np.random.Generator,
     child: NDArray[np.float64],
-    child_objectives: NDArray[np.float64],
+    child_values: NDArray[np.float64],
     partners: NDArray[np.int64],
     designs: NDArray[np.float64],
-    objectives: NDArray[np.float64],
+    values: NDArray[np.float64],
     weights: NDArray[np.float64],
     ideal: NDArray[np.float64],
     limit: int,
 ) -> None:
     """Put a child in the place of partners that it betters, at most `limit` of them; everything in place.
 
-    The ideal point takes the child's objectives in before the first comparison. To replace the first `limit`
-    that it betters of partners visited in random order is to replace as many, drawn from all that it betters:
-    whether it betters one does not depend on the others.
+    It betters one of larger violation and, where both are feasible, one of larger g(F | lambda). The ideal point
+    takes the child's objectives in before the first comparison, as `lower_ideal` does. To replace the first
+    `limit` that it betters of partners visited in random order is to replace as many, drawn from all that it
+    betters: whether it betters one does not depend on the others.
+
+    References
+    ----------
+    H. Jain and K. Deb, "An evolutionary many-objective optimization algorithm using reference-point based
+    nondominated sorting approach, part II", IEEE Trans. Evol. Comput. 18(4), 2014, for the rule with constraints.
     """
-    for j in range(ideal.size):
-        ideal[j] = min(ideal[j], child_objectives[j])
+    lower_ideal(ideal, child_values, any_feasible(values, ideal.size))
+    violation = violation_of(child_values, ideal.size)
     bettered = np.empty_like(partners)
     count = 0
     for p in partners:
-        if tchebycheff(child_objectives, weights[p], ideal) < tchebycheff(objectives[p], weights[p], ideal):
+        theirs = violation_of(values[p], ideal.size)
+        better = violation < theirs
+        if violation == 0.0 and theirs == 0.0:
+            better = tchebycheff(child_values, weights[p], ideal) < tchebycheff(values[p], weights[p], ideal)
+        if better:
             bettered[count] = p
             count += 1
     for left in range(count, max(count - limit, 0), -1):
@@ -160,27 +174,30 @@ def replace_worse(
         p = bettered[drawn]
         bettered[drawn] = bettered[left - 1]
         designs[p] = child
-        objectives[p] = child_objectives
+        values[p] = child_values
 
 
 @njit(cache=True)
 def updated_utility(
     utility: NDArray[np.float64],
     before: NDArray[np.float64],
-    objectives: NDArray[np.float64],
+    values: NDArray[np.float64],
     weights: NDArray[np.float64],
     ideal: NDArray[np.float64],
     threshold: float,
 ) -> NDArray[np.float64]:
-    """Return the utilities (N,) after progress from `before` (N, m) to `objectives` (N, m).
+    """Return the utilities (N,) after progress from `before` (N, m + c) to `values` (N, m + c).
 
-    Progress is the relative decrease of g, old and new value both taken at the present ideal point: above
-    the threshold a utility is 1, below it sinks, by 5 % where there was none.
+    Progress is the relative decrease of g, old and new value both taken at the present ideal point, or of the
+    violation where a subproblem had an infeasible design: above the threshold a utility is 1, below it sinks, by
+    5 % where there was none.
     """
     updated = np.ones_like(utility)
     for i in range(utility.size):
-        old = tchebycheff(before[i], weights[i], ideal)
-        new = tchebycheff(objectives[i], weights[i], ideal)
+        old, new = violation_of(before[i], ideal.size), violation_of(values[i], ideal.size)
+        if old == 0.0:
+            old = tchebycheff(before[i], weights[i], ideal)
+            new = tchebycheff(values[i], weights[i], ideal)
         progress = max(0.0, (old - new) / old) if old > 0 else 0.0
         if progress <= threshold:
             updated[i] = (0.95 + 0.05 * progress / threshold) * utility[i]

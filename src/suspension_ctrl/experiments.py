@@ -1,5 +1,6 @@
 """The timed comparison of the algorithms: a plan of runs, carried out one at a time, as a tidy table."""
 
+import warnings
 from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -10,12 +11,13 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from . import checks
+from .feasibility import InfeasibleWarning
 from .indicators import ReferenceFront, evenly_spread, non_dominated
 from .optimisers import Gamultiobj, MoeadDra, Nsga2, Run, Sampling, minimise
 from .optimisers.minimise import Optimiser
 from .problems import Described, Minimisable, column_headers
 from .selection import deap_order
-from .stores import Record
+from .stores import VIOLATION, Record
 
 ALGORITHMS: dict[str, Callable[..., Optimiser]] = {
     "nsga2": Nsga2,
@@ -123,7 +125,9 @@ def warm_up(problem: Minimisable, runs: Sequence[PlannedRun]) -> None:
         short = optimiser(algorithm, size)
         if isinstance(short, MoeadDra):
             short = replace(short, utility_period=1)
-        minimise(problem, short, iterations=1, seed=0)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", InfeasibleWarning)  # after one iteration it says nothing
+            minimise(problem, short, iterations=1, seed=0)
     deap_order(np.array([[0.0, 0.0], [1.0, 1.0]]), np.array([0, 1]))  # else compiled at the first tie
 
 
@@ -141,16 +145,24 @@ def carry_out(
 def population(problem: Described, run: Run, size: int) -> pd.DataFrame:
     """Return the final designs of a run with their objectives, units in the column names.
 
+    Where the problem has constraints, a last column ``violation`` holds the total violations.
     Of a sample, which keeps all it has found, `size` designs are taken, spread evenly over its front.
     """
     names = column_headers([*problem.variables, *problem.objectives], problem.units)
     kept = evenly_spread(run.objectives, size)
-    return pd.DataFrame(np.hstack([run.designs[kept], run.objectives[kept]]), columns=names)
+    table = pd.DataFrame(np.hstack([run.designs[kept], run.objectives[kept]]), columns=names)
+    return table.assign(**{VIOLATION: run.violation[kept]}) if problem.constraints else table
 
 
 def front(problem: Described, final: pd.DataFrame) -> pd.DataFrame:
-    """Return the non-dominated rows of a final population."""
-    return final[non_dominated(objectives_of(problem, final))]
+    """Return the non-dominated rows among the feasible ones of a final population."""
+    feasible = feasible_rows(problem, final)
+    return feasible[non_dominated(objectives_of(problem, feasible))]
+
+
+def feasible_rows(problem: Minimisable, final: pd.DataFrame) -> pd.DataFrame:
+    """Return the rows of a final population that meet all constraints."""
+    return final[final[VIOLATION] == 0] if problem.constraints else final
 
 
 def objectives_of(problem: Described, final: pd.DataFrame) -> NDArray[np.float64]:
@@ -164,15 +176,15 @@ def tidy(
     """Return one row per run.
 
     Columns: algorithm, population, iterations, budget, repeat, seed, evaluations, seconds, cpu_seconds,
-    ``<phase>_seconds`` for each phase of its algorithm (see `Run`), hypervolume and igd_plus of its final
-    population.
+    ``<phase>_seconds`` for each phase of its algorithm (see `Run`), hypervolume and igd_plus of the feasible
+    designs of its final population.
     """
     return pd.DataFrame([_row(problem, planned, store[planned.name], reference) for planned in runs])
 
 
 def _row(problem: Described, planned: PlannedRun, record: Record, reference: ReferenceFront) -> dict[str, Any]:
     last = record.course.iloc[-1]
-    objectives = objectives_of(problem, record.final)
+    objectives = objectives_of(problem, feasible_rows(problem, record.final))
     return {
         **{key: getattr(planned, key) for key in _KEYS},
         "evaluations": int(last.evaluations),

@@ -37,6 +37,9 @@ def evenly_spread(objectives: NDArray[np.float64], size: int) -> NDArray[np.int6
 class ReferenceFront:
     """A front to measure others by; its ideal point becomes 0 and its nadir 1 in every objective.
 
+    An empty set, as of a search that found no feasible design, has hypervolume 0 and is infinitely far in IGD+ and
+    epsilon: it ranks below every other.
+
     Parameters
     ----------
     objectives : (n, m) ndarray
@@ -89,14 +92,18 @@ class ReferenceFront:
 
     def igd_plus(self, objectives: ArrayLike) -> float:
         """Return the modified inverted generational distance IGD+ of objectives (n, m) in scaled ones [-]."""
+        if len(np.asarray(objectives)) == 0:
+            return float("inf")
         return float(moocore.igd_plus(self.scaled(objectives), ref=self.scaled(self.objectives)))
 
     def epsilon(self, objectives: ArrayLike) -> float:
         """Return the least shift by which objectives (n, m) weakly dominate this front, in scaled ones [-]."""
+        if len(np.asarray(objectives)) == 0:
+            return float("inf")
         return float(moocore.epsilon_additive(self.scaled(objectives), ref=self.scaled(self.objectives)))
 
     def spread(self, objectives: ArrayLike) -> float:
-        """Return the generalised spread of objectives (n, m) in scaled ones [-]; NaN of one point.
+        """Return the generalised spread of objectives (n, m) in scaled ones [-]; NaN of fewer than two points.
 
         It is 0 where nearest neighbours are equally far apart throughout and the ends, which have the least of
         an objective on this front, belong to the set.

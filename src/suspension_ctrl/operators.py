@@ -14,16 +14,6 @@ def sample_uniform(
 
 
 @njit(cache=True)
-def ideal_point(objectives: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the least value of each objective (m,) among n; numpy takes ten times as long along short rows."""
-    least = objectives[0].copy()
-    for i in range(1, objectives.shape[0]):
-        for j in range(least.size):
-            least[j] = min(least[j], objectives[i, j])
-    return least
-
-
-@njit(cache=True)
 def draw_below(rng: np.random.Generator, count: int) -> int:
     """Return a whole number drawn uniformly from 0 to count - 1."""
     return int(rng.random() * count)

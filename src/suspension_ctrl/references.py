@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from platformdirs import user_cache_path
 
 from . import checks, files
+from .feasibility import feasible_objectives
 from .indicators import ReferenceFront, non_dominated
 from .problems import Minimisable
 
@@ -61,36 +62,43 @@ def refined(problem: Minimisable, tolerance: float = TOLERANCE) -> Refined:
     Raises
     ------
     ValueError
-        If that would take more than 20 million designs.
+        If that would take more than 20 million designs, also where none of them is feasible.
     """
     checks.positive("tolerance", tolerance)
     variables = len(problem.lower)
     points, before = _FIRST, None
     while points**variables <= _MOST:
         objectives = grid_front(problem, points)
-        front = ReferenceFront.of(objectives)
-        change = np.inf if before is None else 1 - front.relative_hypervolume(before)
-        if abs(change) <= tolerance:
-            second = 1 - front.relative_hypervolume(grid_front(problem, round(points / np.sqrt(2))))
-            if abs(second) <= tolerance:
-                return Refined(front, points, change, second)
-        points, before = 2 * points, objectives
+        if len(objectives) and np.ptp(objectives, axis=0).all():  # otherwise there is nothing to scale by
+            front = ReferenceFront.of(objectives)
+            change = np.inf if before is None else 1 - front.relative_hypervolume(before)
+            if abs(change) <= tolerance:
+                second = 1 - front.relative_hypervolume(grid_front(problem, round(points / np.sqrt(2))))
+                if abs(second) <= tolerance:
+                    return Refined(front, points, change, second)
+            before = objectives
+        points *= 2
+    none = " (no front of feasible designs found)" if problem.constraints and before is None else ""
     raise ValueError(
         f"problem must have a front that a grid of {_MOST} designs settles to {tolerance:g}, got one of "
-        f"{variables} variables that does not; give a reference front"
+        f"{variables} variables that does not{none}; give a reference front"
     )
 
 
 def grid_front(problem: Minimisable, points: int) -> NDArray[np.float64]:
-    """Return the non-dominated objectives (n, m) on a regular grid with `points` values in each variable."""
+    """Return the non-dominated objectives (n, m) on a regular grid with `points` values in each variable.
+
+    Those of feasible designs only; there may be none.
+    """
     checks.at_least("points", points, 2)
     axes = [np.linspace(a, b, points) for a, b in zip(problem.lower, problem.upper, strict=True)]
-    front = np.empty((0, len(problem.objectives)))
+    m = len(problem.objectives)
+    front = np.empty((0, m))
     total = points ** len(axes)
     for start in range(0, total, _CHUNK):
         places = np.unravel_index(np.arange(start, min(start + _CHUNK, total)), [points] * len(axes))
         designs = np.stack([axis[place] for axis, place in zip(axes, places, strict=True)], axis=-1)
-        merged = np.concatenate([front, _best(problem.evaluate(designs))])
+        merged = np.concatenate([front, _best(feasible_objectives(problem.evaluate(designs), m))])
         front = _best(merged)
     return front
 
@@ -122,10 +130,10 @@ def _read(path: Path) -> Refined:
 
 
 def key(problem: Minimisable, tolerance: float) -> str:
-    """Return a digest of all that the front depends on: versions, bounds, tolerance, and sample objectives.
+    """Return a digest of all that the front depends on: versions, bounds, tolerance, and sample values.
 
-    The objectives of some designs stand for the whole function: any parameter or line of code that changes
-    them makes another key.
+    The objectives and constraints of some designs stand for the whole function: any parameter or line of code
+    that changes them makes another key.
     """
     rng = np.random.default_rng(0)
     lower, upper = (np.asarray(bound, dtype=float) for bound in (problem.lower, problem.upper))
@@ -137,4 +145,6 @@ def key(problem: Minimisable, tolerance: float) -> str:
         "grid": [tolerance, _FIRST, _MOST],
         "front": [ReferenceFront.SAMPLE, ReferenceFront.HYPERVOLUME_REFERENCE],
     }
+    if problem.constraints:  # not otherwise: fronts kept so far keep their names
+        settings["constraints"] = list(problem.constraints)
     return hashlib.sha256(json.dumps(settings, sort_keys=True).encode() + probes.tobytes()).hexdigest()[:32]

@@ -37,7 +37,8 @@ def quartiles(table: pd.DataFrame, by: Sequence[str], values: Sequence[str]) -> 
     for value in values:
         columns[value] = groups[value].median()
         for name, q in (("q1", 0.25), ("q3", 0.75)):
-            columns[f"{value} {name}"] = groups[value].quantile(q)
+            higher = groups[value].quantile(q, interpolation="higher")  # between two infinite ones nothing else
+            columns[f"{value} {name}"] = groups[value].quantile(q).where(np.isfinite(higher), higher)
     return pd.DataFrame(columns).reset_index()
 
 
@@ -75,14 +76,15 @@ def holm(p_values: ArrayLike) -> NDArray[np.float64]:
 def ratio_of_medians(first: ArrayLike, second: ArrayLike, seed: int = 0) -> tuple[float, float, float]:
     """Return the ratio of the first sample's median to the second's and its 95 % bootstrap interval.
 
-    All NaN where the second sample has values that are not positive, the interval where a sample has one value.
+    All NaN where the second sample has values that are not positive or either has infinite ones, the interval
+    where a sample has one value.
     """
     first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
 
     def ratio(x: NDArray[np.float64], y: NDArray[np.float64], axis: int = -1) -> NDArray[np.float64]:
         return np.median(x, axis=axis) / np.median(y, axis=axis)
 
-    if not (second > 0).all():
+    if not ((second > 0).all() and np.isfinite([*first, *second]).all()):
         return np.nan, np.nan, np.nan
     if min(first.size, second.size) < 2:
         value = float(ratio(first, second))
@@ -135,7 +137,7 @@ def pairwise(
 def _compared(first: "pd.Series[float]", second: "pd.Series[float]") -> dict[str, Any]:
     ratio, low, high = ratio_of_medians(first, second)
     effect = a12(first, second)
-    alike = np.ptp(np.concatenate([first, second])) == 0  # a rank test of equal values has nothing to rank
+    alike = np.unique(np.concatenate([first, second])).size == 1  # a rank test of equal values has nothing to rank
     return {
         "median_first": first.median(),
         "median_second": second.median(),

@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
 PLAN = "plan.json"
+VIOLATION = "violation"
+"""Column of a final population's total violations, where the problem has constraints."""
 
 
 class Record(NamedTuple):
@@ -21,7 +23,7 @@ class Record(NamedTuple):
     course : DataFrame
         A row per iteration, or per budget and set judged.
     final : DataFrame
-        A row per individual of its final population.
+        A row per individual of its final population, with a column `VIOLATION` where there are constraints.
     """
 
     course: "pd.DataFrame"

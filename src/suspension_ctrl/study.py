@@ -16,14 +16,17 @@ from .clusters import outcome, outcomes
 from .indicators import ReferenceFront, evenly_spread, non_dominated
 from .optimisers.minimise import Optimiser
 from .problems import Minimisable
-from .stores import Record
+from .stores import VIOLATION, Record
 from .traces import Trace, trace
 
 if TYPE_CHECKING:
     from distributed import Client
 
 POPULATION, ARCHIVE, CUT_ARCHIVE = "population", "archive", "archive of N"
-"""What is judged: the population, all non-dominated designs evaluated, and N of those, spread evenly."""
+"""What is judged: the population, all non-dominated designs evaluated, and N of those, spread evenly.
+
+Of each the feasible designs; a set may be empty.
+"""
 
 INDICATORS = ("relative_hypervolume", "igd_plus", "epsilon", "spread")
 
@@ -67,8 +70,8 @@ class Study:
     budgets : sequence of int
         Evaluations at which a run is judged, by its state after the last iteration within the budget.
     references : mapping of str to ReferenceFront, optional
-        By name of a problem. Without one, the non-dominated designs of the first seed's runs of all algorithms
-        are the reference, for which these runs are made once more, here.
+        By name of a problem. Without one, the non-dominated feasible designs of the first seed's runs of all
+        algorithms are the reference, for which these runs are made once more, here.
 
     Raises
     ------
@@ -152,14 +155,25 @@ class Study:
             yield by_name[name], error
 
     def reference(self, problem: str) -> ReferenceFront:
-        """Return the front that measures the runs on a problem."""
+        """Return the front that measures the runs on a problem.
+
+        Raises
+        ------
+        ValueError
+            If it is to be made of the first seed's runs and none of them has found a feasible design.
+        """
         if problem in self.references:
             return self.references[problem]
         seen = [
-            trace(self.problems[problem], optimiser, [max(self.budgets)], self.seeds[0]).objectives
+            trace(self.problems[problem], optimiser, [max(self.budgets)], self.seeds[0])
             for optimiser in self.algorithms.values()
         ]
-        objectives = np.concatenate(seen)
+        objectives = np.concatenate([one.objectives[one.feasible] for one in seen])
+        if len(objectives) == 0:
+            raise ValueError(
+                f"references must hold {problem!r}, of which the runs from seed {self.seeds[0]} found no feasible "
+                f"design, got {list(self.references)}"
+            )
         return ReferenceFront.of(objectives[non_dominated(objectives)])
 
     def table(self, store: Mapping[str, Record], errors: Mapping[str, str] | None = None) -> pd.DataFrame:
@@ -198,17 +212,18 @@ def judged_run(
     rows = [
         row for budget in sorted(set(budgets)) for row in _judged(seen, budget, optimiser.population, reference)
     ]
-    final = cut(seen.states[max(budgets)].objectives, optimiser.population)
-    return Record(
-        pd.DataFrame(rows).assign(seconds=seconds), pd.DataFrame(final, columns=list(problem.objectives))
-    )
+    last = seen.states[max(budgets)]
+    kept = evenly_spread(last.objectives, optimiser.population)
+    final = pd.DataFrame(last.objectives[kept], columns=list(problem.objectives))
+    if problem.constraints:
+        final[VIOLATION] = last.violation[kept]
+    return Record(pd.DataFrame(rows).assign(seconds=seconds), final)
 
 
 def _judged(seen: Trace, budget: int, population: int, reference: ReferenceFront) -> Iterator[dict[str, Any]]:
     state = seen.states[budget]
-    evaluated = seen.objectives[: state.evaluations]
-    archive = evaluated[non_dominated(evaluated)]
-    best = state.objectives[non_dominated(state.objectives)]
+    archive = _best(seen.objectives[: state.evaluations], seen.feasible[: state.evaluations])
+    best = _best(state.objectives, state.violation == 0)
     sets = {POPULATION: cut(best, population), ARCHIVE: archive, CUT_ARCHIVE: cut(archive, population)}
     for name, objectives in sets.items():
         yield {
@@ -218,6 +233,11 @@ def _judged(seen: Trace, budget: int, population: int, reference: ReferenceFront
             "size": len(objectives),
             **{indicator: getattr(reference, indicator)(objectives) for indicator in INDICATORS},
         }
+
+
+def _best(objectives: NDArray[np.float64], feasible: NDArray[np.bool_]) -> NDArray[np.float64]:
+    candidates = objectives[feasible]
+    return candidates[non_dominated(candidates)]
 
 
 def cut(objectives: NDArray[np.float64], population: int) -> NDArray[np.float64]:

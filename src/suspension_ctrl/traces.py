@@ -2,12 +2,14 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from .feasibility import violations
 from .optimisers.minimise import Optimiser
 from .optimisers.state import State
 from .problems import Kernel, Minimisable
@@ -25,11 +27,19 @@ class Trace:
         All designs evaluated, in order.
     objectives : (n, m) ndarray
         Their objectives.
+    constraints : (n, c) ndarray
+        Values g of their constraints, met where g <= 0.
     """
 
     states: dict[int, State]
     designs: NDArray[np.float64]
     objectives: NDArray[np.float64]
+    constraints: NDArray[np.float64]
+
+    @cached_property
+    def feasible(self) -> NDArray[np.bool_]:
+        """Which of the designs meet all constraints (n,)."""
+        return violations(self.constraints, 0) == 0
 
 
 def trace(problem: Minimisable, optimiser: Optimiser, budgets: Iterable[int], seed: int) -> Trace:
@@ -78,10 +88,11 @@ class Recorded:
     """
 
     def __init__(self, problem: Minimisable, capacity: int) -> None:
-        self.lower, self.upper, self.objectives = problem.lower, problem.upper, problem.objectives
+        self.lower, self.upper = problem.lower, problem.upper
+        self.objectives, self.constraints = problem.objectives, problem.constraints
         self._evaluate = problem.evaluate
         self._designs = np.empty((capacity, len(problem.lower)))
-        self._values = np.empty((capacity, len(problem.objectives)))
+        self._values = np.empty((capacity, len(problem.objectives) + len(problem.constraints)))
         self._count = np.zeros(1, dtype=np.int64)
         self.kernel: Kernel | None = None
         if problem.kernel is not None:
@@ -90,7 +101,7 @@ class Recorded:
             self.kernel = (kept_kernel, (self._designs, self._values, self._count, arguments, function))
 
     def evaluate(self, designs: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the problem's objectives (n, m) of designs (n, d), and keep both."""
+        """Return the problem's values (n, m + c) of designs (n, d), and keep both."""
         start = int(self._count[0])
         rows = slice(start, start + len(designs))
         self._designs[rows] = designs
@@ -98,9 +109,11 @@ class Recorded:
         self._count[0] = rows.stop
         return values
 
-    def seen(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return designs (n, d) and objectives (n, m) kept so far."""
-        return self._designs[: self._count[0]], self._values[: self._count[0]]
+    def seen(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Return designs (n, d), their objectives (n, m) and constraints (n, c) kept so far."""
+        count, m = self._count[0], len(self.objectives)
+        values = self._values[:count]
+        return self._designs[:count], np.ascontiguousarray(values[:, :m]), np.ascontiguousarray(values[:, m:])
 
 
 @njit  # not cached on disk: numba cannot store the types of functions passed as arguments
@@ -112,7 +125,7 @@ def kept_kernel(
     arguments: tuple[Any, ...],
     kernel: Callable[..., NDArray[np.float64]],
 ) -> NDArray[np.float64]:
-    """Return the kernel's objectives (m,) of a design (d,); both go into the next row of what is kept."""
+    """Return the kernel's values (m + c,) of a design (d,); both go into the next row of what is kept."""
     value = kernel(design, *arguments)
     designs[count[0]] = design
     values[count[0]] = value

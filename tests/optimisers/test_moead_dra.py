@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from numba import njit
 
-from benchmarks import dtlz2, zdt1
+from benchmarks import c2dtlz2, dtlz2, srn, zdt1
 from suspension_ctrl import MoeadDra, decomposition, minimise, paper
 from suspension_ctrl.optimisers import sweep
 
@@ -33,7 +33,11 @@ def test_corners_worked_on_every_iteration_and_utilities_in_range(population, pr
     assert any((u < 1).any() for u in utilities)
 
 
-@pytest.mark.parametrize("problem", [dtlz2(4), paper.ride_problem()], ids=["no kernel", "kernel"])
+@pytest.mark.parametrize(
+    "problem",
+    [dtlz2(4), paper.ride_problem(), c2dtlz2(4, compiled=False), srn()],
+    ids=["no kernel", "kernel", "constraints, no kernel", "constraints, kernel"],
+)
 def test_compiled_and_plain_sweeps_make_the_same_run(problem, monkeypatch):
     """The compiled loop, the same function as plain Python, and every step of it as plain Python."""
     optimiser = MoeadDra(population=30, utility_period=3)
@@ -48,6 +52,7 @@ def test_compiled_and_plain_sweeps_make_the_same_run(problem, monkeypatch):
     for other in runs[1:]:
         np.testing.assert_array_equal(runs[0].designs, other.designs)
         np.testing.assert_array_equal(runs[0].objectives, other.objectives)
+        np.testing.assert_array_equal(runs[0].constraints, other.constraints)
 
 
 def test_kernel_is_used_where_it_may_be_and_only_there():
@@ -152,7 +157,17 @@ def bad_kernel(design):
 @pytest.mark.parametrize("kernel", [short_kernel, bad_kernel])
 def test_kernels_are_checked(kernel):
     problem = replace(dtlz2(4), kernel=(kernel, ()))
-    with pytest.raises(ValueError, match=r"^kernel must return a finite value for each objective"):
+    with pytest.raises(
+        ValueError, match=r"^kernel must return a finite value for each objective and constraint, "
+    ):
+        minimise(problem, MoeadDra(population=20), iterations=1, seed=0)
+
+
+def test_kernels_must_return_constraints_too():
+    problem = replace(srn(), kernel=(short_kernel, ()))
+    with pytest.raises(
+        ValueError, match=r"^kernel must return a finite value for each objective and constraint, "
+    ):
         minimise(problem, MoeadDra(population=20), iterations=1, seed=0)
 
 

@@ -9,7 +9,8 @@ Our reading, where nothing is documented: one child per pair of parents; beyond 
 taken rank by rank, less crowded ones first; a mutant goes in a uniformly random direction, turned away from bounds
 on which it lies, as far as drawn uniformly up to a step and the bounds; "adaptive with respect to the last
 successful or unsuccessful generation" is Rechenberg's rule: the step doubles where more than a fifth of the
-mutants survived, and halves otherwise.
+mutants survived, and halves otherwise; room left by the first front is for feasible designs, as long as there are
+any.
 """
 
 from collections.abc import Iterator
@@ -23,7 +24,8 @@ from deap.base import Toolbox
 from numpy.typing import NDArray
 
 from .. import checks
-from ..operators import ideal_point, sample_uniform
+from ..feasibility import any_feasible, constrained, ideal_with, violations
+from ..operators import sample_uniform
 from ..problems import Minimisable, evaluate_checked
 from ..selection import crowding_distances
 from .state import State
@@ -80,25 +82,27 @@ class Gamultiobj:
 
     def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:
         """Yield the state after the start and after each iteration, without end."""
-        size, names = self.population, problem.objectives
+        size, m = self.population, len(problem.objectives)
         crossed = round(self.crossover_fraction * size)
         designs = np.array(toolbox.sample(rng, size), dtype=float)
-        objectives = evaluate_checked(toolbox.evaluate, designs, names)
-        _, rank, crowding = toolbox.select(objectives, size)
-        ideal, evaluations, step = ideal_point(objectives), size, 1.0
-        yield State(designs, objectives, ideal, evaluations)
+        values = evaluate_checked(toolbox.evaluate, designs, problem)
+        _, rank, crowding = toolbox.select(constrained(values, m), size)
+        ideal, evaluations, step = ideal_with(np.full(m, np.inf), values, False), size, 1.0
+        yield State.of(designs, values, ideal, evaluations)
         while True:
             parents = designs[toolbox.tournament(rng, rank, crowding, 2 * crossed + size - crossed)]
             pairs, alone = parents[: 2 * crossed], parents[2 * crossed :]
             children = np.concatenate([toolbox.mate(rng, pairs), toolbox.mutate(rng, alone, step)])
-            values = evaluate_checked(toolbox.evaluate, children, names)
-            ideal, evaluations = np.minimum(ideal, ideal_point(values)), evaluations + size
-            designs, objectives = np.concatenate([designs, children]), np.concatenate([objectives, values])
-            kept, rank, crowding = toolbox.select(objectives, size)
+            born = evaluate_checked(toolbox.evaluate, children, problem)
+            ideal, evaluations = ideal_with(ideal, born, any_feasible(values, m)), evaluations + size
+            designs, values = np.concatenate([designs, children]), np.concatenate([values, born])
+            pool = contenders(values, m, size)
+            kept, rank, crowding = toolbox.select(constrained(values[pool], m), size)
+            kept = pool[kept]
             survived = np.count_nonzero(kept >= size + crossed) / max(1, size - crossed)
             step = min(1.0, 2 * step) if survived > _SUCCESS else step / 2
-            designs, objectives = designs[kept], objectives[kept]
-            yield State(designs, objectives, ideal, evaluations)
+            designs, values = designs[kept], values[kept]
+            yield State.of(designs, values, ideal, evaluations)
 
 
 def ranked_tournament(
@@ -132,6 +136,16 @@ def feasible_steps(
     room = np.min((bound - designs) / direction, axis=1, initial=step)
     moved = designs + (rng.random(len(designs)) * room)[:, np.newaxis] * direction
     return np.clip(moved, lower, upper)
+
+
+def contenders(values: NDArray[np.float64], m: int, size: int) -> NDArray[np.int64]:
+    """Return who of a population may survive, in ascending order: all feasible ones, at least `size` in any case.
+
+    From values (n, m + c). Where fewer are feasible, those of the least violation come with them.
+    """
+    violation = violations(values, m)
+    count = max(size, np.count_nonzero(violation == 0))
+    return np.sort(np.argsort(violation, kind="stable")[:count])
 
 
 def select_controlled(

@@ -1,6 +1,7 @@
 """Run an optimiser on a problem: budget, seed, timings and history in one place."""
 
-from collections.abc import Iterator
+import warnings
+from collections.abc import Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,6 +13,7 @@ from deap.base import Toolbox
 from numpy.typing import NDArray
 
 from .. import checks
+from ..feasibility import InfeasibleWarning, violations
 from ..problems import Minimisable
 from .clock import PhaseClock
 from .state import State
@@ -51,6 +53,8 @@ class Run:
         Final population.
     objectives : (n, m) ndarray
         Its objectives.
+    constraints : (n, c) ndarray
+        Values g of its constraints, met where g <= 0.
     evaluations : int
         Designs evaluated, the start included.
     seconds, cpu_seconds : float
@@ -63,6 +67,7 @@ class Run:
 
     designs: NDArray[np.float64]
     objectives: NDArray[np.float64]
+    constraints: NDArray[np.float64]
     evaluations: int
     seconds: float
     cpu_seconds: float
@@ -70,12 +75,23 @@ class Run:
     log: "Log"
 
     @cached_property
+    def violation(self) -> NDArray[np.float64]:
+        """Total violation of each design (n,): the sum of max(0, g) over its constraints."""
+        return violations(self.constraints, 0)
+
+    @property
+    def feasible(self) -> NDArray[np.bool_]:
+        """Which designs meet all constraints (n,)."""
+        return self.violation == 0
+
+    @cached_property
     def history(self) -> "pd.DataFrame":
         """One row for the start, iteration 0, and one per iteration, everything counted from the start of the run.
 
         Columns: ``iteration``, ``evaluations``, ``seconds``, ``cpu_seconds``, ``<phase>_seconds`` for each phase,
-        ``ideal_<objective>`` for each objective. In a sequential MOEA/D-DRA whose sweep runs compiled, children
-        are evaluated inside the phase ``sweep``, and ``evaluate`` is the start alone.
+        ``ideal_<objective>`` for each objective, of feasible designs as soon as one is found. In a sequential
+        MOEA/D-DRA whose sweep runs compiled, children are evaluated inside the phase ``sweep``, and ``evaluate``
+        is the start alone.
         """
         import pandas as pd  # a third of a second: not at import of the package, nor in a run
 
@@ -124,6 +140,11 @@ def minimise(
     ValueError
         If the budget is not one of the two or too small, the seed is negative, or the problem's evaluation
         returns a wrong shape or a value that is not finite.
+
+    Warns
+    -----
+    InfeasibleWarning
+        If no design of the final population meets all constraints.
     """
     per_iteration = optimiser.evaluations_per_iteration(len(problem.objectives))
     count = _iteration_count(optimiser.population, per_iteration, iterations, evaluations)
@@ -143,7 +164,21 @@ def minimise(
     seconds = [f"{phase}_seconds" for phase in clock.seconds]
     ideal = [f"ideal_{name}" for name in problem.objectives]
     log = Log(["iteration", "evaluations", "seconds", "cpu_seconds", *seconds, *ideal], rows)
-    return Run(state.designs, state.objectives, int(state.evaluations), wall, cpu, int(seed), log)
+    run = Run(
+        state.designs, state.objectives, state.constraints, int(state.evaluations), wall, cpu, int(seed), log
+    )
+    if problem.constraints and not run.feasible.any():
+        warnings.warn(_infeasible(problem.constraints, run), InfeasibleWarning, stacklevel=2)
+    return run
+
+
+def _infeasible(names: Sequence[str], run: Run) -> str:
+    least = int(run.violation.argmin())
+    broken = [f"{name} {g:.3g}" for name, g in zip(names, run.constraints[least], strict=True) if g > 0]
+    return (
+        f"no feasible design among {run.evaluations} evaluated, least total violation "
+        f"{run.violation[least]:.3g}: {', '.join(broken)}"
+    )
 
 
 def _iteration_count(start: int, per_iteration: int, iterations: int | None, evaluations: int | None) -> int:

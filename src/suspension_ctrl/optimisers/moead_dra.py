@@ -10,6 +10,7 @@ from deap.base import Toolbox
 from numpy.typing import NDArray
 
 from .. import checks, decomposition, operators
+from ..feasibility import ideal_with
 from ..problems import Minimisable, evaluate_checked
 from .state import State
 from .sweep import Decomposed, sweep_batch, sweep_sequential
@@ -45,7 +46,7 @@ class MoeadDra:
         Relative progress above which a subproblem's utility is 1.
     normalise : bool
         Divide each objective by its span, from the ideal point to the worst in the population at the start of
-        the iteration; False is equation (14) to the letter.
+        the iteration (of feasible designs, where there are any); False is equation (14) to the letter.
     objective_scales : (m,) sequence of float, optional
         Only without normalisation: what each objective is divided by in its place, 1 if not given. On the ride
         problem ``(1, 1, 1e3)`` takes DTL in kN, as the paper states it.
@@ -133,12 +134,13 @@ class MoeadDra:
         corners = decomposition.corner_subproblems(vectors)
         weights = np.where(vectors == 0, decomposition.ZERO_WEIGHT, vectors) / self._scales(m)
         designs = np.array(toolbox.sample(rng, size), dtype=float)
-        objectives = evaluate_checked(toolbox.evaluate, designs, problem.objectives)
+        values = evaluate_checked(toolbox.evaluate, designs, problem)
         neighbours = decomposition.neighbourhoods(size, m, max(2, int(self.neighbourhood * size)))
-        population = Decomposed(designs, objectives, objectives.min(axis=0), weights, neighbours)
+        ideal = ideal_with(np.full(m, np.inf), values, False)
+        population = Decomposed(designs, values, ideal, weights, neighbours)
         evaluations = size
         yield population.state(evaluations)
-        utility, before = np.ones(size), objectives.copy()
+        utility, before = np.ones(size), values.copy()
         for iteration in count(1):
             if self.normalise:
                 population = population._replace(weights=weights / population.span())
@@ -146,9 +148,9 @@ class MoeadDra:
             toolbox.sweep(rng, chosen, population, toolbox, problem)
             if iteration % self.utility_period == 0:
                 utility = toolbox.update_utility(
-                    utility, before, population.objectives, population.weights, population.ideal
+                    utility, before, population.values, population.weights, population.ideal
                 )
-                before = population.objectives.copy()
+                before = population.values.copy()
             evaluations += chosen.size
             yield population.state(evaluations)
 

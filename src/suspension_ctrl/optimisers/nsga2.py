@@ -9,9 +9,9 @@ from deap.base import Toolbox
 
 from .. import checks
 from ..deap_adapter import select_with_deap
+from ..feasibility import any_feasible, constrained, ideal_with
 from ..operators import (
     crowded_tournament,
-    ideal_point,
     polynomial_mutation,
     sample_uniform,
     simulated_binary_crossover,
@@ -97,19 +97,18 @@ class Nsga2:
 
     def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:
         """Yield the state after the start and after each iteration, without end (Figure 3 of the paper)."""
-        size, names = self.population, problem.objectives
+        size, m = self.population, len(problem.objectives)
         designs = np.array(toolbox.sample(rng, size), dtype=float)
-        objectives = evaluate_checked(toolbox.evaluate, designs, names)
-        kept, crowding = toolbox.select(objectives, size)
-        ideal, evaluations = ideal_point(objectives), len(designs)
-        yield State(designs, objectives, ideal, evaluations)
+        values = evaluate_checked(toolbox.evaluate, designs, problem)
+        kept, crowding = toolbox.select(constrained(values, m), size)
+        ideal, evaluations = ideal_with(np.full(m, np.inf), values, False), len(designs)
+        yield State.of(designs, values, ideal, evaluations)
         while True:
-            parents = toolbox.tournament(rng, objectives, crowding, size)
+            parents = toolbox.tournament(rng, constrained(values, m), crowding, size)
             children = toolbox.mutate(rng, toolbox.mate(rng, designs.take(parents, axis=0)))
-            values = evaluate_checked(toolbox.evaluate, children, names)
-            ideal, evaluations = np.minimum(ideal, ideal_point(values)), evaluations + len(children)
-            designs = np.concatenate([designs, children])
-            objectives = np.concatenate([objectives, values])
-            kept, crowding = toolbox.select(objectives, size)
-            designs, objectives = designs.take(kept, axis=0), objectives.take(kept, axis=0)
-            yield State(designs, objectives, ideal, evaluations)
+            born = evaluate_checked(toolbox.evaluate, children, problem)
+            ideal, evaluations = ideal_with(ideal, born, any_feasible(values, m)), evaluations + len(children)
+            designs, values = np.concatenate([designs, children]), np.concatenate([values, born])
+            kept, crowding = toolbox.select(constrained(values, m), size)
+            designs, values = designs.take(kept, axis=0), values.take(kept, axis=0)
+            yield State.of(designs, values, ideal, evaluations)

@@ -9,6 +9,7 @@ from deap.base import Toolbox
 from numpy.typing import NDArray
 
 from .. import checks
+from ..feasibility import any_feasible, constrained, ideal_with
 from ..indicators import non_dominated
 from ..problems import Minimisable, evaluate_checked
 from .state import State
@@ -44,7 +45,8 @@ _POINTS: dict[str, Callable[..., Iterator[NDArray[np.float64]]]] = {
 class Sampling:
     """Settings of a sample; an iteration costs `population` evaluations, and so does the start.
 
-    Its population are the non-dominated designs of all it has evaluated, however many.
+    Its population are the non-dominated designs of all it has evaluated, however many; while none is feasible,
+    those of the least violation.
 
     Parameters
     ----------
@@ -83,13 +85,14 @@ class Sampling:
     def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:
         """Yield the state after the start and after each iteration, without end."""
         lower, upper = (np.asarray(bound, dtype=float) for bound in (problem.lower, problem.upper))
-        archive = np.empty((0, lower.size)), np.empty((0, len(problem.objectives)))
-        ideal, evaluations = np.full(len(problem.objectives), np.inf), 0
+        m, c = len(problem.objectives), len(problem.constraints)
+        kept, values = np.empty((0, lower.size)), np.empty((0, m + c))
+        ideal, evaluations = np.full(m, np.inf), 0
         for unit in toolbox.points(rng, self.population):
             designs = lower + (upper - lower) * unit
-            objectives = evaluate_checked(toolbox.evaluate, designs, problem.objectives)
-            ideal, evaluations = np.minimum(ideal, objectives.min(axis=0)), evaluations + len(designs)
-            merged = np.concatenate([archive[0], designs]), np.concatenate([archive[1], objectives])
-            best = toolbox.filter(merged[1])
-            archive = merged[0][best], merged[1][best]
-            yield State(*archive, ideal, evaluations)
+            found = evaluate_checked(toolbox.evaluate, designs, problem)
+            ideal, evaluations = ideal_with(ideal, found, any_feasible(values, m)), evaluations + len(designs)
+            kept, values = np.concatenate([kept, designs]), np.concatenate([values, found])
+            best = toolbox.filter(constrained(values, m))
+            kept, values = kept[best], values[best]
+            yield State.of(kept, values, ideal, evaluations)

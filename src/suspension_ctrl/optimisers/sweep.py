@@ -11,6 +11,7 @@ from numba import njit
 from numba.core.registry import CPUDispatcher
 from numpy.typing import NDArray
 
+from ..feasibility import feasible_objectives
 from ..problems import Minimisable, evaluate_checked
 from .clock import untimed
 from .state import State
@@ -25,9 +26,10 @@ class Decomposed(NamedTuple):
     Parameters
     ----------
     designs : (N, d) ndarray
-    objectives : (N, m) ndarray
+    values : (N, m + c) ndarray
+        Objectives, then constraints.
     ideal : (m,) ndarray
-        Least value seen of each objective.
+        Least value seen of each objective, among feasible designs as soon as there is one.
     weights : (N, m) ndarray
         Weight vectors over the objectives' spans: what multiplies each objective in each scalar problem.
     neighbours : (N, T) ndarray
@@ -35,18 +37,23 @@ class Decomposed(NamedTuple):
     """
 
     designs: NDArray[np.float64]
-    objectives: NDArray[np.float64]
+    values: NDArray[np.float64]
     ideal: NDArray[np.float64]
     weights: NDArray[np.float64]
     neighbours: NDArray[np.int64]
 
     def state(self, evaluations: int) -> State:
         """Return a copy of what the search shows of itself after so many evaluations."""
-        return State(self.designs.copy(), self.objectives.copy(), self.ideal.copy(), evaluations)
+        return State.of(self.designs.copy(), self.values.copy(), self.ideal.copy(), evaluations)
 
     def span(self) -> NDArray[np.float64]:
-        """Return the distance (m,) from the ideal point to the worst of each objective, 1 where there is none."""
-        span = self.objectives.max(axis=0) - self.ideal
+        """Return the distance (m,) from the ideal point to the worst of each objective, 1 where there is none.
+
+        Worst among feasible designs, among all while there is no feasible one.
+        """
+        m = self.ideal.size
+        feasible = feasible_objectives(self.values, m)
+        span = (feasible if len(feasible) else self.values[:, :m]).max(axis=0) - self.ideal
         return np.where(span > 0, span, 1.0)
 
 
@@ -65,11 +72,11 @@ def sweep_sequential(
     compiled = [compiled_verb(untimed(getattr(toolbox, name))) for name in VERBS]
     compiled.append(compiled_evaluation(toolbox, problem))
     verbs = [verb for verb in compiled if verb is not None]
-    function, names = work_on, problem.objectives
+    function = work_on
     if len(verbs) < len(compiled):
         function = getattr(work_on, "py_func", work_on)  # itself where numba is switched off
         verbs = [(getattr(toolbox, name), ()) for name in VERBS]
-        verbs.append((lambda child: evaluate_checked(toolbox.evaluate, child[np.newaxis], names)[0], ()))
+        verbs.append((lambda child: evaluate_checked(toolbox.evaluate, child[np.newaxis], problem)[0], ()))
     function(rng, chosen, population, *chain.from_iterable(verbs))
 
 
@@ -81,15 +88,15 @@ def sweep_batch(
     problem: Minimisable,
 ) -> None:
     """Make the children of all chosen subproblems, evaluate them in one call, then replace in order."""
-    designs, objectives, ideal, weights, neighbours = population
+    designs, values, ideal, weights, neighbours = population
     ranges = [toolbox.mating_range(rng, i, neighbours) for i in chosen]
     children = np.empty((chosen.size, designs.shape[1]))
     for row, (i, partners) in enumerate(zip(chosen, ranges, strict=True)):
         child = toolbox.reproduce(rng, designs, i, partners)
         children[row] = toolbox.mutate(rng, toolbox.repair(rng, child, designs[i]))
-    values = evaluate_checked(toolbox.evaluate, children, problem.objectives)
-    for child, value, partners in zip(children, values, ranges, strict=True):
-        toolbox.update(rng, child, value, partners, designs, objectives, weights, ideal)
+    born = evaluate_checked(toolbox.evaluate, children, problem)
+    for child, value, partners in zip(children, born, ranges, strict=True):
+        toolbox.update(rng, child, value, partners, designs, values, weights, ideal)
 
 
 VERBS = ("mating_range", "reproduce", "repair", "mutate", "update")
@@ -115,16 +122,16 @@ def work_on(
     evaluate_settings: tuple[Any, ...],
 ) -> None:
     """Make, evaluate and place one child for each chosen subproblem, in order; each verb before its settings."""
-    designs, objectives, ideal, weights, neighbours = population
+    designs, values, ideal, weights, neighbours = population
     for i in chosen:
         partners = mating_range(rng, i, neighbours, *range_settings)
         child = reproduce(rng, designs, i, partners, *reproduce_settings)
         child = repair(rng, child, designs[i], *repair_settings)
         child = mutate(rng, child, *mutate_settings)
         value = evaluate(child, *evaluate_settings)
-        if value.size != ideal.size or not np.isfinite(value).all():
-            raise ValueError("kernel must return a finite value for each objective, got other values")
-        update(rng, child, value, partners, designs, objectives, weights, ideal, *update_settings)
+        if value.size != values.shape[1] or not np.isfinite(value).all():
+            raise ValueError("kernel must return a finite value for each objective and constraint, got others")
+        update(rng, child, value, partners, designs, values, weights, ideal, *update_settings)
 
 
 def compiled_verb(verb: partial[Any]) -> Verb | None:
