@@ -24,6 +24,9 @@ class Road(Protocol):
     def psd(self, f: ArrayLike, speed: float) -> Real:
         """Return the spectrum (n,) [m^2/Hz] at the frequencies `f` (n,) [Hz] at a speed [m/s]."""
 
+    def breakpoints(self, speed: float) -> Sequence[float]:
+        """Return the frequencies [Hz] at which the spectrum has a kink at this speed [m/s]."""
+
     def cross_spectrum(self, f: ArrayLike, speed: float, contact_points: ArrayLike) -> NDArray[np.complex128]:
         """Return the cross-spectra (n, r, r) [m^2/Hz] under wheels at (r, 2) [m]."""
 
@@ -116,6 +119,7 @@ def ride_case(
     """
     weights = [None if term.weighting is None else weightings.by_name(term.weighting) for term in terms]
     kinks = {f for weighting in weights if weighting for f in weighting.breakpoints}
+    kinks.update(case.road.breakpoints(case.speed))
     f, w = frequency_nodes(band, nodes, kinks)
     omega, vehicle = 2 * np.pi * f, case.vehicle
     density = np.array([w * (weighting.factor(f) ** 2 if weighting else 1.0) for weighting in weights])

@@ -18,6 +18,9 @@ from .strut_solve import StrutBlock
 _NOTHING = 1e-11
 """Share of the largest value of its kind at the same frequency below which a coupling is rounding."""
 
+_ALIKE = 1e-9
+"""Share of a response by which another may differ that is taken for the same."""
+
 _ROUNDING = 1e-13
 """Share of the road's power that a difference of its spectra may be off by."""
 
@@ -50,13 +53,13 @@ def strut_blocks(
     """
     m, r, (p, x) = ports.m, ports.r, pairs
     stiffness, damping = p @ variables.stiffness @ p.T, p @ variables.damping @ p.T
-    touched = (stiffness.any(axis=0) | damping.any(axis=0)).any(axis=0)
+    touched = (_coupled(stiffness) | _coupled(damping)).any(axis=0)
     p, stiffness, damping = p[touched], stiffness[:, touched][:, :, touched], damping[:, touched][:, :, touched]
     deflections, feedback = p @ ports.h[:, m:, :r] @ x.T, p @ ports.h[:, m:, r:] @ p.T
     roads, root = x @ roads @ x.T, np.sqrt(densities.T)[:, :, None]
     rows, from_struts = root * (ports.h[:, :m, :r] @ x.T), root * (ports.h[:, :m, r:] @ p.T)
     power = roads.trace(axis1=1, axis2=2).real
-    count, member = _parted(_coupled(feedback) | stiffness.any(axis=0) | damping.any(axis=0), deflections, roads)
+    count, member = _parted(_coupled(feedback) | _coupled(stiffness) | _coupled(damping), deflections, roads)
     blocks = []
     for block in range(count):
         q, s = np.flatnonzero(member[: len(p)] == block), np.flatnonzero(member[len(p) :] == block)
@@ -119,8 +122,7 @@ def _alike(block: StrutBlock, i: int, j: int) -> bool:
         return all(rows.size == 0 for rows in both)
     parts = [(values[:, both[0][0]], values[:, both[1][0]]) for values in (block.rows, block.from_struts)]
     return any(
-        all(np.abs(a - sign * b).max(initial=0.0) <= _NOTHING * np.abs(b).max(initial=0.0) for a, b in parts)
-        for sign in (1, -1)
+        all(((a - sign * b) ** 2).sum() <= _ALIKE**2 * (b**2).sum() for a, b in parts) for sign in (1, -1)
     )
 
 
@@ -131,9 +133,9 @@ def _coupled(matrices: NDArray[np.number]) -> NDArray[np.bool_]:
 
 
 def _audible(rows: Complex) -> NDArray[np.bool_]:
-    """Which columns (b,) have a part in which of the responses, each judged for itself, (m, b)."""
-    sizes = np.abs(rows)
-    return (sizes > _NOTHING * sizes.max(axis=2, keepdims=True, initial=0.0)).any(axis=0)
+    """Which columns (b,) have a part in the mean square of which of the responses, each judged for itself, (m, b)."""
+    power = (np.abs(rows) ** 2).sum(axis=0)
+    return power > _NOTHING**2 * power.sum(axis=1, keepdims=True)
 
 
 def _factor(spectrum: Complex, power: Real) -> Complex:
