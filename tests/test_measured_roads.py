@@ -153,7 +153,17 @@ def flat(points: int, step: float = 0.1) -> Profile:
             lambda: MeasuredRoad.from_profile(flat(255), segment=1.0),
             "a profile in steps of 0.1 m must have a segment from 3.2 to 25.5 m, got 1.0",
         ),
-        (lambda: MeasuredRoad.from_profile(flat(512)), "density must be finite and > 0"),
+        (lambda: MeasuredRoad.from_profile(flat(512)), "a profile must not be flat in any track"),
+        (
+            lambda: MeasuredRoad.from_profile(
+                Profile(np.arange(512.0), np.stack([np.sin(np.arange(512)), np.zeros(512)], axis=1), (1, -1))
+            ),
+            "a profile must not be flat in any track",
+        ),
+        (
+            lambda: MeasuredRoad.from_profile(flat(512), segment=np.nan),
+            "segment must be finite and > 0 m, got nan",
+        ),
     ],
 )
 def test_rejects_impossible_measurements(make, message):

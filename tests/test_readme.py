@@ -33,6 +33,17 @@ def test_example_of_a_study_runs(checkout: Path, tmp_path):
     assert len(rows) == 2 + 2 * 2
 
 
+def test_example_of_roads_prints_what_stands_there(checkout: Path, tmp_path):
+    text = (checkout / "docs" / "roads.md").read_text()
+    (program,), (output,) = blocks(text, "python"), blocks(text, "text")
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, cwd=tmp_path, check=True
+    )
+    printed = done.stdout.splitlines()
+    assert printed[:2] == output.splitlines()
+    assert [line.split()[0] for line in printed[2:]] == ["IRI", "measured,"]
+
+
 def test_named_files_and_targets_exist(checkout: Path):
     readme, makefile = (checkout / "README.md").read_text(), (checkout / "Makefile").read_text()
     for name in re.findall(r"\]\(([^)]+)\)|`(scripts/\w+\.py)`", readme):

@@ -51,7 +51,7 @@ def test_rejects_impossible_speeds_and_frequencies():
 
 
 def test_iso_8608_classes():
-    """Gd(n0) of ISO 8608, Table C.2: a factor of four from class to class, limits half and twice the mean."""
+    """Gd(n0) of ISO 8608: a factor of four from class to class, limits half and twice the mean."""
     for number, name in enumerate("ABCDEFGH"):
         assert Iso8608Road(name).psd(0.1, 1.0) == pytest.approx(16e-6 * 4**number, rel=1e-12)
         if name != "A":

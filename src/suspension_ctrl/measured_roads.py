@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from . import checks
 from .coherence import Coherence, Isotropic, Tabulated
 from .profiles import Profile
 from .road_tables import DISTANCE, PSD, columns, read_curve, read_profile
@@ -102,8 +103,7 @@ class MeasuredRoad(RandomRoad):
         Raises
         ------
         ValueError
-            If the profile or the segment is too short, or the segment longer than the profile; if the profile is
-            flat.
+            If the profile or the segment is too short, the segment longer than the profile, or a track flat.
         """
         points = _segment_points(profile, segment)
         n, spectra = _welch(profile, points)
@@ -111,8 +111,10 @@ class MeasuredRoad(RandomRoad):
         middle = np.exp(_means(np.log(np.maximum(n, n[1])) + 0j, edges).real)
         smooth = _means(spectra, edges)
         own = np.einsum("iib->ib", smooth).real
+        if not (own > 0).all():
+            raise ValueError("a profile must not be flat in any track")
         if coherence is None and len(set(profile.tracks)) == len(profile.tracks) == 2:
-            gamma = np.minimum(np.abs(smooth[0, 1]) / np.sqrt(own[0] * own[1]), 1.0)
+            gamma = np.minimum(np.abs(smooth[0, 1]) / np.sqrt(own[0]) / np.sqrt(own[1]), 1.0)
             coherence = Tabulated(tuple(middle), tuple(gamma), abs(profile.tracks[0] - profile.tracks[1]))
         density = own.mean(axis=0)
         return cls(middle, density, coherence=coherence or Isotropic(), source=source)
@@ -185,6 +187,8 @@ class MeasuredRoad(RandomRoad):
 def _segment_points(profile: Profile, segment: float | None) -> int:
     """Points in a segment of so many metres, or of its share of the profile."""
     whole = profile.distance.size
+    if segment is not None:
+        checks.positive("segment", segment, "m")
     points = whole // SEGMENTS if segment is None else round(min(segment / profile.step, whole + 1))
     if not _LEAST <= points <= whole:
         least = _LEAST * profile.step
