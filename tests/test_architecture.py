@@ -100,7 +100,7 @@ def test_every_module_has_its_place():
 def test_public_names():
     assert suspension_ctrl.__all__ == [
         *("FlexibleBody", "FullCar", "Gamultiobj", "HalfCar", "InfeasibleWarning", "Iso8608Road", "LoadCase"),
-        *("MeasuredRoad", "MoeadDra", "Nsga2", "PowerLawRoad", "Problem", "QuarterCar", "RideProblem"),
-        *("RollGeometry", "Run", "Sampling", "Seat", "TwoSlopeRoad", "minimise", "weighting"),
+        *("MeasuredRoad", "MoeadDra", "Nsga2", "Payload", "PowerLawRoad", "Problem", "QuarterCar"),
+        *("RideProblem", "RollGeometry", "Run", "Sampling", "Seat", "TwoSlopeRoad", "minimise", "weighting"),
     ]
     assert all(hasattr(suspension_ctrl, name) for name in suspension_ctrl.__all__)

@@ -5,7 +5,7 @@ from .cases import LoadCase
 from .feasibility import InfeasibleWarning
 from .handling import RollGeometry
 from .measured_roads import MeasuredRoad
-from .mounted import FlexibleBody, Seat
+from .mounted import FlexibleBody, Payload, Seat
 from .objectives import RideProblem
 from .optimisers import Gamultiobj, MoeadDra, Nsga2, Run, Sampling, minimise
 from .problems import Problem
@@ -23,6 +23,7 @@ __all__ = [
     "MeasuredRoad",
     "MoeadDra",
     "Nsga2",
+    "Payload",
     "PowerLawRoad",
     "Problem",
     "QuarterCar",

@@ -86,6 +86,8 @@ class Assembly:
         Springs and dampers that no design changes, but for tyres.
     bending : mapping of Position to mapping of str to float
         By point of the body, the share of each elastic mode in its displacement [kg^-1/2]; empty if rigid.
+    payload : sequence of (float, Position)
+        Masses fixed to points of the body [kg].
     """
 
     masses: Mapping[str, float]
@@ -97,6 +99,7 @@ class Assembly:
     responses: Mapping[str, Response]
     supports: Sequence[Link] = ()
     bending: Mapping[Position, Mapping[str, float]] = field(default_factory=dict)
+    payload: Sequence[tuple[float, Position]] = ()
 
     @property
     def coordinates(self) -> list[str]:
@@ -104,8 +107,18 @@ class Assembly:
         return [*self.masses, *self.inertias]
 
     def mass_matrix(self) -> NDArray[np.float64]:
-        """Masses and inertias on the diagonal, (n, n)."""
-        return np.diag([*self.masses.values(), *self.inertias.values()])
+        """Return the masses and inertias (n, n) of the coordinates, payload included."""
+        matrix = np.diag([*self.masses.values(), *self.inertias.values()])
+        for mass, position in self.payload:
+            matrix += mass * np.outer(self.shape(position), self.shape(position))
+        return matrix
+
+    def weights(self) -> NDArray[np.float64]:
+        """Return the mass that weighs on each coordinate (n,): kg, or kg m where it turns the body."""
+        weights = np.array([self.masses.get(name, 0.0) for name in self.coordinates])
+        return weights + sum(
+            (mass * self.shape(position) for mass, position in self.payload), np.zeros_like(weights)
+        )
 
     def shape(self, end: End) -> NDArray[np.float64]:
         """Return the share (n,) of each coordinate in the displacement of an end."""

@@ -63,7 +63,7 @@ class Mechanics(NamedTuple):
     by_stiffness, by_damping : (v, n, n) ndarray
         Of the struts, for coefficients of 1.
     weights : (n,) ndarray
-        Mass that weighs on each coordinate [kg].
+        Mass that weighs on each coordinate: kg, or kg m where it turns the body.
     tyre_loads : (t, n) ndarray
         Tension of each tyre by coordinate.
     tyres : list of str
@@ -98,7 +98,7 @@ class Mechanics(NamedTuple):
             e.T @ (c[:, None] * e),
             by_stiffness,
             by_damping,
-            np.array([assembly.masses.get(name, 0.0) for name in coordinates]),
+            assembly.weights(),
             (k[:, None] * e)[: len(assembly.tyres)],
             [tyre.name for tyre in assembly.tyres],
         )
@@ -158,4 +158,7 @@ class Mechanics(NamedTuple):
         return np.asarray(np.linalg.solve(stiffness, load)[..., 0], dtype=float)
 
     def _sprung_mass(self) -> float:
-        return sum(w for name, w in zip(self.coordinates, self.weights, strict=True) if not name.endswith("wheel"))
+        """Return the mass [kg] of all but the wheels."""
+        turned = ("pitch", "roll")
+        weights = dict(zip(self.coordinates, self.weights, strict=True))
+        return sum(w for name, w in weights.items() if not (name in turned or name.endswith("wheel")))

@@ -1,4 +1,4 @@
-"""What can be put on a vehicle: seats with their occupants, and elastic modes of the body."""
+"""What can be put on a vehicle: seats with their occupants, payload, and elastic modes of the body."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
@@ -30,7 +30,7 @@ class Mounted(Car):
     Parameters
     ----------
     vehicle : Vehicle
-    part : Seat or FlexibleBody
+    part : Seat, Payload or FlexibleBody
     """
 
     vehicle: Vehicle
@@ -102,6 +102,36 @@ class Seat(Part):
                 f"{self.name}_suspension_travel": Response("travel", self.name),
             },
         )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Payload(Part):
+    """A load fixed to the body.
+
+    Parameters
+    ----------
+    mass : float
+        [kg].
+    position : (float, float)
+        Where it lies from the body's centre of gravity without it, x forward and y to the left [m]. Coordinates
+        stay those of that point.
+
+    Raises
+    ------
+    ValueError
+        If the mass is not finite and above zero, or the position is not two numbers.
+    """
+
+    mass: float
+    position: Position = (0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        checks.positive("mass", self.mass, "kg")
+        checks.position("position", self.position)
+
+    def added_to(self, assembly: Assembly) -> Assembly:
+        """Return the vehicle with this load."""
+        return replace(assembly, payload=[*assembly.payload, (self.mass, self.position)])
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -121,9 +121,7 @@ def _alike(block: StrutBlock, i: int, j: int) -> bool:
     if any(rows.size == 0 for rows in both):
         return all(rows.size == 0 for rows in both)
     parts = [(values[:, both[0][0]], values[:, both[1][0]]) for values in (block.rows, block.from_struts)]
-    return any(
-        all(((a - sign * b) ** 2).sum() <= _ALIKE**2 * (b**2).sum() for a, b in parts) for sign in (1, -1)
-    )
+    return any(all(((a - sign * b) ** 2).sum() <= _ALIKE**2 * (b**2).sum() for a, b in parts) for sign in (1, -1))
 
 
 def _coupled(matrices: NDArray[np.number]) -> NDArray[np.bool_]:
@@ -133,7 +131,7 @@ def _coupled(matrices: NDArray[np.number]) -> NDArray[np.bool_]:
 
 
 def _audible(rows: Complex) -> NDArray[np.bool_]:
-    """Which columns (b,) have a part in the mean square of which of the responses, each judged for itself, (m, b)."""
+    """Which columns (b,) have a part in the mean square of which responses, each judged for itself, (m, b)."""
     power = (np.abs(rows) ** 2).sum(axis=0)
     return power > _NOTHING**2 * power.sum(axis=1, keepdims=True)
 
