@@ -227,6 +227,13 @@ def label(response: ResponseName) -> str:
     return "acceleration_at_{:.0f}_{:.0f}_mm".format(*(1e3 * x for x in response[1:]))
 
 
+def signal_unit(signal: str) -> str:
+    """Return the unit of a response by its name as a signal."""
+    if signal in ("pitch_acceleration", "roll_acceleration"):
+        return "rad/s^2"
+    return "m/s^2" if "acceleration" in signal else "m" if signal.endswith("travel") else "N"
+
+
 def joined(*parts: str) -> str:
     """Return the parts that are not empty, joined by underscores."""
     return "_".join(part for part in parts if part)

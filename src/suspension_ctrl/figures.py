@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from .assembly import signal_unit
 from .responses import phase_degrees
 from .weightings import BANDS, by_name
 
@@ -26,30 +27,38 @@ def colours(count: int) -> Sequence[Any]:
     return COLOURS if count <= len(COLOURS) else list(colormaps["viridis"](np.linspace(0, 0.9, count)))
 
 
-def final_populations(populations: pd.DataFrame) -> Figure:
-    """Draw Figure 5: the final populations by their three objectives, a panel per configuration.
+def final_populations(
+    populations: pd.DataFrame, across: str = "SWS [m]", up: Sequence[str] = ("ACC [m/s^2]", "DTL [N]")
+) -> Figure:
+    """Draw Figure 5: the final populations by their objectives, a panel per configuration.
 
     Parameters
     ----------
     populations : DataFrame
         From `experiments.final_populations`.
+    across : str
+        Column of the objective on the horizontal axis.
+    up : sequence of str
+        Columns of the others, one above another.
     """
     panels = list(populations.groupby(["population", "iterations"]))
     columns = min(2, len(panels))
     rows = -(-len(panels) // columns)
-    figure = Figure(figsize=(5.0 * columns, 4.4 * rows + 0.4), layout="constrained")
+    figure = Figure(figsize=(5.0 * columns, 2.2 * len(up) * rows + 0.4), layout="constrained")
     places = figure.subfigures(rows, columns, squeeze=False).flat
     for place, ((population, iterations), part) in zip(places, panels, strict=False):
-        acc, dtl = place.subplots(2, 1, sharex=True)
-        final_population_panel(acc, dtl, part)
-        acc.set_title(f"N = {population}, {iterations} iterations", fontsize=10)
-    handles, labels = acc.get_legend_handles_labels()
+        axes = place.subplots(len(up), 1, sharex=True, squeeze=False)[:, 0]
+        for ax, objective in zip(axes, up, strict=True):
+            final_population_panel(ax, part, across, objective)
+        axes[-1].set_xlabel(_shown(across)[0])
+        axes[0].set_title(f"N = {population}, {iterations} iterations", fontsize=10)
+    handles, labels = axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=len(labels), markerscale=2, frameon=False)
     return figure
 
 
-def final_population_panel(acc: Axes, dtl: Axes, populations: pd.DataFrame) -> None:
-    """Draw the populations of one configuration by one or two algorithms: ACC and DTL over SWS."""
+def final_population_panel(ax: Axes, populations: pd.DataFrame, across: str, up: str) -> None:
+    """Draw one objective of the populations of one configuration over another, by one or two algorithms."""
     # Rings first, then small marks over them, so that neither population hides the other.
     marks: list[dict[str, Any]] = [
         {"marker": "o", "s": 22, "facecolors": "none", "linewidths": 0.5},
@@ -58,13 +67,18 @@ def final_population_panel(acc: Axes, dtl: Axes, populations: pd.DataFrame) -> N
     groups = list(populations.groupby("algorithm", sort=False))
     if len(groups) > len(marks):
         raise ValueError(f"populations must be of one or two algorithms, got {[name for name, _ in groups]}")
+    (_, width), (label, height) = _shown(across), _shown(up)
     for colour, mark, (algorithm, part) in zip(COLOURS, marks, groups, strict=False):
         style: dict[str, Any] = {"edgecolors": colour} if "facecolors" in mark else {"color": colour}
-        for ax, objective, scale in ((acc, "ACC [m/s^2]", 1.0), (dtl, "DTL [N]", 1e-3)):
-            ax.scatter(part["SWS [m]"], part[objective] * scale, label=algorithm, **mark, **style)
-    acc.set_ylabel("ACC [m/s²]")
-    dtl.set_ylabel("DTL [kN]")
-    dtl.set_xlabel("SWS [m]")
+        ax.scatter(part[across] * width, part[up] * height, label=algorithm, **mark, **style)
+    ax.set_ylabel(label)
+
+
+def _shown(header: str) -> tuple[str, float]:
+    """Return what a column's header is as the label of an axis, and what its values are multiplied with."""
+    if header.endswith("[N]"):
+        return header.replace("[N]", "[kN]"), 1e-3
+    return header.replace("^2", "²"), 1.0
 
 
 def weighting_factors(ax: Axes, filters: Sequence[str], tables: Sequence[str]) -> None:
@@ -97,9 +111,9 @@ class DesignCurves:
     f : (n,) ndarray
         Frequencies [Hz].
     responses : dict of str to (n,) complex ndarray
-        H(w) from the road by response.
+        H(w) from the road by response, which are the panels.
     densities : dict of str to (n,) ndarray
-        Their spectra on the road; ``weighted_acceleration`` beside them.
+        Their spectra on the road; those of weighted accelerations, see `weighted_name`, beside them.
     natural : (k,) ndarray
         Natural frequencies [Hz].
     """
@@ -112,9 +126,10 @@ class DesignCurves:
 
 
 def bode(designs: Sequence[DesignCurves]) -> Figure:
-    """Draw Figure 6: magnitude and phase of the three responses to the road, a line per design."""
-    figure, axes = _three_columns(2)
-    for column, (response, panel) in zip(axes.T, PANELS.items(), strict=True):
+    """Draw Figure 6: magnitude and phase of the responses to the road, a line per design."""
+    panels = _panels(designs)
+    figure, axes = _columns(len(panels), 2)
+    for column, (response, panel) in zip(axes.T, panels.items(), strict=True):
         magnitude, phase = column
         for colour, design in zip(colours(len(designs)), designs, strict=False):
             h = design.responses[response] * panel.scale
@@ -126,16 +141,23 @@ def bode(designs: Sequence[DesignCurves]) -> Figure:
 
 
 def spectra(designs: Sequence[DesignCurves], weighting: str) -> Figure:
-    """Draw Figure 7: spectra of the three responses, a line per design; acceleration weighted too, dashed."""
-    figure, axes = _three_columns(1)
-    for ax, (response, panel) in zip(axes[0], PANELS.items(), strict=True):
+    """Draw Figure 7: spectra of the responses, a line per design; accelerations weighted too, dashed."""
+    panels = _panels(designs)
+    figure, axes = _columns(len(panels), 1)
+    for ax, (response, panel) in zip(axes[0], panels.items(), strict=True):
+        weighted = weighted_name(response)
         for colour, design in zip(colours(len(designs)), designs, strict=False):
             _marked_line(ax, design, design.densities[response] * panel.scale**2, colour)
-            if response == "body_acceleration":
-                ax.plot(design.f, design.densities["weighted_acceleration"], "--", color=colour, lw=1.2)
-        note = f" (dashed: {weighting})" if response == "body_acceleration" else ""
+            if weighted in design.densities:
+                ax.plot(design.f, design.densities[weighted], "--", color=colour, lw=1.2)
+        note = f" (dashed: {weighting})" if weighted in designs[0].densities else ""
         ax.set(title=panel.title + note, yscale="log", ylabel=f"PSD [{panel.density_unit}]")
     return _finished(figure, axes)
+
+
+def weighted_name(response: str) -> str:
+    """Return the name of an acceleration that is weighted: ``"weighted_acceleration"`` is that of the body."""
+    return f"weighted_{response.removeprefix('body_')}"
 
 
 @dataclass(frozen=True)
@@ -146,16 +168,28 @@ class _Panel:
     scale: float
 
 
-PANELS = {
-    "suspension_travel": _Panel("SWS: suspension travel", "m", "m²/Hz", 1.0),
-    "body_acceleration": _Panel("ACC: body acceleration", "m/s²", "(m/s²)²/Hz", 1.0),
-    "tyre_load": _Panel("DTL: tyre load", "kN", "kN²/Hz", 1e-3),
+_TITLES = {
+    "suspension_travel": "SWS: suspension travel",
+    "body_acceleration": "ACC: body acceleration",
+    "tyre_load": "DTL: tyre load",
 }
+_SHOWN_UNITS = {"m": ("m", "m²/Hz", 1.0), "N": ("kN", "kN²/Hz", 1e-3)}
 
 
-def _three_columns(rows: int) -> tuple[Figure, NDArray[Any]]:
-    figure = Figure(figsize=(11, 1.4 + 2.6 * rows), layout="constrained")
-    return figure, figure.subplots(rows, 3, sharex=True, squeeze=False)
+def _panels(designs: Sequence[DesignCurves]) -> dict[str, _Panel]:
+    """Return a panel for each response of the designs."""
+    panels = {}
+    for response in designs[0].responses:
+        unit = signal_unit(response)
+        printed = unit.replace("^2", "²")
+        shown = _SHOWN_UNITS.get(unit, (printed, f"({printed})²/Hz", 1.0))
+        panels[response] = _Panel(_TITLES.get(response, response.replace("_", " ")), *shown)
+    return panels
+
+
+def _columns(columns: int, rows: int) -> tuple[Figure, NDArray[Any]]:
+    figure = Figure(figsize=(0.5 + 3.5 * columns, 1.4 + 2.6 * rows), layout="constrained")
+    return figure, figure.subplots(rows, columns, sharex=True, squeeze=False)
 
 
 def _marked_line(ax: Axes, design: DesignCurves, values: NDArray[np.float64], colour: str) -> None:

@@ -15,11 +15,10 @@ A measure is written as
 """
 
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from . import weightings
-from .assembly import Response, ResponseName
+from .assembly import ResponseName, label, signal_unit
 from .vehicles import Vehicle
 
 HANDLING = {"roll_gradient": "deg/g", "roll_damping": "-", "front_load_transfer": "-"}
@@ -87,7 +86,7 @@ def measure(text: str, vehicle: Vehicle, weighting: str | None) -> Measure:
     if kind == "ACC":
         return Measure(name, _UNITS[kind], (Term(_accelerated(where.strip(), vehicle), weighting),), False, sign)
     terms = tuple(_term(part.strip(), vehicle) for part in re.split(r"\+(?![^(]*\))", body))
-    return Measure(name, _unit(terms, vehicle), terms, False, sign)
+    return Measure(name, signal_unit(label(terms[0].response)), terms, False, sign)  # factors carry further units
 
 
 def _at_corners(kind: str, where: str, vehicle: Vehicle) -> tuple[Term, ...]:
@@ -129,15 +128,3 @@ def _term(text: str, vehicle: Vehicle) -> Term:
         return Term(("acceleration", float(found[4]), float(found[5])), weighting, float(factor or 1))
     vehicle.assembly().resolved([response])
     return Term(response, weighting, float(factor or 1))
-
-
-def _unit(terms: Sequence[Term], vehicle: Vehicle) -> str:
-    """Return the unit of the first term: factors of further ones carry theirs to it."""
-    response = next(iter(vehicle.assembly().resolved([terms[0].response]).values()))
-    return _response_unit(response)
-
-
-def _response_unit(response: Response) -> str:
-    if response.kind == "acceleration":
-        return "rad/s^2" if response.where in ("pitch", "roll") else "m/s^2"
-    return {"travel": "m", "load": "N"}[response.kind]

@@ -1,47 +1,78 @@
 """Responses of a vehicle with its struts to a random road."""
 
+from collections.abc import Sequence
+
 import control
 import numpy as np
 from numpy.typing import NDArray
 
 
-def frequency_responses(closed: control.StateSpace, f: NDArray[np.float64]) -> dict[str, NDArray[np.complex128]]:
-    """Return H(w) from the road to every response of a vehicle with its struts.
+def road_paths(closed: control.LTI, f: NDArray[np.float64]) -> NDArray[np.complex128]:
+    """Return H(w) from each road to each response of a vehicle with its struts.
 
     Parameters
     ----------
-    closed : control.StateSpace
-        Input ``road`` [m].
+    closed : control.StateSpace or control.FrequencyResponseData
+        Inputs: roads [m] and, where a tyre is damped, their rates [m/s], which follow them.
     f : (n,) ndarray
         Frequencies in ascending order [Hz].
+
+    Returns
+    -------
+    (n, m, r) complex ndarray
+        [response unit/m].
+    """
+    omega = 2 * np.pi * f
+    h = np.moveaxis(closed.frequency_response(omega, squeeze=False).frdata, 2, 0)
+    rates = sum(name.endswith("_rate") for name in closed.input_labels)
+    roads = h.shape[2] - rates
+    if rates:
+        h = h[:, :, :roads] + 1j * omega[:, None, None] * h[:, :, roads:]
+    return h
+
+
+def frequency_responses(
+    closed: control.LTI, f: NDArray[np.float64], delays: Sequence[float] = (0.0,)
+) -> dict[str, NDArray[np.complex128]]:
+    """Return H(w) to every response of a vehicle with its struts from a road that is alike on all its tracks.
+
+    Parameters
+    ----------
+    closed, f
+        As for `road_paths`.
+    delays : (r,) sequence of float
+        How long after the first wheel each meets the road [s].
 
     Returns
     -------
     dict of str to (n,) complex ndarray
         By response [response unit/m].
     """
-    response = closed.frequency_response(2 * np.pi * f)
-    return {name: response[name, "road"].frdata[0, 0] for name in closed.output_labels}
+    late = np.exp(-2j * np.pi * f[:, None] * np.asarray(delays))
+    h = (road_paths(closed, f) * late[:, None, :]).sum(axis=2)
+    return dict(zip(closed.output_labels, h.T, strict=True))
 
 
 def response_psds(
-    closed: control.StateSpace, f: NDArray[np.float64], road_psd: NDArray[np.float64]
+    closed: control.LTI, f: NDArray[np.float64], road: NDArray[np.float64] | NDArray[np.complex128]
 ) -> dict[str, NDArray[np.float64]]:
-    """Return the spectrum of every response, |H(w)|^2 times the road's, equation (3).
+    """Return the spectrum of every response, equation (3): under one wheel |H(w)|^2 times the road's.
 
     Parameters
     ----------
     closed, f
-        As for `frequency_responses`.
-    road_psd : (n,) ndarray
-        The road's one-sided spectrum at these frequencies [m^2/Hz].
+        As for `road_paths`.
+    road : (n,) or (n, r, r) ndarray
+        The road's one-sided spectrum at these frequencies, under several wheels their cross-spectra [m^2/Hz].
 
     Returns
     -------
     dict of str to (n,) ndarray
         One-sided spectrum by response [response unit^2/Hz].
     """
-    return {name: np.abs(h) ** 2 * road_psd for name, h in frequency_responses(closed, f).items()}
+    h = road_paths(closed, f)
+    psd = np.einsum("nmi,nij,nmj->mn", h, road.reshape(len(f), h.shape[2], h.shape[2]), h.conj()).real
+    return dict(zip(closed.output_labels, psd, strict=True))
 
 
 def phase_degrees(h: NDArray[np.complex128]) -> NDArray[np.float64]:
