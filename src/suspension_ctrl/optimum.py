@@ -1,7 +1,10 @@
 """The best strut within a limit of suspension travel: exact, and picked from a Pareto set (Table 5)."""
 
+from typing import Any
+
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
+from numpy.typing import NDArray
+from scipy.optimize import brentq, minimize, minimize_scalar
 
 from . import checks
 from .indicators import non_dominated
@@ -10,6 +13,9 @@ from .optimisers import Run
 
 _AT_LIMIT = 0.002
 """How far below the limit, as a fraction of it, the travel of a picked design may be."""
+
+_HELD = 1e-6
+"""How far beyond a limit, as a share of it, a design may be that is called within."""
 
 _SPRINGS = 200
 """Spring stiffnesses tried along the curve before the best one is refined."""
@@ -87,7 +93,69 @@ def _last_on_curve(problem: RideProblem, inside: float, toward: float, limit: fl
     return inside
 
 
-def pick_at_limit(problem: RideProblem, run: Run, limit: float, objective: str) -> tuple[float, float]:
+def least_within_limit(
+    problem: RideProblem, limit: float, objective: str, starts: NDArray[np.float64]
+) -> tuple[float, ...]:
+    """Return the design of any number of variables with the least `objective` among those up to SWS = `limit`.
+
+    From each start sequential quadratic programming (SLSQP) goes downhill; the best of where it ends counts.
+
+    Parameters
+    ----------
+    problem : RideProblem
+        Bounds, objectives and constraints, all of which are held.
+    limit : float
+        Suspension working space [m].
+    objective : str
+        What is least.
+    starts : (k, d) ndarray
+        Designs, e.g. of a Pareto set.
+
+    Returns
+    -------
+    tuple of float
+        The design.
+
+    Raises
+    ------
+    ValueError
+        If no design within the limit is found.
+    """
+    checks.positive("sws_limit", limit, "m")
+    lower, width = np.asarray(problem.lower), np.subtract(problem.upper, problem.lower)
+    m, column, sws = len(problem.objectives), problem.objectives.index(objective), problem.objectives.index("SWS")
+    scale = problem.evaluate(starts[:1])[0, column]
+
+    def values(unit: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return objective and constraints (1 + c,), g <= 0, at a point (d,) of the unit cube."""
+        scores = problem.evaluate([lower + np.clip(unit, 0, 1) * width])[0]
+        return np.array([scores[column] / scale, scores[sws] / limit - 1, *scores[m:]])
+
+    def height(unit: NDArray[np.float64]) -> float:
+        """Return the objective at a point."""
+        return float(values(unit)[0])
+
+    def room(unit: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return how far within the constraints (c,) a point is."""
+        return -values(unit)[1:]
+
+    settings: dict[str, Any] = {
+        "method": "SLSQP",
+        "jac": "3-point",
+        "bounds": [(0, 1)] * len(lower),
+        "constraints": {"type": "ineq", "fun": room},
+        "options": {"ftol": 1e-12, "maxiter": 200},
+    }
+    ends = [minimize(height, (start - lower) / width, **settings).x for start in starts]
+    reached = np.array([values(end) for end in ends])
+    allowed = np.flatnonzero((reached[:, 1:] <= _HELD).all(axis=1))
+    if allowed.size == 0:
+        raise ValueError(f"sws_limit must be a travel that a design within the bounds has, got {limit} m")
+    best = allowed[reached[allowed, 0].argmin()]
+    return tuple((lower + np.clip(ends[best], 0, 1) * width).tolist())
+
+
+def pick_at_limit(problem: RideProblem, run: Run, limit: float, objective: str) -> tuple[float, ...]:
     """Return the design of a run's Pareto set with the least `objective` among those at SWS = `limit`.
 
     At the limit are those up to 0.2 % below it, and none beyond.
@@ -105,8 +173,8 @@ def pick_at_limit(problem: RideProblem, run: Run, limit: float, objective: str) 
 
     Returns
     -------
-    (float, float)
-        Spring [N/m] and damper [N s/m].
+    tuple of float
+        The design.
 
     Raises
     ------
@@ -122,4 +190,4 @@ def pick_at_limit(problem: RideProblem, run: Run, limit: float, objective: str) 
             f"{sws.size} have {sws.min():.4f} to {sws.max():.4f} m, got {limit} m"
         )
     best = there[run.objectives[there, problem.objectives.index(objective)].argmin()]
-    return float(run.designs[best, 0]), float(run.designs[best, 1])
+    return tuple(run.designs[best].tolist())
