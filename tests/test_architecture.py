@@ -13,6 +13,8 @@ PHYSICS = {
     "vehicles",
     "cars",
     "mounted",
+    "toml_tables",
+    "vehicle_files",
     "isotropy",
     "coherence",
     "roads",

@@ -17,6 +17,14 @@ def path(name: str) -> Path:
     raise FileNotFoundError(f"data file {name!r} is neither in the package nor in the checkout")
 
 
+def stems(folder: str) -> list[str]:
+    """Return the names, without their endings, of the data files in a folder, in alphabetical order."""
+    for root in (_PACKAGE / "data", _PACKAGE.parents[1] / "data"):
+        if (root / folder).is_dir():
+            return sorted(file.stem for file in (root / folder).iterdir())
+    raise FileNotFoundError(f"data folder {folder!r} is neither in the package nor in the checkout")
+
+
 def rows(name: str) -> list[dict[str, str]]:
     """Rows of a CSV data file, each a dictionary by column name; lines that start with ``#`` name the source."""
     with path(name).open(encoding="utf-8", newline="") as file:

@@ -67,7 +67,8 @@ class Seat(Part):
     Raises
     ------
     ValueError
-        If a parameter is out of range, or the vehicle has something of that name already.
+        If a parameter is out of range, or the vehicle has something of that name already or bends in a way that
+        is not known where the seat stands.
     """
 
     mass: float
@@ -91,7 +92,7 @@ class Seat(Part):
         others = len(assembly.struts)
         parameters = [p._replace(gain=np.pad(p.gain, (0, 1))) for p in assembly.parameters]
         own = spring_and_damper(self.name, [0.0] * others + [1.0], (self.spring, self.damper))
-        return replace(
+        seated = replace(
             assembly,
             masses={**assembly.masses, self.name: self.mass},
             struts=[*assembly.struts, Link(self.name, self.position, self.name)],
@@ -102,6 +103,8 @@ class Seat(Part):
                 f"{self.name}_suspension_travel": Response("travel", self.name),
             },
         )
+        seated.elongations(seated.struts)  # whether there is a shape where it stands
+        return seated
 
 
 @dataclass(frozen=True, kw_only=True)
