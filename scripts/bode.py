@@ -1,7 +1,9 @@
-"""Figures 6 and 7: Bode plots and spectra of suspension travel, body acceleration and tyre load.
+"""Figures 6 and 7: Bode plots and spectra of responses to the road, of the paper's car or any other vehicle.
 
-Without designs it draws the paper's reference car against its published optimum. Writes figure6, figure7
-(PNG and PDF), natural_frequencies.csv and curves.csv to a folder whose path is the last line printed.
+Without designs it draws the paper's reference car against its published optimum, or a vehicle's own struts.
+Under several wheels the Bode plot is that of a road alike on all tracks, which the rear wheels meet later. Writes
+figure6, figure7 (PNG and PDF), natural_frequencies.csv and curves.csv to a folder whose path is the last line
+printed.
 """
 
 from pathlib import Path
@@ -11,8 +13,22 @@ import numpy as np
 import pandas as pd
 from typer import Option
 
-from suspension_ctrl import RideProblem, checks, figures, files, paper, responses, terminal, weightings
+from suspension_ctrl import (
+    RideProblem,
+    checks,
+    figures,
+    files,
+    paper,
+    problem_files,
+    responses,
+    terminal,
+    weightings,
+)
+from suspension_ctrl.assembly import signal_unit
 from suspension_ctrl.figures import DesignCurves
+from suspension_ctrl.problems import column_headers
+
+PAPERS_ORDER = ("suspension_travel", "body_acceleration", "tyre_load")
 
 
 def main(
@@ -20,26 +36,42 @@ def main(
         list[str] | None, Option(help="Spring [N/m] and damper [N s/m]: 22000,1500. Repeatable.")
     ] = None,
     designs: Annotated[
-        Path | None, Option(help="CSV with the columns 'spring [N/m]' and 'damper [N s/m]'.")
+        Path | None, Option(help="CSV with a column for each variable: 'spring [N/m]' and 'damper [N s/m]'.")
+    ] = None,
+    vehicle: Annotated[str | None, Option(help=problem_files.VEHICLE_HELP)] = None,
+    road: Annotated[str | None, Option(help=problem_files.ROAD_HELP)] = None,
+    speed: Annotated[float | None, Option(parser=terminal.number, help="Speed [m/s].")] = None,
+    band: Annotated[str | None, Option(help="Frequencies [Hz]: 0.5,20.")] = None,
+    response: Annotated[
+        list[str] | None, Option(help="Response to be drawn, e.g. pitch_acceleration. Repeatable.")
     ] = None,
     weighting: Annotated[str, Option(help="ISO 2631 weighting of the dashed spectra.")] = "Wk",
     points: Annotated[int, Option(parser=terminal.whole_number, help="Frequencies on each curve.")] = 800,
     out: Annotated[Path | None, Option(help="Folder for the results, absent or empty.")] = None,
 ) -> None:
     """Draw the frequency responses and response spectra of any number of designs."""
-    chosen = [terminal.numbers("design", text, 2) for text in design or []]
-    if designs is not None:
-        chosen += read_designs(designs)
-    labelled = [(design_label(*pair), *pair) for pair in chosen] or [
-        (f"reference car: {design_label(*paper.reference_design())}", *paper.reference_design()),
-        (f"published optimum: {design_label(*paper.optimised_design())}", *paper.optimised_design()),
-    ]
     checks.at_least("points", points, 2)
-    problem = paper.ride_problem(weighting=weighting)
-    curves = [design_curves(problem, label, spring, damper, points) for label, spring, damper in labelled]
+    settings = {} if band is None else {"band": tuple(terminal.numbers("band", band, 2))}
+    problem, struts = problem_files.chosen(vehicle, road, speed, weighting=weighting, **settings)
+    chosen = [terminal.numbers("design", text, len(problem.variables)) for text in design or []]
+    if designs is not None:
+        chosen += read_designs(designs, problem)
+    labelled = [(design_label(values), values) for values in chosen]
+    if not chosen and vehicle is None:
+        labelled = [
+            (f"{name}: {design_label(values)}", values)
+            for name, values in (
+                ("reference car", paper.reference_design()),
+                ("published optimum", paper.optimised_design()),
+            )
+        ]
+    elif not chosen:
+        labelled = [(vehicle, [struts[name] for name in problem.variables])]
+    shown = response or default_responses(problem)
+    curves = [design_curves(problem, label, values, shown, points) for label, values in labelled]
     folder = files.results_folder(out)
-    natural = pd.DataFrame({"design": c.label, "natural frequency [Hz]": f} for c in curves for f in c.natural)
-    terminal.show("Natural frequencies", natural, {"natural frequency [Hz]": 3})
+    natural = pd.concat([natural_frequencies(problem, label, values) for label, values in labelled])
+    terminal.show("Natural frequencies", natural, {"natural frequency [Hz]": 3, "damping ratio [-]": 3})
     files.write_csv(folder / "natural_frequencies.csv", natural)
     files.write_csv(folder / "curves.csv", pd.concat([curve_table(c) for c in curves]))
     files.write_figure(folder / "figure6", figures.bode(curves))
@@ -47,8 +79,8 @@ def main(
     print(folder)
 
 
-def read_designs(path: Path) -> list[list[float]]:
-    columns = ["spring [N/m]", "damper [N s/m]"]
+def read_designs(path: Path, problem: RideProblem) -> list[list[float]]:
+    columns = column_headers(problem.variables, problem.units)
     allowed = f"designs must be a CSV file with numbers in the columns {', '.join(columns)}"
     try:
         table = pd.read_csv(path)
@@ -64,28 +96,55 @@ def read_designs(path: Path) -> list[list[float]]:
     return values.tolist()
 
 
-def design_label(spring: float, damper: float) -> str:
-    return f"{spring / 1e3:.10g} kN/m, {damper / 1e3:.10g} kN s/m"
+def design_label(values: list[float]) -> str:
+    if len(values) == 2:
+        return f"{values[0] / 1e3:.10g} kN/m, {values[1] / 1e3:.10g} kN s/m"
+    return ", ".join(f"{value:.6g}" for value in values)
 
 
-def design_curves(problem: RideProblem, label: str, spring: float, damper: float, points: int) -> DesignCurves:
-    closed = problem.vehicle.closed(spring, damper)
-    f = np.geomspace(0.1, problem.band[1], points)
-    densities = responses.response_psds(closed, f, problem.road.psd(f, problem.speed))
+def default_responses(problem: RideProblem) -> list[str]:
+    """Return a travel, the body's acceleration and a tyre's load, of the first wheel."""
+    names = problem.load_cases[0].vehicle.responses
+    return [next(name for name in names if name.endswith(last)) for last in PAPERS_ORDER]
+
+
+def settings_of(problem: RideProblem, values: list[float]) -> dict[str, float]:
+    return {**problem.struts, **dict(zip(problem.variables, values, strict=True))}
+
+
+def design_curves(
+    problem: RideProblem, label: str, values: list[float], shown: list[str], points: int
+) -> DesignCurves:
+    case = problem.load_cases[0]
+    closed = case.vehicle.with_struts(settings_of(problem, values), shown)
+    f = np.geomspace(max(0.1, problem.band[0]), problem.band[1], points)
+    densities = responses.response_psds(closed, f, case.cross_spectrum(f))
     factor = weightings.by_name(problem.weighting).factor(f)
-    densities["weighted_acceleration"] = densities["body_acceleration"] * factor**2
-    h = responses.frequency_responses(closed, f)
+    for name in shown:
+        if name.endswith("acceleration"):
+            densities[figures.weighted_name(name)] = densities[name] * factor**2
+    x = case.vehicle.contact_points[:, 0]
+    h = responses.frequency_responses(closed, f, (x.max() - x) / case.speed)
     return DesignCurves(label, f, h, densities, responses.natural_frequencies(closed))
 
 
+def natural_frequencies(problem: RideProblem, label: str, values: list[float]) -> pd.DataFrame:
+    modes = problem.load_cases[0].vehicle.modes(settings_of(problem, values))
+    swinging = modes[modes["damping ratio [-]"] < 1]
+    shown = swinging.rename(columns={"name": "mode", "frequency [Hz]": "natural frequency [Hz]"})
+    shown.insert(0, "design", label)
+    return shown[["design", "mode", "natural frequency [Hz]", "damping ratio [-]"]]
+
+
 def curve_table(curve: DesignCurves) -> pd.DataFrame:
-    units = {"body_acceleration": "m/s^2", "suspension_travel": "m", "tyre_load": "N"}
     table = pd.DataFrame({"design": curve.label, "frequency [Hz]": curve.f})
     for name, h in curve.responses.items():
-        table[f"{name} magnitude [{units[name]}/m]"] = np.abs(h)
+        unit = signal_unit(name)
+        table[f"{name} magnitude [{unit}/m]"] = np.abs(h)
         table[f"{name} phase [deg]"] = responses.phase_degrees(h)
-        table[f"{name} PSD [({units[name]})^2/Hz]"] = curve.densities[name]
-    table["weighted_acceleration PSD [(m/s^2)^2/Hz]"] = curve.densities["weighted_acceleration"]
+        table[f"{name} PSD [({unit})^2/Hz]"] = curve.densities[name]
+        if (weighted := figures.weighted_name(name)) in curve.densities:
+            table[f"{weighted} PSD [({unit})^2/Hz]"] = curve.densities[weighted]
     return table
 
 

@@ -53,6 +53,7 @@ SEARCH = {
 MEETING = {
     "paper",
     "optimum",
+    "problem_files",
     "references",
     "stores",
     "experiments",

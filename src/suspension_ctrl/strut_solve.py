@@ -121,12 +121,16 @@ def open_loop(k: Real, c: Real, block: StrutBlock) -> Real:
 @njit(cache=True)
 def eliminate(loop: Real, q: int) -> None:
     """Solve the linear equations (2, q, q + s, n) in place: solutions stand where the right-hand sides were."""
+    columns = loop.shape[2]
     for c in range(q):
         divide(loop[:, c, c], loop[:, c, c + 1 :])
-        for i in range(q):
-            if i != c:
-                for j in range(c + 1, loop.shape[2]):
-                    add_product(-1.0, loop[:, i, c], loop[:, c, j], loop[:, i, j])
+        for i in range(c + 1, q):
+            for j in range(c + 1, columns):
+                add_product(-1.0, loop[:, i, c], loop[:, c, j], loop[:, i, j])
+    for c in range(q - 1, 0, -1):
+        for i in range(c):
+            for j in range(q, columns):
+                add_product(-1.0, loop[:, i, c], loop[:, c, j], loop[:, i, j])
 
 
 @njit(cache=True, fastmath={"contract", "nsz"}, error_model="numpy")

@@ -23,7 +23,7 @@ from . import checks, datafiles
 from .assembly import Position
 from .cars import FullCar, HalfCar, QuarterCar
 from .handling import RollGeometry
-from .mounted import FlexibleBody, Mounted, Seat
+from .mounted import FlexibleBody, Seat
 from .toml_tables import Table, key_of, keyed, naming, read_toml
 from .vehicles import Vehicle, unit_of
 
@@ -99,10 +99,9 @@ def _read(table: Table) -> VehicleFile:
     checks.one_of("kind", table.content.get("kind"), tuple(_KINDS))
     texts = [table.text(name) for name in _TEXTS]
     vehicle = _vehicle(table, _KINDS[texts[0]])
-    coefficients = {key_of(parameter.name, parameter.unit): parameter.name for parameter in vehicle.parameters}
-    struts = _struts(table.table("struts").flat(), coefficients, vehicle)
-    bounds = _bounds(table.table("bounds").flat(), coefficients, vehicle)
-    geometry = _made(table.table("roll_geometry"), RollGeometry) if "roll_geometry" in table.content else None
+    struts = read_struts(table.table("struts").flat(), vehicle)
+    bounds = read_bounds(table.table("bounds").flat(), vehicle)
+    geometry = read_roll_geometry(table)
     return VehicleFile(
         name=texts[1], source=texts[2], vehicle=vehicle, struts=struts, bounds=bounds, roll_geometry=geometry
     )
@@ -114,10 +113,15 @@ def _vehicle(table: Table, kind: type[Any]) -> Vehicle:
     if "flexible_body" in table.content:
         body = table.table("flexible_body")
         with keyed(body.name, _BENDING | {"shapes.position_m": "position"}):
-            vehicle = Mounted(vehicle=vehicle, part=_flexible_body(body))
+            vehicle = _flexible_body(body).on(vehicle)
+    return with_seats(vehicle, table)
+
+
+def with_seats(vehicle: Vehicle, table: Table) -> Vehicle:
+    """Return the vehicle with the seats of the array ``seats`` in a table."""
     for seat in table.tables("seats"):
         with keyed(seat.name, _SEAT | _SEAT_WANTED):
-            vehicle = Mounted(vehicle=vehicle, part=_seat(seat))
+            vehicle = _seat(seat).on(vehicle)
     return vehicle
 
 
@@ -130,6 +134,14 @@ def _made(table: Table, kind: type[Any], beside: tuple[str, ...] = ()) -> Any:
     )
     with keyed(table.name, keys):
         return kind(**{name: table.number(key) for key, name in keys.items() if key in table.content})
+
+
+def read_roll_geometry(table: Table) -> RollGeometry | None:
+    """Return what the table ``roll_geometry`` in a table says, None if there is none."""
+    if "roll_geometry" not in table.content:
+        return None
+    geometry: RollGeometry = _made(table.table("roll_geometry"), RollGeometry)
+    return geometry
 
 
 def _flexible_body(table: Table) -> FlexibleBody:
@@ -158,8 +170,14 @@ def _seat(table: Table) -> Seat:
     return Seat(**values)
 
 
-def _struts(table: Table, coefficients: Mapping[str, str], vehicle: Vehicle) -> dict[str, float]:
-    """Return the coefficients by name; all must be there but those that have defaults."""
+def _coefficients(vehicle: Vehicle) -> dict[str, str]:
+    """Return the names of a vehicle's coefficients by their keys."""
+    return {key_of(parameter.name, parameter.unit): parameter.name for parameter in vehicle.parameters}
+
+
+def read_struts(table: Table, vehicle: Vehicle) -> dict[str, float]:
+    """Return the coefficients of a flat table by name; all must be there but those that have defaults."""
+    coefficients = _coefficients(vehicle)
     default = {parameter.name: parameter.default for parameter in vehicle.parameters}
     table.check_keys(coefficients, [key for key, name in coefficients.items() if default[name] is None])
     struts = {name: table.number(key) for key, name in coefficients.items() if key in table.content}
@@ -168,9 +186,9 @@ def _struts(table: Table, coefficients: Mapping[str, str], vehicle: Vehicle) -> 
     return struts
 
 
-def _bounds(table: Table, coefficients: Mapping[str, str], vehicle: Vehicle) -> dict[str, tuple[float, float]]:
-    """Return the bounds of coefficients by name, in the vehicle's order."""
-    table.check_keys(coefficients)
+def read_bounds(table: Table, vehicle: Vehicle) -> dict[str, tuple[float, float]]:
+    """Return the bounds in a flat table of coefficients by name, in the vehicle's order."""
+    table.check_keys(_coefficients(vehicle))
     bounds = {}
     for parameter in vehicle.parameters:
         key = key_of(parameter.name, parameter.unit)
