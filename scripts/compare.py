@@ -1,7 +1,8 @@
 """The paper's experiment: NSGA-II against MOEA/D-DRA on Table 1's vehicle, Tables 2 to 4 and Figure 5.
 
-Prints the measured tables beside the published ones. Writes them, every run, every final front and Figure 5
-to a folder, whose path is the last line printed. With `--quality` every algorithm is also judged over many
+Or on any other vehicle, road and speed, or on a problem from a file. Prints the measured tables, those of the
+paper's problem beside the published ones. Writes them, every run, every final front and Figure 5 to a folder,
+whose path is the last line printed. With `--quality` every algorithm is also judged over many
 seeds: at equal iterations, evaluations and time, with statistics and a verdict; those runs are never timed and
 can be spread over processes and machines. What was stopped goes on with the same `--out`.
 """
@@ -27,17 +28,21 @@ from suspension_ctrl import (
     figures,
     files,
     paper,
+    problem_files,
     references,
     tables,
     terminal,
 )
 from suspension_ctrl.experiments import PlannedRun
+from suspension_ctrl.indicators import ReferenceFront
+from suspension_ctrl.problems import column_headers
 from suspension_ctrl.stores import FolderStore
 
 POPULATIONS, ITERATIONS = ",".join(map(str, paper.POPULATIONS)), ",".join(map(str, paper.ITERATIONS))
 ALGORITHMS = "nsga2,moead-dra"
 SEEDS = 31
 QUICK_TOLERANCE = 1e-3
+GRID_VARIABLES = 2  # of more variables a grid is too coarse
 SHORT = {
     "population": "N", "iterations": "iter.", "budget": "equal", "evaluations": "evals",
     "published_seconds": "publ. [s]", "seconds": "here [s]", "microseconds_per_evaluation": "µs/eval",
@@ -57,7 +62,13 @@ def main(
     algorithms: Annotated[
         str, Option(help=f"Of {', '.join(experiments.ALGORITHMS)}; the first is the baseline.")
     ] = ALGORITHMS,
-    weighting: Annotated[str, Option(help="ISO 2631 weighting of ACC: Wk, Wb, Wb-table, ...")] = "Wk",
+    weighting: Annotated[str | None, Option(help="ISO 2631 weighting of ACC: Wk, Wb, Wb-table, ...")] = None,
+    vehicle: Annotated[str | None, Option(help=problem_files.VEHICLE_HELP)] = None,
+    road: Annotated[str | None, Option(help=problem_files.ROAD_HELP)] = None,
+    speed: Annotated[float | None, Option(parser=terminal.number, help="Speed [m/s].")] = None,
+    problem_file: Annotated[
+        Path | None, Option("--problem", help="TOML file with vehicles, roads, speeds, objectives, limits.")
+    ] = None,
     seed: Annotated[
         int, Option(parser=terminal.whole_number, help="Seed of the first repeat; the next has the next.")
     ] = 0,
@@ -89,7 +100,7 @@ def main(
                 "quick must stand without populations, iterations, repeats and seeds, got it with one of them"
             )
         populations, iterations, repeats, seeds = "60,100", "5,10", 2, 3
-    arguments = locals() | {"out": str(out) if out else None}
+    arguments = locals() | {"out": str(out) if out else None, "problem_file": str(problem_file or "")}
     workers = _workers(quality, jobs, scheduler, tls_ca_file, tls_cert, tls_key)
     sizes, counts = (
         terminal.whole_numbers("populations", populations),
@@ -97,31 +108,32 @@ def main(
     )
     checks.at_least("seeds", seeds, 1)
     checks.within("target", target, 0, 1)
-    problem = paper.ride_problem(weighting=weighting)
+    problem = _problem(weighting, vehicle, road, speed, problem_file)
     names = terminal.names(algorithms)
     runs = experiments.plan(problem, names, sizes, counts, repeats, seed)
     folder = files.results_folder(out, resumed_by="timed")
     machine = {"processor": environment.processor_name(), "python": platform.python_version()}
+    tolerance = QUICK_TOLERANCE if quick else references.TOLERANCE
+    arguments["problem"] = references.key(problem, tolerance)
     store = FolderStore(folder / "timed", machine | _plan(arguments, "seed", "repeats"))
     with environment.single_thread():
         record = environment.describe(arguments)
         experiments.warm_up(problem, runs)
         for _ in terminal.progress(experiments.carry_out(problem, runs, store), len(runs)):
             pass
-    tolerance = QUICK_TOLERANCE if quick else references.TOLERANCE
-    reference = references.cached(problem, tolerance)
-    timed = experiments.tidy(problem, runs, store, reference.front).assign(timing=True)
+    front, made_of = _reference(problem, runs, store, tolerance)
+    timed = experiments.tidy(problem, runs, store, front).assign(timing=True)
     if not (folder / "environment.json").exists():  # of the command that began the timed runs
         files.write_json(folder / "environment.json", record)
     files.write_csv(folder / "runs.csv", timed)
-    write_tables(timed, folder)
+    write_tables(timed, folder, beside_paper=(vehicle, road, speed, problem_file) == (None,) * 4)
     write_fronts(problem, runs, store, folder / "fronts")
-    write_figure5(experiments.final_populations(runs, store), names, folder)
-    explain(weighting, reference, counts, names)
+    write_figure5(problem, experiments.final_populations(runs, store), names, folder)
+    explain(problem, made_of, counts, names)
     raised = 0
     if quality:
-        campaign = Campaign(problem, names, sizes, counts, range(seed, seed + seeds), reference.front)
-        judged_by = {"reference": references.key(problem, tolerance)}
+        campaign = Campaign(problem, names, sizes, counts, range(seed, seed + seeds), front)
+        judged_by = {"reference": references.digest(front)}
         kept = FolderStore(folder / "quality", judged_by | _plan(arguments, "seed", "seeds"))
         table = carry_out(campaign, kept, workers)
         files.write_csv(folder / "runs.csv", pd.concat([timed, reports.last_rows(table).assign(timing=False)]))
@@ -134,13 +146,45 @@ def main(
         raise typer.Exit(1)
 
 
-def explain(weighting: str, reference: references.Refined, counts: list[int], algorithms: list[str]) -> None:
+def _problem(
+    weighting: str | None, vehicle: str | None, road: str | None, speed: float | None, file: Path | None
+) -> RideProblem:
+    if file is None:
+        return problem_files.chosen(vehicle, road, speed, weighting=weighting or "Wk")[0]
+    if (weighting, vehicle, road, speed) != (None,) * 4:
+        raise ValueError(
+            f"problem must stand without weighting, vehicle, road and speed, got {str(file)!r} with one"
+        )
+    return problem_files.load_problem(file)
+
+
+def _reference(
+    problem: RideProblem, runs: list[PlannedRun], store: FolderStore, tolerance: float
+) -> tuple[ReferenceFront, str]:
+    """Return what fronts are judged by, and what it was made of in words."""
+    if len(problem.variables) > GRID_VARIABLES:
+        found = [
+            experiments.objectives_of(problem, experiments.feasible_rows(problem, store[run.name].final))
+            for run in runs
+        ]
+        return references.best_known(found), "the non-dominated designs of all these runs"
+    grid = references.cached(problem, tolerance)
+    return grid.front, (
+        f"the non-dominated designs of a {grid.points} x {grid.points} grid (hypervolume "
+        f"{grid.front.volume:.4f}, which half as many values change by {grid.change:.1e} and a second "
+        f"grid by {grid.second:.1e})"
+    )
+
+
+def explain(problem: RideProblem, made_of: str, counts: list[int], algorithms: list[str]) -> None:
     """Say what the tables rest on."""
+    if problem.constraints:
+        terminal.note(f"Limits: {', '.join(problem.constraints)}.")
+    for number, case in enumerate(problem.load_cases, start=1):
+        terminal.note(f"Case {number}, share {case.share:g}: {case.road.describe()}; {case.speed:g} m/s.")
     terminal.note(
-        f"ACC is weighted with {weighting}. Hypervolume and IGD+ are medians over the repeats, against the "
-        f"non-dominated designs of a {reference.points} x {reference.points} grid (hypervolume "
-        f"{reference.front.volume:.4f}, which half as many values change by {reference.change:.1e} and a second "
-        f"grid by {reference.second:.1e})."
+        f"ACC is weighted with {problem.weighting}. Hypervolume and IGD+ are medians over the repeats, against "
+        f"{made_of}."
     )
     if min(counts) <= MoeadDra.utility_period and any(name.startswith("moead") for name in algorithms):
         terminal.note(
@@ -165,13 +209,13 @@ def _workers(
 
 def _plan(arguments: dict[str, Any], *also: str) -> dict[str, Any]:
     """Return what the results of a run depend on: these arguments, and the versions that compute it."""
-    kept = {name: arguments[name] for name in ("populations", "iterations", "weighting", "algorithms", *also)}
+    kept = {name: arguments[name] for name in ("populations", "iterations", "problem", "algorithms", *also)}
     packages = ("suspension-ctrl", "control", "moocore", "numba", "numpy", "scipy")
     return kept | {name: version(name) for name in packages}
 
 
-def write_tables(runs: pd.DataFrame, folder: Path) -> None:
-    published = paper.published_seconds()
+def write_tables(runs: pd.DataFrame, folder: Path, *, beside_paper: bool) -> None:
+    published = paper.published_seconds() if beside_paper else paper.published_seconds().iloc[:0]
     for number, family in ((2, "nsga2"), (3, "moead-dra")):
         table = tables.seconds_by_repeat(runs, published, family)
         if not table.empty:
@@ -187,12 +231,15 @@ def write_tables(runs: pd.DataFrame, folder: Path) -> None:
     )
 
 
-def write_figure5(populations: pd.DataFrame, algorithms: list[str], folder: Path) -> None:
+def write_figure5(problem: RideProblem, populations: pd.DataFrame, algorithms: list[str], folder: Path) -> None:
     """Draw the first algorithm beside the second, and in further figures beside each of the others."""
+    headers = column_headers(problem.objectives, problem.units)
+    across = next((header for header in headers if header.startswith("SWS")), headers[-1])
+    up = [header for header in headers if header != across]
     for number, other in enumerate(algorithms[1:] or algorithms):
         shown = populations[populations.algorithm.isin([algorithms[0], other])]
         stem = "figure5" if number == 0 else f"figure5_{other}"
-        files.write_figure(folder / stem, figures.final_populations(shown))
+        files.write_figure(folder / stem, figures.final_populations(shown, across, up))
 
 
 def write_fronts(problem: RideProblem, runs: list[PlannedRun], store: FolderStore, folder: Path) -> None:

@@ -68,6 +68,8 @@ class Mechanics(NamedTuple):
         Tension of each tyre by coordinate.
     tyres : list of str
         Their names.
+    contacts : (t, 2) ndarray
+        Where they touch the ground [m].
     """
 
     coordinates: list[str]
@@ -79,6 +81,7 @@ class Mechanics(NamedTuple):
     weights: Real
     tyre_loads: Real
     tyres: list[str]
+    contacts: Real
 
     @classmethod
     def of(cls, assembly: Assembly) -> "Mechanics":
@@ -101,6 +104,7 @@ class Mechanics(NamedTuple):
             assembly.weights(),
             (k[:, None] * e)[: len(assembly.tyres)],
             [tyre.name for tyre in assembly.tyres],
+            np.array([assembly.contacts[str(tyre.lower)] for tyre in assembly.tyres]),
         )
 
     def stiffness_of(self, coefficients: Real) -> Real:
@@ -118,17 +122,16 @@ class Mechanics(NamedTuple):
         lean = self._lean(coefficients, geometry)
         return np.degrees(lean[:, self.coordinates.index("roll")])
 
-    def front_load_transfer(self, coefficients: Real, geometry: RollGeometry, assembly: Assembly) -> Real:
+    def front_load_transfer(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Return the share (p,) of the lateral load transfer that the front axle carries [-]."""
         elastic = self.tyre_loads @ self._lean(coefficients, geometry)[..., None]
         transfer = {}
         for axle, centre in (("front", geometry.front_roll_centre), ("rear", geometry.rear_roll_centre)):
             tyre = self.tyres.index(f"{axle}_left")
             other = "rear" if axle == "front" else "front"
-            x, y = assembly.contacts[f"{axle}_left_road"]
-            x_other = assembly.contacts[f"{other}_left_road"][0]
+            (x, y), x_other = self.contacts[tyre], self.contacts[self.tyres.index(f"{other}_left")][0]
             body = self._sprung_mass() * x_other / (x_other - x) * centre
-            wheels = 2 * assembly.masses[f"{axle}_left_wheel"] * geometry.wheel_centre
+            wheels = 2 * self.weights[self.coordinates.index(f"{axle}_left_wheel")] * geometry.wheel_centre
             transfer[axle] = elastic[:, tyre, 0] + GRAVITY * (body + wheels) / (2 * y)
         return transfer["front"] / (transfer["front"] + transfer["rear"])
 

@@ -51,6 +51,7 @@ class Judge:
         self.cases, self.scores, self.variables, self.band = cases, scores, variables, band
         self.coefficients = [case.vehicle.coefficients({**fixed, **variables}) for case in cases]
         self._ready: dict[int, tuple[RideCase, ...]] = {}
+        self._mechanics: dict[int, Mechanics] = {}
 
     def mean_squares(self, designs: Real, nodes: int) -> Real:
         """Return the mean squares (c, p, k) of all terms in each case for designs (p, v)."""
@@ -115,13 +116,17 @@ class Judge:
             np.array([score.offset for score in self.scores]),
         )
 
+    def _statics(self, c: int) -> Mechanics:
+        if c not in self._mechanics:
+            self._mechanics[c] = Mechanics.of(self.cases[c].vehicle.assembly())
+        return self._mechanics[c]
+
     def _static_load(self, c: int, term: Term) -> float:
         """Return the load of the term's tyre on level ground [N], on struts in the middle of their range.
 
         Of a vehicle with left and right alike that is its load on any struts.
         """
-        assembly = self.cases[c].vehicle.assembly()
-        mechanics = Mechanics.of(assembly)
+        assembly, mechanics = self.cases[c].vehicle.assembly(), self._statics(c)
         loads = mechanics.static_loads(np.array([list(self.coefficients[c].values())]))[0]
         return float(loads[mechanics.tyres.index(str(assembly.responses[str(term.response)].where))])
 
@@ -137,15 +142,14 @@ class Judge:
         case, known = self.cases[c], self.coefficients[c]
         coefficients = np.tile(list(known.values()), (len(designs), 1))
         coefficients[:, [list(known).index(variable) for variable in self.variables]] = designs
-        assembly = case.vehicle.assembly()
-        mechanics = Mechanics.of(assembly)
+        mechanics = self._statics(c)
         if name == "roll_damping":
             return mechanics.roll_damping(coefficients)
         if case.roll_geometry is None:
             raise ValueError(f"roll_geometry must be given in every load case for {name}, got None")
         if name == "roll_gradient":
             return mechanics.roll_gradient(coefficients, case.roll_geometry)
-        return mechanics.front_load_transfer(coefficients, case.roll_geometry, assembly)
+        return mechanics.front_load_transfer(coefficients, case.roll_geometry)
 
 
 def _kind(loop: StrutLoop | tuple[StrutBlock, ...]) -> object:

@@ -19,7 +19,7 @@ from .vehicles import Settings, Vehicle
 _RESOLVED = 1e-6
 """Largest relative change of an objective that twice the nodes may make at a corner of the box."""
 
-_NODES = (256, 512, 1024, 2048, 4096)
+_NODES = (256, 384, 512, 768, 1024, 2048, 4096)
 _CORNERS = 64
 """Corners of the box at which the nodes are judged; of a box with more, so many drawn at random."""
 

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+from collections.abc import Sequence
 from contextlib import suppress
 from importlib.metadata import version
 from pathlib import Path
@@ -105,6 +106,19 @@ def grid_front(problem: Minimisable, points: int) -> NDArray[np.float64]:
 
 def _best(objectives: NDArray[np.float64]) -> NDArray[np.float64]:
     return objectives[non_dominated(objectives)]
+
+
+def best_known(found: Sequence[NDArray[np.float64]]) -> ReferenceFront:
+    """Return the front of the best of several sets of feasible objectives (n, m); ValueError if all are empty."""
+    merged = np.concatenate(found)
+    if len(merged) == 0:
+        raise ValueError("constraints must leave a feasible design, got none in any run")
+    return ReferenceFront.of(_best(merged))
+
+
+def digest(front: ReferenceFront) -> str:
+    """Return a digest of a front."""
+    return hashlib.sha256(front.objectives.tobytes() + np.float64(front.volume).tobytes()).hexdigest()[:32]
 
 
 def cached(problem: Minimisable, tolerance: float = TOLERANCE) -> Refined:

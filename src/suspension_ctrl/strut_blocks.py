@@ -107,8 +107,8 @@ def _without_doubles(blocks: Sequence[StrutBlock], m: int) -> tuple[tuple[StrutB
         stays = np.isin(block.response, kept)
         thinned.append(
             block._replace(
-                rows=block.rows[:, stays],
-                from_struts=block.from_struts[:, stays],
+                rows=block.rows[stays],
+                from_struts=block.from_struts[stays],
                 response=channel[block.response[stays]],
             )
         )
@@ -120,7 +120,7 @@ def _alike(block: StrutBlock, i: int, j: int) -> bool:
     both = [np.flatnonzero(block.response == k) for k in (i, j)]
     if any(rows.size == 0 for rows in both):
         return all(rows.size == 0 for rows in both)
-    parts = [(values[:, both[0][0]], values[:, both[1][0]]) for values in (block.rows, block.from_struts)]
+    parts = [(values[both[0][0]], values[both[1][0]]) for values in (block.rows, block.from_struts)]
     return any(all(((a - sign * b) ** 2).sum() <= _ALIKE**2 * (b**2).sum() for a, b in parts) for sign in (1, -1))
 
 
@@ -148,9 +148,9 @@ def _factor(spectrum: Complex, power: Real) -> Complex:
 
 
 def _apart(values: Complex) -> Real:
-    """Return real and imaginary parts (2, a, b, n) of complex values (n, a, b)."""
+    """Return real and imaginary parts in rows (a, b, 2, n) of complex values (n, a, b)."""
     values = np.moveaxis(values, 0, -1)
-    return np.stack([values.real, values.imag])
+    return np.stack([values.real, values.imag], axis=2)
 
 
 class Variables(NamedTuple):

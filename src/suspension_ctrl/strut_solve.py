@@ -12,19 +12,20 @@ from .ports import Real
 class StrutBlock(NamedTuple):
     """Struts that feel one another: their loop, and the rows of the responses that they have a part in.
 
-    Real and imaginary parts stand apart, so that all frequencies are worked on at once.
+    Real and imaginary parts of each value at all frequencies stand in rows (2, n), which a processor works on at
+    once.
 
     Parameters
     ----------
     omega : (n,) ndarray
         Angular frequencies [rad/s].
-    feedback : (2, q, q, n) ndarray
+    feedback : (q, q, 2, n) ndarray
         Deflections by tensions.
-    deflections : (2, q, s, n) ndarray
+    deflections : (q, s, 2, n) ndarray
         Deflections by s uncorrelated sources of unit density that stand for the roads.
-    rows : (2, k, s, n) ndarray
+    rows : (k, s, 2, n) ndarray
         Responses by these sources, each times the root of the density it is to be integrated with.
-    from_struts : (2, k, q, n) ndarray
+    from_struts : (k, q, 2, n) ndarray
         Responses by tensions, likewise.
     response : (k,) ndarray
         Number of the response that a row adds to.
@@ -63,31 +64,29 @@ def mean_squares_of_all(designs: Real, blocks: tuple[StrutBlock, ...], channels:
     return results
 
 
-# As in `responses`: sums over frequencies in whatever order suits the processor, no check for division by zero.
-@njit(cache=True, fastmath={"reassoc", "contract", "nsz"}, error_model="numpy")
+@njit(cache=True)
 def add_mean_squares(design: Real, block: StrutBlock, result: Real) -> None:
     """Add what a block gives of the mean squares (m,) of a design (v,) to `result`.
 
     Struts with tensions D e by deflections e = S + P D e, where S are the sources: (1 - P D) e = S is solved by
     elimination, which is to close one strut after the other and so needs no exchange of rows.
     """
-    sources = block.deflections.shape[2]
+    q, sources = block.deflections.shape[0], block.deflections.shape[1]
     added = design - block.origin
     k, c = weighted_sum(added, block.stiffness), weighted_sum(added, block.damping)
     loop = open_loop(k, c, block)
-    eliminate(loop, k.shape[0])
-    deflections = loop[:, :, k.shape[0] :]
-    tension = np.empty((2, k.shape[0], block.omega.size))
+    eliminate(loop)
+    tension = np.empty((q, 2, block.omega.size))
     value = np.empty((2, block.omega.size))
     for s in range(sources):
         tension[:] = 0.0
-        for i in range(k.shape[0]):
-            for j in range(k.shape[0]):
-                add_impedance(k[i, j], c[i, j], block.omega, deflections[:, j, s], tension[:, i])
+        for i in range(q):
+            for j in range(q):
+                add_impedance(k[i, j], c[i, j], block.omega, loop[j, q + s], tension[i])
         for row in range(block.response.size):
-            value[:] = block.rows[:, row, s]
-            for j in range(k.shape[0]):
-                add_product(1.0, block.from_struts[:, row, j], tension[:, j], value)
+            value[:] = block.rows[row, s]
+            for j in range(q):
+                add_product(1.0, block.from_struts[row, j], tension[j], value)
             result[block.response[row]] += sum_of_squares(value)
 
 
@@ -102,48 +101,57 @@ def weighted_sum(weights: Real, matrices: Real) -> Real:
 
 @njit(cache=True)
 def open_loop(k: Real, c: Real, block: StrutBlock) -> Real:
-    """Return 1 - P D beside the sources, (2, q, q + s, n)."""
+    """Return 1 - P D beside the sources, (q, q + s, 2, n)."""
     q, n = k.shape[0], block.omega.size
-    loop = np.zeros((2, q, q + block.deflections.shape[2], n))
-    loop[:, :, q:] = block.deflections
-    product = np.empty((2, n))
+    loop = np.zeros((q, q + block.deflections.shape[1], 2, n))
     for i in range(q):
         for j in range(q):
-            product[:] = 0.0
             for l in range(q):  # noqa: E741
-                add_impedance(k[l, j], c[l, j], block.omega, block.feedback[:, i, l], product)
-            loop[0, i, j] = -product[0]
-            loop[1, i, j] = -product[1]
-        loop[0, i, i] += 1.0
+                add_impedance(-k[l, j], -c[l, j], block.omega, block.feedback[i, l], loop[i, j])
+        loop[i, i, 0] += 1.0
+        for s in range(block.deflections.shape[1]):
+            loop[i, q + s] = block.deflections[i, s]
     return loop
 
 
 @njit(cache=True)
-def eliminate(loop: Real, q: int) -> None:
-    """Solve the linear equations (2, q, q + s, n) in place: solutions stand where the right-hand sides were."""
-    columns = loop.shape[2]
+def eliminate(loop: Real) -> None:
+    """Solve the linear equations (q, q + s, 2, n) in place: solutions stand where the right-hand sides were."""
+    q, columns = loop.shape[0], loop.shape[1]
     for c in range(q):
-        divide(loop[:, c, c], loop[:, c, c + 1 :])
+        invert(loop[c, c])
+        for j in range(c + 1, columns):
+            multiply(loop[c, c], loop[c, j])
         for i in range(c + 1, q):
             for j in range(c + 1, columns):
-                add_product(-1.0, loop[:, i, c], loop[:, c, j], loop[:, i, j])
+                add_product(-1.0, loop[i, c], loop[c, j], loop[i, j])
     for c in range(q - 1, 0, -1):
         for i in range(c):
             for j in range(q, columns):
-                add_product(-1.0, loop[:, i, c], loop[:, c, j], loop[:, i, j])
+                add_product(-1.0, loop[i, c], loop[c, j], loop[i, j])
 
 
+# Rows of frequencies: products may be fused and sums taken in whatever order suits the processor, the same for
+# every design; numpy's error model leaves out a check for division by zero that would keep a loop from being
+# vectorised.
 @njit(cache=True, fastmath={"contract", "nsz"}, error_model="numpy")
-def divide(divisor: Real, values: Real) -> None:
-    """Divide `values` (2, k, n) by the `divisor` (2, n) in place."""
-    a, b = divisor[0], divisor[1]
-    for j in range(values.shape[1]):
-        x, y = values[0, j], values[1, j]
-        for t in range(a.size):
-            size = a[t] * a[t] + b[t] * b[t]
-            real = (x[t] * a[t] + y[t] * b[t]) / size
-            y[t] = (y[t] * a[t] - x[t] * b[t]) / size
-            x[t] = real
+def invert(value: Real) -> None:
+    """Replace a complex row (2, n) by its reciprocal."""
+    a, b = value[0], value[1]
+    for t in range(a.size):
+        size = a[t] * a[t] + b[t] * b[t]
+        a[t] /= size
+        b[t] /= -size
+
+
+@njit(cache=True, fastmath={"contract", "nsz"})
+def multiply(factor: Real, value: Real) -> None:
+    """Multiply a complex row (2, n) by another in place."""
+    a, b, x, y = factor[0], factor[1], value[0], value[1]
+    for t in range(a.size):
+        real = a[t] * x[t] - b[t] * y[t]
+        y[t] = a[t] * y[t] + b[t] * x[t]
+        x[t] = real
 
 
 @njit(cache=True, fastmath={"contract", "nsz"})
