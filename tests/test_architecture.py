@@ -24,6 +24,8 @@ PHYSICS = {
     "weightings",
     "quadrature",
     "responses",
+    "simulation",
+    "exposure",
     "ports",
     "strut_loop",
     "strut_solve",
@@ -101,6 +103,7 @@ def test_public_names():
     assert suspension_ctrl.__all__ == [
         *("FlexibleBody", "FullCar", "Gamultiobj", "HalfCar", "InfeasibleWarning", "Iso8608Road", "LoadCase"),
         *("MeasuredRoad", "MoeadDra", "Nsga2", "PowerLawRoad", "Problem", "QuarterCar", "RideProblem"),
-        *("RollGeometry", "Run", "Sampling", "Seat", "TwoSlopeRoad", "minimise", "weighting"),
+        *("RollGeometry", "Run", "Sampling", "Seat", "TwoSlopeRoad", "minimise", "simulate"),
+        *("weighting",),
     ]
     assert all(hasattr(suspension_ctrl, name) for name in suspension_ctrl.__all__)

@@ -19,7 +19,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from . import weightings
-from .assembly import Response, ResponseName
+from .assembly import ResponseName
 from .vehicles import Vehicle
 
 HANDLING = {"roll_gradient": "deg/g", "roll_damping": "-", "front_load_transfer": "-"}
@@ -133,11 +133,4 @@ def _term(text: str, vehicle: Vehicle) -> Term:
 
 def _unit(terms: Sequence[Term], vehicle: Vehicle) -> str:
     """Return the unit of the first term: factors of further ones carry theirs to it."""
-    response = next(iter(vehicle.assembly().resolved([terms[0].response]).values()))
-    return _response_unit(response)
-
-
-def _response_unit(response: Response) -> str:
-    if response.kind == "acceleration":
-        return "rad/s^2" if response.where in ("pitch", "roll") else "m/s^2"
-    return {"travel": "m", "load": "N"}[response.kind]
+    return next(iter(vehicle.assembly().resolved([terms[0].response]).values())).unit
