@@ -40,7 +40,7 @@ def simulate(
     Parameters
     ----------
     closed : control.StateSpace
-        Vehicle with its struts, ``vehicle.closed(...)``: from roads [m], and their rates [m/s] if tyres are damped.
+        Vehicle with its struts, ``vehicle.closed(...)``, from roads [m] and, if tyres are damped, rates [m/s].
     profile : Profile
         The road, with a track under every wheel.
     speed : float
@@ -59,8 +59,9 @@ def simulate(
     -------
     DataFrame
         A row for each step of the profile: ``time [s]``, ``distance [m]`` of the origin along the road, and
-        every response with its unit, ``body_acceleration [m/s^2]``. Where a damped tyre meets a kink of the road
-        its load jumps; there it is the mean of both sides.
+        every response with its unit, ``body_acceleration [m/s^2]``; outputs of other names have none. On a kink of
+        the road the load of a damped tyre jumps and is given as the mean of both sides. For finer samples of the
+        same road, which such a load may need, give a profile of the heights ``profile.at(...)``.
 
     Raises
     ------
@@ -88,7 +89,7 @@ def simulate(
 
 
 class _Model(NamedTuple):
-    """x' = a x + b u, y = c x + d u + e u' under roads u, their rates u' being no inputs of the states any more."""
+    """x' = a x + b u, y = c x + d u + e u' under roads u, whose rates u' are no inputs of the states any more."""
 
     a: Real
     b: Real
@@ -100,6 +101,9 @@ class _Model(NamedTuple):
     @classmethod
     def of(cls, closed: control.StateSpace) -> "_Model":
         """Take what rates do to the states into these: with x' = A x + B u + G u' it is x - G u that moves so."""
+        if not (isinstance(closed, control.StateSpace) and closed.isctime(strict=True)):
+            got = f"{type(closed).__name__} with dt = {getattr(closed, 'dt', None)}"
+            raise ValueError(f"closed must be a state-space model in continuous time, got {got}")
         roads = [name for name in closed.input_labels if not name.endswith("_rate")]
         r = len(roads)
         if closed.input_labels not in (roads, [*roads, *(f"{road}_rate" for road in roads)]):
@@ -159,7 +163,9 @@ def _states(model: _Model, wheels: _Wheels, dt: float, periodic: bool) -> Real:
     """States (k, n) of the model at the times of the wheels, `dt` [s] apart."""
     n, k = len(model.a), len(wheels.points)
     taps = np.array([_taps(model, i, dt, share) for i, share in enumerate(wheels.share.tolist())])
-    drive = np.einsum("krj,rjn->nk", wheels.points[:, :, 1:], taps)  # what the road adds in the step from each time
+    drive = np.einsum(
+        "krj,rjn->nk", wheels.points[:, :, 1:], taps
+    )  # what the road adds in the step from each time
     forward = _straight(model.a, model.b[:, :1], dt)[0]
     sampled = control.ss(forward, np.eye(n), np.eye(n), np.zeros((n, n)), dt)
     drive = np.pad(drive, ((0, 0), (0, 1)))
@@ -172,9 +178,9 @@ def _states(model: _Model, wheels: _Wheels, dt: float, periodic: bool) -> Real:
 
 
 def _taps(model: _Model, wheel: int, dt: float, share: float) -> Real:
-    """What each of three points (3, n) under a wheel adds to the states in a step that begins `share` past the first.
+    """Return what each of three points under a wheel adds (3, n) to the states in a step.
 
-    The road goes straight to the second point, then straight on towards the third.
+    The step begins a `share` of it past the first; the road goes straight to the second, then on to the third.
     """
     b = model.b[:, wheel : wheel + 1]
     _, start, point = _straight(model.a, b, (1 - share) * dt)
@@ -184,7 +190,7 @@ def _taps(model: _Model, wheel: int, dt: float, share: float) -> Real:
 
 
 def _straight(a: Real, b: Real, duration: float) -> tuple[Real, Real, Real]:
-    """States after a duration [s] by those before, and by the input's first and last value, straight between."""
+    """Return states after a duration [s] by those before and by the first and last value of a straight input."""
     from scipy.signal import cont2discrete
 
     n, r = b.shape
@@ -204,10 +210,10 @@ def _checked_points(contact_points: ArrayLike, roads: list[str]) -> Real:
 def _check_step(closed: control.StateSpace, step: float, speed: float) -> None:
     poles = closed.poles()
     fastest = float(np.abs(poles[poles.imag != 0]).max(initial=0.0)) / (2 * np.pi)
-    if step * fastest * _POINTS > speed:
+    if step * fastest * _POINTS > speed * (1 + 1e-9):
         raise ValueError(
-            f"profile must have steps of at most {speed / (_POINTS * fastest):.3g} m at {speed:g} m/s, {_POINTS} in "
-            f"a wave of the fastest mode of {fastest:.3g} Hz, got {step:g} m"
+            f"profile must have steps of at most {speed / (_POINTS * fastest):.3g} m at {speed:g} m/s, "
+            f"{_POINTS} in a wave of the fastest mode of {fastest:.3g} Hz, got {step:g} m"
         )
 
 
