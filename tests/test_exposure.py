@@ -108,7 +108,7 @@ def test_error_of_the_digital_filter_is_as_documented(step, ten, twenty):
 
 
 def test_digital_filter_beside_the_filter_behind_the_vehicle():
-    """Simulated together they make no error; what the digital filter makes on a road, phase and all, is below 0.5 %."""
+    """Simulated together they make no error; that of the digital filter on a road, phase and all, is below 0.5 %."""
     closed = QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3).closed(22e3, 1500.0)
     profile = Iso8608Road("C").profile(409.6, 0.05, 1)
     both = control.ss(weighting("Wk")) * closed["body_acceleration", "road"]

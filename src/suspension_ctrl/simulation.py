@@ -163,16 +163,15 @@ def _states(model: _Model, wheels: _Wheels, dt: float, periodic: bool) -> Real:
     """States (k, n) of the model at the times of the wheels, `dt` [s] apart."""
     n, k = len(model.a), len(wheels.points)
     taps = np.array([_taps(model, i, dt, share) for i, share in enumerate(wheels.share.tolist())])
-    drive = np.einsum(
-        "krj,rjn->nk", wheels.points[:, :, 1:], taps
-    )  # what the road adds in the step from each time
+    drive = np.einsum("krj,rjn->nk", wheels.points[:, :, 1:], taps)  # what a step adds
     forward = _straight(model.a, model.b[:, :1], dt)[0]
     sampled = control.ss(forward, np.eye(n), np.eye(n), np.zeros((n, n)), dt)
-    drive = np.pad(drive, ((0, 0), (0, 1)))
-    at_first = np.linalg.solve(model.a, -model.b @ wheels.elevation()[0])
-    if periodic:
+    drive = np.pad(drive, ((0, 0), (0, 1)))  # for the states after the last step
+    if periodic:  # what a period does to rest and to the first states brings these back
         after = control.forced_response(sampled, inputs=drive).outputs[:, -1]
         at_first = np.linalg.solve(np.eye(n) - np.linalg.matrix_power(forward, k), after)
+    else:
+        at_first = np.linalg.solve(model.a, -model.b @ wheels.elevation()[0])
     answer = control.forced_response(sampled, inputs=drive, initial_state=at_first)
     return answer.outputs.T[:-1]
 
