@@ -108,14 +108,14 @@ def test_error_of_the_digital_filter_is_as_documented(step, ten, twenty):
 
 
 def test_digital_filter_beside_the_filter_behind_the_vehicle():
-    """Simulated together they make no error; that of the digital filter on a road, phase and all, is below 0.5 %."""
+    """Simulated together they make no error; on a road the digital filter, phase and all, makes below 0.5 %."""
     closed = QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3).closed(22e3, 1500.0)
     profile = Iso8608Road("C").profile(409.6, 0.05, 1)
     both = control.ss(weighting("Wk")) * closed["body_acceleration", "road"]
     expected = simulate(both, profile, 20.0, periodic=True).iloc[:, 2].to_numpy()
     plain = simulate(closed, profile, 20.0, periodic=True)["body_acceleration [m/s^2]"].to_numpy()
     found = weighted(np.tile(plain, 2), 0.0025, "Wk")[plain.size :]
-    assert np.sqrt(np.mean((found - expected) ** 2) / np.mean(expected**2)) < 5e-3  # phase included
+    assert np.sqrt(np.mean((found - expected) ** 2) / np.mean(expected**2)) < 5e-3
     ours, theirs = exposure(found, 0.0025), exposure(expected, 0.0025)
     for name in ("rms", "mtvv", "vdv"):
         assert getattr(ours, name) == pytest.approx(getattr(theirs, name), rel=2e-3)
