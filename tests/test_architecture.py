@@ -26,6 +26,8 @@ PHYSICS = {
     "weightings",
     "quadrature",
     "responses",
+    "simulation",
+    "exposure",
     "ports",
     "strut_loop",
     "strut_solve",
@@ -104,6 +106,7 @@ def test_public_names():
     assert suspension_ctrl.__all__ == [
         *("FlexibleBody", "FullCar", "Gamultiobj", "HalfCar", "InfeasibleWarning", "Iso8608Road", "LoadCase"),
         *("MeasuredRoad", "MoeadDra", "Nsga2", "Payload", "PowerLawRoad", "Problem", "QuarterCar"),
-        *("RideProblem", "RollGeometry", "Run", "Sampling", "Seat", "TwoSlopeRoad", "minimise", "weighting"),
+        *("RideProblem", "RollGeometry", "Run", "Sampling", "Seat", "TwoSlopeRoad", "minimise", "simulate"),
+        *("weighting",),
     ]
     assert all(hasattr(suspension_ctrl, name) for name in suspension_ctrl.__all__)

@@ -10,6 +10,7 @@ from .objectives import RideProblem
 from .optimisers import Gamultiobj, MoeadDra, Nsga2, Run, Sampling, minimise
 from .problems import Problem
 from .roads import Iso8608Road, PowerLawRoad, TwoSlopeRoad
+from .simulation import simulate
 from .weightings import weighting
 
 __all__ = [
@@ -34,5 +35,6 @@ __all__ = [
     "Seat",
     "TwoSlopeRoad",
     "minimise",
+    "simulate",
     "weighting",
 ]
