@@ -34,7 +34,7 @@ class RollGeometry:
     Raises
     ------
     ValueError
-        If the arm or the height of the wheels is not above zero, or a roll centre not finite.
+        If the arm or the height of the wheels is not above zero, or a roll centre not from -10 to 10 m.
     """
 
     roll_arm: float
@@ -68,6 +68,8 @@ class Mechanics(NamedTuple):
         Tension of each tyre by coordinate.
     tyres : list of str
         Their names.
+    sprung_mass : float
+        Mass of all but the wheels [kg].
     """
 
     coordinates: list[str]
@@ -79,6 +81,7 @@ class Mechanics(NamedTuple):
     weights: Real
     tyre_loads: Real
     tyres: list[str]
+    sprung_mass: float
 
     @classmethod
     def of(cls, assembly: Assembly) -> "Mechanics":
@@ -101,6 +104,7 @@ class Mechanics(NamedTuple):
             assembly.weights(),
             (k[:, None] * e)[: len(assembly.tyres)],
             [tyre.name for tyre in assembly.tyres],
+            assembly.sprung_mass(),
         )
 
     def stiffness_of(self, coefficients: Real) -> Real:
@@ -120,16 +124,15 @@ class Mechanics(NamedTuple):
 
     def front_load_transfer(self, coefficients: Real, geometry: RollGeometry, assembly: Assembly) -> Real:
         """Return the share (p,) of the lateral load transfer that the front axle carries [-]."""
-        elastic = self.tyre_loads @ self._lean(coefficients, geometry)[..., None]
+        elastic = (self.tyre_loads @ self._lean(coefficients, geometry)[..., None])[..., 0]
+        static = self.static_loads(coefficients)
         transfer = {}
         for axle, centre in (("front", geometry.front_roll_centre), ("rear", geometry.rear_roll_centre)):
-            tyre = self.tyres.index(f"{axle}_left")
-            other = "rear" if axle == "front" else "front"
-            x, y = assembly.contacts[f"{axle}_left_road"]
-            x_other = assembly.contacts[f"{other}_left_road"][0]
-            body = self._sprung_mass() * x_other / (x_other - x) * centre
-            wheels = 2 * assembly.masses[f"{axle}_left_wheel"] * geometry.wheel_centre
-            transfer[axle] = elastic[:, tyre, 0] + GRAVITY * (body + wheels) / (2 * y)
+            left, right = (self.tyres.index(f"{axle}_{side}") for side in ("left", "right"))
+            wheels = 2 * assembly.masses[f"{axle}_left_wheel"] * GRAVITY
+            body = static[:, left] + static[:, right] - wheels
+            track = 2 * assembly.contacts[f"{axle}_left_road"][1]
+            transfer[axle] = elastic[:, left] + (body * centre + wheels * geometry.wheel_centre) / track
         return transfer["front"] / (transfer["front"] + transfer["rear"])
 
     def roll_damping(self, coefficients: Real) -> Real:
@@ -149,16 +152,10 @@ class Mechanics(NamedTuple):
 
     def _lean(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Return the displacement of each coordinate (p, n) at 1 g to the left."""
-        moment = self._sprung_mass() * GRAVITY * geometry.roll_arm
+        moment = self.sprung_mass * GRAVITY * geometry.roll_arm
         roll = self.coordinates.index("roll")
         stiffness = self.stiffness_of(coefficients)
         stiffness[:, roll, roll] -= moment  # the weight leans too
         load = np.zeros((len(self.coordinates), 1))
         load[roll] = moment
         return np.asarray(np.linalg.solve(stiffness, load)[..., 0], dtype=float)
-
-    def _sprung_mass(self) -> float:
-        """Return the mass [kg] of all but the wheels."""
-        turned = ("pitch", "roll")
-        weights = dict(zip(self.coordinates, self.weights, strict=True))
-        return sum(w for name, w in weights.items() if not (name in turned or name.endswith("wheel")))

@@ -53,7 +53,7 @@ class Ports(NamedTuple):
     def of(
         cls, vehicle: Plant, f: Real, responses: Sequence[ResponseName], gains: tuple[Real, Real] | None = None
     ) -> "Ports":
-        """Take it at the frequencies `f` (n,) [Hz], ascending.
+        """Take it at the frequencies `f` (n,) [Hz], ascending; `responses` may hold one more than once.
 
         With `gains`, tensions of the struts by deflections and by their rates (q, q), there are such struts in
         place already and the ports are for what is added to them. A body on springs does not drift away at low
@@ -61,10 +61,14 @@ class Ports(NamedTuple):
         """
         omega = 2 * np.pi * f
         m, q, r = len(responses), len(vehicle.struts), len(vehicle.contact_points)
-        plant = vehicle.plant(responses)
+        different = list(dict.fromkeys(responses))
+        rows = [different.index(response) for response in responses] + list(
+            range(len(different), len(different) + q)
+        )
+        plant = vehicle.plant(different)
         if gains is not None:
             plant = _around(plant, np.hstack(gains))
-        h = np.moveaxis(plant.frequency_response(omega, squeeze=False).frdata, 2, 0)[:, : m + q]
+        h = np.moveaxis(plant.frequency_response(omega, squeeze=False).frdata, 2, 0)[:, rows]
         roads, struts = h[:, :, :r], h[:, :, -q:]
         if h.shape[2] > r + q:  # damped tyres follow the road's rate too
             roads = roads + 1j * omega[:, None, None] * h[:, :, r : 2 * r]

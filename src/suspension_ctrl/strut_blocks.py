@@ -107,8 +107,8 @@ def _without_doubles(blocks: Sequence[StrutBlock], m: int) -> tuple[tuple[StrutB
         stays = np.isin(block.response, kept)
         thinned.append(
             block._replace(
-                rows=block.rows[:, stays],
-                from_struts=block.from_struts[:, stays],
+                rows=np.ascontiguousarray(block.rows[:, stays]),
+                from_struts=np.ascontiguousarray(block.from_struts[:, stays]),
                 response=channel[block.response[stays]],
             )
         )
@@ -150,7 +150,7 @@ def _factor(spectrum: Complex, power: Real) -> Complex:
 def _apart(values: Complex) -> Real:
     """Return real and imaginary parts (2, a, b, n) of complex values (n, a, b)."""
     values = np.moveaxis(values, 0, -1)
-    return np.stack([values.real, values.imag])
+    return np.ascontiguousarray([values.real, values.imag])
 
 
 class Variables(NamedTuple):
@@ -202,9 +202,9 @@ class Pairs(NamedTuple):
 
 
 def _sums_and_differences(opposite: Sequence[Sequence[int]]) -> Real:
-    matrix = np.eye(len(opposite))
+    matrix, half = np.eye(len(opposite)), np.sqrt(0.5)
     for left, rights in enumerate(opposite):
         for right in rights:
-            half = np.sqrt(0.5)
-            matrix[np.ix_([left, right], [left, right])] = [[half, half], [half, -half]]
+            if matrix[left, left] == matrix[right, right] == 1:  # neither has a partner yet
+                matrix[np.ix_([left, right], [left, right])] = [[half, half], [half, -half]]
     return matrix

@@ -63,7 +63,7 @@ def mean_squares_of_all(designs: Real, blocks: tuple[StrutBlock, ...], channels:
     return results
 
 
-# As in `responses`: sums over frequencies in whatever order suits the processor, no check for division by zero.
+# As in `strut_loop`: sums over frequencies in whatever order suits the processor, no check for division by zero.
 @njit(cache=True, fastmath={"reassoc", "contract", "nsz"}, error_model="numpy")
 def add_mean_squares(design: Real, block: StrutBlock, result: Real) -> None:
     """Add what a block gives of the mean squares (m,) of a design (v,) to `result`.
