@@ -67,7 +67,7 @@ class Ports(NamedTuple):
         )
         plant = vehicle.plant(different)
         if gains is not None:
-            plant = _around(plant, np.hstack(gains))
+            plant = around(plant, np.hstack(gains))
         h = np.moveaxis(plant.frequency_response(omega, squeeze=False).frdata, 2, 0)[:, rows]
         roads, struts = h[:, :, :r], h[:, :, -q:]
         if h.shape[2] > r + q:  # damped tyres follow the road's rate too
@@ -75,10 +75,13 @@ class Ports(NamedTuple):
         return cls(np.concatenate([roads, struts], axis=2), m, r)
 
 
-def _around(
+def around(
     plant: control.StateSpace | control.FrequencyResponseData, gain: Real
 ) -> control.StateSpace | control.FrequencyResponseData:
-    """Return the plant with a static `gain` (q, 2 q) from its last outputs to its last inputs, which all stay."""
+    """Return the plant with a static `gain` (q, 2 q) from its last outputs to its last inputs, which all stay.
+
+    `control.StateSpace.lft` is the same but for its check, which refuses gains above some 1e7.
+    """
     q = len(gain)
     if isinstance(plant, control.StateSpace):
         b, c, d = plant.B[:, -q:], plant.C[-2 * q :], plant.D[:, -q:]  # no strut moves at once by its tension
