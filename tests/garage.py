@@ -95,7 +95,8 @@ def mean_squares(
 ) -> np.ndarray:
     """Return the mean square (m,) of responses, each with its weighting, at the nodes of the library."""
     f, w = frequency_nodes(band, nodes, kinks)
-    h = from_roads(vehicle, settings, [response for response, _ in terms], f)
+    responses = list(dict.fromkeys(response for response, _ in terms))
+    h = from_roads(vehicle, settings, responses, f)[:, [responses.index(response) for response, _ in terms]]
     spectrum = road.cross_spectrum(f, speed, vehicle.contact_points)
     densities = np.einsum("nmi,nij,nmj->mn", h, spectrum, h.conj()).real
     factors = [1.0 if name is None else weightings.by_name(name).factor(f) ** 2 for _, name in terms]
@@ -109,6 +110,7 @@ tyre_dampings = st.floats(0, 500)
 springs = st.floats(5e3, 8e4)
 dampers = st.floats(300, 6e3)
 lengths = st.floats(0.5, 2.5)
+inertias = st.floats(200, 4000)
 
 
 @st.composite

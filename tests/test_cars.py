@@ -16,6 +16,7 @@ from garage import (
     axle_struts,
     axles,
     from_roads,
+    inertias,
     lengths,
     masses,
     struts_of,
@@ -25,7 +26,6 @@ from suspension_ctrl.vehicles import unit_of
 
 frequencies = st.floats(0.05, 60)
 bars = st.floats(0, 5e4)
-inertias = st.floats(200, 4000)
 
 
 @settings(max_examples=40)
