@@ -120,6 +120,12 @@ class Assembly:
             (mass * self.shape(position) for mass, position in self.payload), np.zeros_like(weights)
         )
 
+    def sprung_mass(self) -> float:
+        """Return the mass of all that the wheels carry, payload included [kg]."""
+        wheels = [tyre.upper for tyre in self.tyres]
+        carried = sum(mass for name, mass in self.masses.items() if name not in wheels)
+        return carried + sum(mass for mass, _ in self.payload)
+
     def shape(self, end: End) -> NDArray[np.float64]:
         """Return the share (n,) of each coordinate in the displacement of an end."""
         shares: Mapping[str, float] = {}
@@ -163,6 +169,11 @@ class Assembly:
         control.StateSpace
             Inputs: roads [m], where a tyre is damped their rates [m/s], struts [N]; outputs: the responses,
             deflections [m] of the struts and their rates [m/s].
+
+        Raises
+        ------
+        ValueError
+            If a response is none of the vehicle's, or there twice.
         """
         links = [*self.tyres, *self.supports]
         e, road = self.elongations(links)
@@ -187,6 +198,8 @@ class Assembly:
             outputs[joined(strut.name, "deflection")] = np.pad(row, (0, n + 2 * r + q))
         for strut, row in zip(self.struts, p, strict=True):
             outputs[joined(strut.name, "deflection_rate")] = np.pad(row, (n, 2 * r + q))
+        if len(outputs) < len(responses) + 2 * q:
+            raise ValueError(f"responses must differ, points by a millimetre or more, got {list(responses)}")
         read = np.array(list(outputs.values()))
         kept = np.arange(2 * n, 2 * n + 2 * r + q)
         rates = [f"{name}_rate" for name in self.contacts]

@@ -89,7 +89,7 @@ class RideCase(NamedTuple):
     def mean_squares(self, designs: Real) -> Real:
         """Return the mean squares (p, k) of the terms for designs (p, v)."""
         if isinstance(self.loop, StrutLoop):
-            return loop_mean_squares_of_all(designs, self.loop)
+            return loop_mean_squares_of_all(designs, self.loop)[:, self.channel]
         return mean_squares_of_all(designs, self.loop, int(self.channel.max()) + 1)[:, self.channel]
 
 

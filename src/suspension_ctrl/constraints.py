@@ -50,6 +50,8 @@ def limit(text: str, vehicle: Vehicle, weighting: str | None) -> Limit:
     if not found or not abs(value) < float("inf"):
         raise ValueError(f"constraint must be like 'SWS <= 0.03' or 'roll_damping >= 0.2', got {text!r}")
     limited = measure(found[1], vehicle, weighting)
+    if limited.sign < 0:
+        raise ValueError(f"constraint must limit a measure without - in front, got {text!r}")
     if not limited.handling and not (found[2] == "<=" and value > 0):
         raise ValueError(f"constraint on a measure of the ride must be <= a limit above zero, got {text!r}")
     return Limit(limited, found[2] == "<=", value)

@@ -34,7 +34,7 @@ class RollGeometry:
     Raises
     ------
     ValueError
-        If the arm or the height of the wheels is not above zero, or a roll centre not finite.
+        If the arm or the height of the wheels is not above zero, or a roll centre not from -10 to 10 m.
     """
 
     roll_arm: float
@@ -70,6 +70,8 @@ class Mechanics(NamedTuple):
         Their names.
     contacts : (t, 2) ndarray
         Where they touch the ground [m].
+    sprung_mass : float
+        Mass of all but the wheels [kg].
     """
 
     coordinates: list[str]
@@ -82,6 +84,7 @@ class Mechanics(NamedTuple):
     tyre_loads: Real
     tyres: list[str]
     contacts: Real
+    sprung_mass: float
 
     @classmethod
     def of(cls, assembly: Assembly) -> "Mechanics":
@@ -105,6 +108,7 @@ class Mechanics(NamedTuple):
             (k[:, None] * e)[: len(assembly.tyres)],
             [tyre.name for tyre in assembly.tyres],
             np.array([assembly.contacts[str(tyre.lower)] for tyre in assembly.tyres]),
+            assembly.sprung_mass(),
         )
 
     def stiffness_of(self, coefficients: Real) -> Real:
@@ -124,15 +128,15 @@ class Mechanics(NamedTuple):
 
     def front_load_transfer(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Return the share (p,) of the lateral load transfer that the front axle carries [-]."""
-        elastic = self.tyre_loads @ self._lean(coefficients, geometry)[..., None]
+        elastic = (self.tyre_loads @ self._lean(coefficients, geometry)[..., None])[..., 0]
+        static = self.static_loads(coefficients)
         transfer = {}
         for axle, centre in (("front", geometry.front_roll_centre), ("rear", geometry.rear_roll_centre)):
-            tyre = self.tyres.index(f"{axle}_left")
-            other = "rear" if axle == "front" else "front"
-            (x, y), x_other = self.contacts[tyre], self.contacts[self.tyres.index(f"{other}_left")][0]
-            body = self._sprung_mass() * x_other / (x_other - x) * centre
-            wheels = 2 * self.weights[self.coordinates.index(f"{axle}_left_wheel")] * geometry.wheel_centre
-            transfer[axle] = elastic[:, tyre, 0] + GRAVITY * (body + wheels) / (2 * y)
+            left, right = (self.tyres.index(f"{axle}_{side}") for side in ("left", "right"))
+            wheels = 2 * self.weights[self.coordinates.index(f"{axle}_left_wheel")] * GRAVITY
+            body = static[:, left] + static[:, right] - wheels
+            track = self.contacts[left][1] - self.contacts[right][1]
+            transfer[axle] = elastic[:, left] + (body * centre + wheels * geometry.wheel_centre) / track
         return transfer["front"] / (transfer["front"] + transfer["rear"])
 
     def roll_damping(self, coefficients: Real) -> Real:
@@ -152,16 +156,10 @@ class Mechanics(NamedTuple):
 
     def _lean(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Return the displacement of each coordinate (p, n) at 1 g to the left."""
-        moment = self._sprung_mass() * GRAVITY * geometry.roll_arm
+        moment = self.sprung_mass * GRAVITY * geometry.roll_arm
         roll = self.coordinates.index("roll")
         stiffness = self.stiffness_of(coefficients)
         stiffness[:, roll, roll] -= moment  # the weight leans too
         load = np.zeros((len(self.coordinates), 1))
         load[roll] = moment
         return np.asarray(np.linalg.solve(stiffness, load)[..., 0], dtype=float)
-
-    def _sprung_mass(self) -> float:
-        """Return the mass [kg] of all but the wheels."""
-        turned = ("pitch", "roll")
-        weights = dict(zip(self.coordinates, self.weights, strict=True))
-        return sum(w for name, w in weights.items() if not (name in turned or name.endswith("wheel")))

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .cases import LoadCase, RideCase, ride_case
-from .handling import Mechanics
+from .handling import Mechanics, RollGeometry
 from .measures import Measure, Term
 from .ports import Real
 from .scores import Scoring, scores_of_all, scores_of_one_strut, scores_of_struts
@@ -52,6 +52,9 @@ class Judge:
         self.coefficients = [case.vehicle.coefficients({**fixed, **variables}) for case in cases]
         self._ready: dict[int, tuple[RideCase, ...]] = {}
         self._mechanics: dict[int, Mechanics] = {}
+        for name in {score.measures[0].handling for score in scores} - {"", "roll_damping"}:
+            for case in cases:
+                _geometry(case, name)
 
     def mean_squares(self, designs: Real, nodes: int) -> Real:
         """Return the mean squares (c, p, k) of all terms in each case for designs (p, v)."""
@@ -78,15 +81,19 @@ class Judge:
     def ride_cases(self, nodes: int) -> tuple[RideCase, ...]:
         """Return the load cases ready for designs."""
         if nodes not in self._ready:
-            self._ready[nodes] = tuple(
+            ready = [
                 ride_case(case, terms, self.variables, coefficients, self.band, nodes)
                 for case, terms, coefficients in zip(self.cases, self._terms, self.coefficients, strict=True)
+            ]
+            most = max(case.channel.size for case in ready)  # the first term stands in where a case has fewer
+            self._ready[nodes] = tuple(
+                case._replace(channel=np.pad(case.channel, (0, most - case.channel.size))) for case in ready
             )
         return self._ready[nodes]
 
     @cached_property
     def _terms(self) -> list[list[Term]]:
-        """What responses with what weightings there are in each case, as many in each."""
+        """What responses with what weightings there are in each case."""
         return [
             list(
                 dict.fromkeys(
@@ -145,11 +152,15 @@ class Judge:
         mechanics = self._statics(c)
         if name == "roll_damping":
             return mechanics.roll_damping(coefficients)
-        if case.roll_geometry is None:
-            raise ValueError(f"roll_geometry must be given in every load case for {name}, got None")
         if name == "roll_gradient":
-            return mechanics.roll_gradient(coefficients, case.roll_geometry)
-        return mechanics.front_load_transfer(coefficients, case.roll_geometry)
+            return mechanics.roll_gradient(coefficients, _geometry(case, name))
+        return mechanics.front_load_transfer(coefficients, _geometry(case, name))
+
+
+def _geometry(case: LoadCase, name: str) -> RollGeometry:
+    if case.roll_geometry is None:
+        raise ValueError(f"roll_geometry must be given in every load case for {name}, got None")
+    return case.roll_geometry
 
 
 def _kind(loop: StrutLoop | tuple[StrutBlock, ...]) -> object:

@@ -27,6 +27,7 @@ HANDLING = {"roll_gradient": "deg/g", "roll_damping": "-", "front_load_transfer"
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _POINT = rf"\(\s*({_NUMBER})\s*,\s*({_NUMBER})\s*\)"
 _KINDS = {"SWS": "travel", "DTL": "load", "DLC": "load"}
+_TURNED = ("pitch", "roll")
 _UNITS = {"ACC": "m/s^2", "SWS": "m", "DTL": "N", "DLC": "-"}
 
 
@@ -66,23 +67,26 @@ class Measure:
 
 def name_of(text: str) -> str:
     """Return the name of the measure that is written so: what stands before ``=``, or all of it."""
-    return text.split("=", 1)[0].strip() if "=" in text else " ".join(text.split())
+    name = " ".join(text.split("=", 1)[0].split()) if isinstance(text, str) else ""
+    if not name:
+        raise ValueError(f"measure must be a text such as 'SWS front' or 'name = SWS front', got {text!r}")
+    return name
 
 
 def measure(text: str, vehicle: Vehicle, weighting: str | None) -> Measure:
     """Return what a text means on this vehicle, where ACC has this weighting; ValueError if it means nothing."""
-    if not isinstance(text, str) or not text.strip():
-        raise ValueError(f"measure must be a text such as 'SWS front', got {text!r}")
+    name = name_of(text)
     body = text.split("=", 1)[-1].strip()
     sign = -1.0 if body.startswith("-") else 1.0
     body = body.removeprefix("-").strip()
-    name = name_of(text)
     if body in HANDLING:
+        if "roll" not in (coordinates := vehicle.assembly().coordinates):
+            raise ValueError(f"{body} must be of a vehicle that rolls, got one with {', '.join(coordinates)}")
         return Measure(name, HANDLING[body], sign=sign, handling=body)
     kind, _, where = body.partition(" ")
     if kind in _KINDS:
         terms = _at_corners(kind, where.strip(), vehicle)
-        return Measure(name, _UNITS[kind], terms, len(terms) > 1, sign)
+        return Measure(name, _UNITS[kind], terms, True, sign)
     if kind == "ACC":
         return Measure(name, _UNITS[kind], (Term(_accelerated(where.strip(), vehicle), weighting),), False, sign)
     terms = tuple(_term(part.strip(), vehicle) for part in re.split(r"\+(?![^(]*\))", body))
@@ -90,14 +94,15 @@ def measure(text: str, vehicle: Vehicle, weighting: str | None) -> Measure:
 
 
 def _at_corners(kind: str, where: str, vehicle: Vehicle) -> tuple[Term, ...]:
-    """Terms of the struts or tyres whose name is `where` or begins with it; all wheels if it is empty."""
+    """Terms of the strut or tyre called `where`, or of the axle's if it is one; of all wheels if it is empty."""
     tyres = {tyre.name for tyre in vehicle.assembly().tyres}
     found = {
         str(response.where): name
         for name, response in vehicle.assembly().responses.items()
         if response.kind == _KINDS[kind] and (where or response.where in tyres)
     }
-    chosen = {end: name for end, name in found.items() if where in ("", end) or end.startswith(f"{where}_")}
+    axle = {f"{where}_left", f"{where}_right"} & tyres
+    chosen = {end: name for end, name in found.items() if where in ("", end) or end in axle}
     if not chosen:
         raise ValueError(
             f"{kind} must be of one of {', '.join(filter(None, found)) or 'all wheels'}, got {where!r}"
@@ -109,8 +114,13 @@ def _accelerated(where: str, vehicle: Vehicle) -> ResponseName:
     if point := re.fullmatch(_POINT, where):
         return ("acceleration", float(point[1]), float(point[2]))
     name = f"{where or 'body'}_acceleration"
-    if name not in vehicle.responses:
-        known = [r.removesuffix("_acceleration") for r in vehicle.responses if r.endswith("_acceleration")]
+    vertical = [
+        known
+        for known, response in vehicle.assembly().responses.items()
+        if response.kind == "acceleration" and response.where not in _TURNED
+    ]
+    if name not in vertical:
+        known = [r.removesuffix("_acceleration") for r in vertical]
         raise ValueError(f"ACC must be of one of {', '.join(known)} or a point (x, y), got {where!r}")
     return name
 

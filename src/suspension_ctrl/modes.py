@@ -1,5 +1,6 @@
 """Modes of a vehicle with its struts, and what to call them."""
 
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -58,14 +59,12 @@ def mode_name(shape: NDArray[np.complex128], coordinates: Sequence[str], inertia
     Wheels of an axle that move together hop, against each other they tramp.
     """
     energy: dict[str, float] = {}
-    for name, share in zip(coordinates, inertias * np.abs(shape) ** 2, strict=True):
-        part = name.replace("_left", "").replace("_right", "")
+    parts = [re.sub("_(left|right)_wheel$", "_wheel", name) for name in coordinates]
+    for part, share in zip(parts, inertias * np.abs(shape) ** 2, strict=True):
         energy[part] = energy.get(part, 0.0) + share
     part = max(energy, key=lambda name: energy[name])
     if not part.endswith("wheel"):
         return _NAMES.get(part, part.replace("_", " "))
-    pair = [
-        shape[i] for i, name in enumerate(coordinates) if name.replace("_left", "").replace("_right", "") == part
-    ]
+    pair = [shape[i] for i in range(len(parts)) if parts[i] == part]
     against = len(pair) == 2 and (pair[0] * pair[1].conj()).real < 0
     return f"{part} {'tramp' if against else 'hop'}".replace("_", " ")

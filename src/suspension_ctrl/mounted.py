@@ -37,7 +37,8 @@ class Mounted(Car):
     part: Part
 
     def __post_init__(self) -> None:
-        self.assembly()  # whether the part fits
+        assembly = self.assembly()
+        assembly.elongations(assembly.struts)  # whether a body that bends has shapes at each
 
     def assembly(self) -> Assembly:
         """Return the vehicle taken apart."""
@@ -48,8 +49,8 @@ class Mounted(Car):
 class Seat(Part):
     """A seat with its occupant: a mass on a spring and a damper of its own, on any vehicle.
 
-    Its response is ``<name>_acceleration``; ``<name>.spring`` and ``<name>.damper`` are coefficients like those of
-    other struts, with these values where they are not given.
+    Its responses are ``<name>_acceleration`` and ``<name>_suspension_travel``; ``<name>.spring`` and
+    ``<name>.damper`` are coefficients like those of other struts, with these values where they are not given.
 
     Parameters
     ----------
@@ -60,7 +61,8 @@ class Seat(Part):
     damper : float
         Damping coefficient [N s/m].
     position : (float, float)
-        Where it stands from the body's centre of gravity, x forward and y to the left [m].
+        Where it stands from the body's centre of gravity, x forward and y to the left [m]; what a vehicle does
+        not do, as a half car does not roll, makes no difference there.
     name : str
         By which several seats are told apart: letters, digits and underscores.
 
@@ -87,7 +89,9 @@ class Seat(Part):
 
     def added_to(self, assembly: Assembly) -> Assembly:
         """Return the vehicle with this seat."""
-        if any(self.name in taken for taken in (assembly.coordinates, [strut.name for strut in assembly.struts])):
+        coefficients = (parameter.name.split(".")[0] for parameter in assembly.parameters)
+        struts = (strut.name for strut in assembly.struts)
+        if self.name in {"pitch", "roll", *assembly.coordinates, *assembly.contacts, *struts, *coefficients}:
             raise ValueError(f"name must be one that the vehicle does not have yet, got {self.name!r}")
         others = len(assembly.struts)
         parameters = [p._replace(gain=np.pad(p.gain, (0, 1))) for p in assembly.parameters]
@@ -156,8 +160,8 @@ class FlexibleBody(Part):
     Raises
     ------
     ValueError
-        If the parts do not fit together, a frequency is not above zero, a damping ratio is not from 0 to 1, or a
-        strut of the vehicle stands where no shapes are given.
+        If the parts do not fit together, a frequency is not above zero or a damping ratio not from 0 to 1; from
+        `on`, if the vehicle bends already or a strut stands where no shapes are given.
     """
 
     frequencies: Sequence[float]
@@ -187,9 +191,11 @@ class FlexibleBody(Part):
         if assembly.bending:
             raise ValueError(f"vehicle must have a rigid body, got one with modes at {list(assembly.bending)}")
         names = [f"bending_{i + 1}" for i in range(len(self.frequencies))]
+        if taken := set(names) & set(assembly.coordinates):
+            raise ValueError(f"vehicle must have nothing called {', '.join(names)}, got {', '.join(taken)}")
         omega = 2 * np.pi * np.asarray(self.frequencies, dtype=float)
         damping = 2 * omega * np.asarray(self.damping_ratios, dtype=float)
-        flexible = replace(
+        return replace(
             assembly,
             inertias={**assembly.inertias, **dict.fromkeys(names, 1.0)},
             supports=[
@@ -198,5 +204,3 @@ class FlexibleBody(Part):
             ],
             bending={place: dict(zip(names, shape, strict=True)) for place, shape in self.shapes.items()},
         )
-        flexible.elongations(flexible.struts)  # whether there is a shape at each
-        return flexible

@@ -207,4 +207,5 @@ class RideProblem:
         if len(corners) > _CORNERS:
             corners = np.random.default_rng(0).permutation(corners)[:_CORNERS]
         coarse, fine = (np.sqrt(self._judge.mean_squares(corners, count)) for count in (nodes, 2 * nodes))
-        return float(np.abs(coarse / fine - 1).max())
+        ratio = np.divide(coarse, fine, out=np.ones_like(fine), where=fine > 0)  # what never moves is resolved
+        return float(np.abs(ratio - 1).max())

@@ -53,7 +53,7 @@ class Ports(NamedTuple):
     def of(
         cls, vehicle: Plant, f: Real, responses: Sequence[ResponseName], gains: tuple[Real, Real] | None = None
     ) -> "Ports":
-        """Take it at the frequencies `f` (n,) [Hz], ascending.
+        """Take it at the frequencies `f` (n,) [Hz], ascending; `responses` may hold one more than once.
 
         With `gains`, tensions of the struts by deflections and by their rates (q, q), there are such struts in
         place already and the ports are for what is added to them. A body on springs does not drift away at low
@@ -61,20 +61,27 @@ class Ports(NamedTuple):
         """
         omega = 2 * np.pi * f
         m, q, r = len(responses), len(vehicle.struts), len(vehicle.contact_points)
-        plant = vehicle.plant(responses)
+        different = list(dict.fromkeys(responses))
+        rows = [different.index(response) for response in responses] + list(
+            range(len(different), len(different) + q)
+        )
+        plant = vehicle.plant(different)
         if gains is not None:
-            plant = _around(plant, np.hstack(gains))
-        h = np.moveaxis(plant.frequency_response(omega, squeeze=False).frdata, 2, 0)[:, : m + q]
+            plant = around(plant, np.hstack(gains))
+        h = np.moveaxis(plant.frequency_response(omega, squeeze=False).frdata, 2, 0)[:, rows]
         roads, struts = h[:, :, :r], h[:, :, -q:]
         if h.shape[2] > r + q:  # damped tyres follow the road's rate too
             roads = roads + 1j * omega[:, None, None] * h[:, :, r : 2 * r]
         return cls(np.concatenate([roads, struts], axis=2), m, r)
 
 
-def _around(
+def around(
     plant: control.StateSpace | control.FrequencyResponseData, gain: Real
 ) -> control.StateSpace | control.FrequencyResponseData:
-    """Return the plant with a static `gain` (q, 2 q) from its last outputs to its last inputs, which all stay."""
+    """Return the plant with a static `gain` (q, 2 q) from its last outputs to its last inputs, which all stay.
+
+    `control.StateSpace.lft` is the same but for its check, which refuses gains above some 1e7.
+    """
     q = len(gain)
     if isinstance(plant, control.StateSpace):
         b, c, d = plant.B[:, -q:], plant.C[-2 * q :], plant.D[:, -q:]  # no strut moves at once by its tension

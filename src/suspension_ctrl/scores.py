@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from .ports import Real
 from .strut_loop import StrutLoop, loop_mean_squares
@@ -80,7 +81,7 @@ def scores_of_one_strut(design: Real, loops: tuple[StrutLoop, ...], scoring: Sco
 def scores_of_struts(
     design: Real,
     cases: tuple[tuple[StrutBlock, ...], ...],
-    channel: Real,
+    channel: NDArray[np.int64],
     scoring: Scoring,
 ) -> Real:
     """Return the scores (s,) of a design (v,); `channel` (c, k) tells where the mean squares of a case stand."""

@@ -150,7 +150,7 @@ def _factor(spectrum: Complex, power: Real) -> Complex:
 def _apart(values: Complex) -> Real:
     """Return real and imaginary parts in rows (a, b, 2, n) of complex values (n, a, b)."""
     values = np.moveaxis(values, 0, -1)
-    return np.stack([values.real, values.imag], axis=2)
+    return np.ascontiguousarray(np.stack([values.real, values.imag], axis=2))
 
 
 class Variables(NamedTuple):
@@ -202,9 +202,9 @@ class Pairs(NamedTuple):
 
 
 def _sums_and_differences(opposite: Sequence[Sequence[int]]) -> Real:
-    matrix = np.eye(len(opposite))
+    matrix, half = np.eye(len(opposite)), np.sqrt(0.5)
     for left, rights in enumerate(opposite):
         for right in rights:
-            half = np.sqrt(0.5)
-            matrix[np.ix_([left, right], [left, right])] = [[half, half], [half, -half]]
+            if matrix[left, left] == matrix[right, right] == 1:  # neither has a partner yet
+                matrix[np.ix_([left, right], [left, right])] = [[half, half], [half, -half]]
     return matrix

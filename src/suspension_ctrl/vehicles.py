@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from . import checks
 from .assembly import Assembly, ResponseName, StrutParameter
 from .modes import Mode, modes_of
+from .ports import around
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -99,15 +100,18 @@ class Vehicle(ABC):
             If a coefficient is unknown, missing, or out of range.
         """
         plant = self.plant(responses)
-        closed = plant.lft(control.ss([], [], [], np.hstack(self.strut_gains(settings))))
-        struts = len(self.struts)
-        closed.update_names(
+        closed = around(plant, np.hstack(self.strut_gains(settings)))
+        q = len(self.struts)
+        return control.ss(
+            closed.A,
+            closed.B[:, :-q],
+            closed.C[: -2 * q],
+            closed.D[: -2 * q, :-q],
             states=plant.state_labels,
-            inputs=plant.input_labels[:-struts],
-            outputs=plant.output_labels[: -2 * struts],
+            inputs=plant.input_labels[:-q],
+            outputs=plant.output_labels[: -2 * q],
             name="vehicle",
         )
-        return closed
 
     def strut_gains(self, settings: Settings) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return tensions of the struts by their deflections and by the rates of those, (q, q) each."""
