@@ -15,11 +15,14 @@ PHYSICS = {
     "mounted",
     "toml_tables",
     "vehicle_files",
+    "plant_tables",
+    "measured_plants",
     "isotropy",
     "coherence",
     "roads",
     "profiles",
     "measured_roads",
+    "csv_tables",
     "road_tables",
     "road_files",
     "roughness",
@@ -102,7 +105,7 @@ def test_every_module_has_its_place():
 def test_public_names():
     assert suspension_ctrl.__all__ == [
         *("FlexibleBody", "FullCar", "Gamultiobj", "HalfCar", "InfeasibleWarning", "Iso8608Road", "LoadCase"),
-        *("MeasuredRoad", "MoeadDra", "Nsga2", "PowerLawRoad", "Problem", "QuarterCar", "RideProblem"),
-        *("RollGeometry", "Run", "Sampling", "Seat", "TwoSlopeRoad", "minimise", "weighting"),
+        *("MeasuredPlant", "MeasuredRoad", "MoeadDra", "Nsga2", "PowerLawRoad", "Problem", "QuarterCar"),
+        *("RideProblem", "RollGeometry", "Run", "Sampling", "Seat", "TwoSlopeRoad", "minimise", "weighting"),
     ]
     assert all(hasattr(suspension_ctrl, name) for name in suspension_ctrl.__all__)

@@ -64,6 +64,13 @@ class Response(NamedTuple):
     kind: str
     where: End
 
+    @property
+    def unit(self) -> str:
+        """Its unit."""
+        if self.kind == "acceleration":
+            return "rad/s^2" if self.where in ("pitch", "roll") else "m/s^2"
+        return {"travel": "m", "load": "N"}[self.kind]
+
 
 @dataclass(frozen=True, kw_only=True)
 class Assembly:

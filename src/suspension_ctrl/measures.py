@@ -18,8 +18,8 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from . import weightings
-from .assembly import Response, ResponseName
+from . import checks, weightings
+from .assembly import ResponseName
 from .vehicles import Vehicle
 
 HANDLING = {"roll_gradient": "deg/g", "roll_damping": "-", "front_load_transfer": "-"}
@@ -78,6 +78,8 @@ def measure(text: str, vehicle: Vehicle, weighting: str | None) -> Measure:
     sign = -1.0 if body.startswith("-") else 1.0
     body = body.removeprefix("-").strip()
     name = name_of(text)
+    if body in HANDLING or body.startswith("DLC"):
+        vehicle.assembly()  # whether its masses are known
     if body in HANDLING:
         return Measure(name, HANDLING[body], sign=sign, handling=body)
     kind, _, where = body.partition(" ")
@@ -92,10 +94,10 @@ def measure(text: str, vehicle: Vehicle, weighting: str | None) -> Measure:
 
 def _at_corners(kind: str, where: str, vehicle: Vehicle) -> tuple[Term, ...]:
     """Terms of the struts or tyres whose name is `where` or begins with it; all wheels if it is empty."""
-    tyres = {tyre.name for tyre in vehicle.assembly().tyres}
+    tyres = vehicle.tyres
     found = {
         str(response.where): name
-        for name, response in vehicle.assembly().responses.items()
+        for name, response in vehicle.meanings.items()
         if response.kind == _KINDS[kind] and (where or response.where in tyres)
     }
     chosen = {end: name for end, name in found.items() if where in ("", end) or end.startswith(f"{where}_")}
@@ -127,17 +129,11 @@ def _term(text: str, vehicle: Vehicle) -> Term:
         weightings.by_name(weighting)
     if found[4] is not None:
         return Term(("acceleration", float(found[4]), float(found[5])), weighting, float(factor or 1))
-    vehicle.assembly().resolved([response])
+    checks.one_of("response", response, vehicle.meanings)
     return Term(response, weighting, float(factor or 1))
 
 
 def _unit(terms: Sequence[Term], vehicle: Vehicle) -> str:
     """Return the unit of the first term: factors of further ones carry theirs to it."""
-    response = next(iter(vehicle.assembly().resolved([terms[0].response]).values()))
-    return _response_unit(response)
-
-
-def _response_unit(response: Response) -> str:
-    if response.kind == "acceleration":
-        return "rad/s^2" if response.where in ("pitch", "roll") else "m/s^2"
-    return {"travel": "m", "load": "N"}[response.kind]
+    response = terms[0].response
+    return "m/s^2" if isinstance(response, tuple) else vehicle.meanings[response].unit
