@@ -410,6 +410,7 @@ def test_bad_tables_are_one_line(tmp_path, text, message):
         ({"contacts": {"road": (0, float("nan"))}}, "contact of road must be two finite numbers"),
         ({"frequency": [1.0, 2.0]}, "frequency must be 4 finite values or more, got 2"),
         ({"frequency": [1.0, 2.0, 3.0, float("nan")]}, "frequency must be 4 finite values or more, got 4"),
+        ({"frequency": [1.0, 2.0, 3.0, 3.0 + 1e-7]}, "frequency must ascend from 0 Hz in .* got 1e-07"),
         ({"frequency": [1.0, 2.0, 3.0, 4.0, 5.0]}, "transfer must be 5 finite values, got others for defl.*/road"),
         ({"transfer": {("deflection", "road"): [np.inf] * 4}}, "transfer must be 4 finite values, got others"),
         ({"transfer": {("deflection", "x"): [1j] * 4}}, "input must be like"),
