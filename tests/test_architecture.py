@@ -15,11 +15,14 @@ PHYSICS = {
     "mounted",
     "toml_tables",
     "vehicle_files",
+    "plant_tables",
+    "measured_plants",
     "isotropy",
     "coherence",
     "roads",
     "profiles",
     "measured_roads",
+    "csv_tables",
     "road_tables",
     "road_files",
     "roughness",
@@ -105,7 +108,16 @@ def test_every_module_has_its_place():
 def test_public_names():
     assert suspension_ctrl.__all__ == [
         *("FlexibleBody", "FullCar", "Gamultiobj", "HalfCar", "InfeasibleWarning", "Iso8608Road", "LoadCase"),
-        *("MeasuredRoad", "MoeadDra", "Nsga2", "Payload", "PowerLawRoad", "Problem", "QuarterCar"),
+        *(
+            "MeasuredPlant",
+            "MeasuredRoad",
+            "MoeadDra",
+            "Nsga2",
+            "Payload",
+            "PowerLawRoad",
+            "Problem",
+            "QuarterCar",
+        ),
         *("RideProblem", "RollGeometry", "Run", "Sampling", "Seat", "TwoSlopeRoad", "minimise", "simulate"),
         *("weighting",),
     ]

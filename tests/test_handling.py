@@ -104,7 +104,7 @@ def test_what_is_carried_counts_where_it_is(case, mass, x, y, seated):
 
 def test_a_bar_takes_load_transfer_to_its_axle():
     struts = {"front": (2e4, 1500.0), "rear": (2e4, 1500.0)}
-    mechanics, assembly = Mechanics.of(FULL.assembly()), FULL.assembly()
+    mechanics = Mechanics.of(FULL.assembly())
 
     def share(**bar: float) -> float:
         return float(mechanics.front_load_transfer(coefficients(FULL, struts | bar), GEOMETRY)[0])
@@ -195,7 +195,7 @@ def test_designs_are_worked_out_together_as_alone():
     rng = np.random.default_rng(0)
     rows = np.vstack([coefficients(FULL, {"front": (k, 1500.0), "rear": (2e4, c)})
                       for k, c in rng.uniform((1e4, 1e3), (3e4, 3e3), (6, 2))])  # fmt: skip
-    mechanics, assembly = Mechanics.of(FULL.assembly()), FULL.assembly()
+    mechanics = Mechanics.of(FULL.assembly())
     for function in (
         mechanics.static_loads,
         mechanics.roll_damping,

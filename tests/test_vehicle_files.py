@@ -233,6 +233,7 @@ def changed(text: str, old: str, new: str) -> str:
         (changed(QUARTER, "damper_N_s_per_m = 1e3", ""), "struts.damper_N_s_per_m must be given, got none"),
         (changed(QUARTER, "300", "300\nmass_kg = 3"), "mass_kg must be one of the keys body_mass_kg, "),
         (changed(QUARTER, "300", "nan"), "body_mass_kg must be a number from 1e-12 to .* got nan"),
+        (changed(QUARTER, "300", "1e-300"), "body_mass_kg must be a number from 1e-12 to .* got 1e-300"),
         (changed(QUARTER, "300", "1e400"), "body_mass_kg must be a number .* got inf"),
         (changed(QUARTER, "300", "true"), "body_mass_kg must be a number .* got True"),
         (changed(QUARTER, "300", '"300"'), "body_mass_kg must be a number .* got '300'"),

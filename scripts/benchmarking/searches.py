@@ -15,7 +15,8 @@ from peers import Contenders, Prepare, Task
 from suspension_ctrl import Nsga2, Problem, RideProblem, minimise
 from suspension_ctrl.indicators import ReferenceFront
 from suspension_ctrl.problems import Minimisable
-from suspension_ctrl.responses import StrutLoop, root_mean_squares
+from suspension_ctrl.scores import Scoring, scores_of_one_strut
+from suspension_ctrl.strut_loop import StrutLoop
 
 SMALL = 100
 """Population at which libraries compile and import what they need before anything is timed."""
@@ -124,10 +125,14 @@ def scaled(
 
 @njit
 def scaled_kernel(
-    design: NDArray[np.float64], loop: StrutLoop, ideal: NDArray[np.float64], span: NDArray[np.float64]
+    design: NDArray[np.float64],
+    loops: tuple[StrutLoop, ...],
+    scoring: Scoring,
+    ideal: NDArray[np.float64],
+    span: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """Return the objectives (3,) of a design (2,) with a front's ideal point at 0 and its nadir at 1."""
-    return scaled(root_mean_squares(design, loop), ideal, span)
+    return scaled(scores_of_one_strut(design, loops, scoring), ideal, span)
 
 
 def scaled_problem(problem: RideProblem, reference: ReferenceFront) -> Problem:

@@ -4,6 +4,7 @@ from .cars import FullCar, HalfCar, QuarterCar
 from .cases import LoadCase
 from .feasibility import InfeasibleWarning
 from .handling import RollGeometry
+from .measured_plants import MeasuredPlant
 from .measured_roads import MeasuredRoad
 from .mounted import FlexibleBody, Payload, Seat
 from .objectives import RideProblem
@@ -21,6 +22,7 @@ __all__ = [
     "InfeasibleWarning",
     "Iso8608Road",
     "LoadCase",
+    "MeasuredPlant",
     "MeasuredRoad",
     "MoeadDra",
     "Nsga2",

@@ -241,12 +241,12 @@ def label(response: ResponseName) -> str:
 
 
 def signal_unit(signal: str) -> str:
-    """Return the unit of a response by its name as a signal, empty if that tells none."""
+    """Return the unit of a response or a deflection by its name as a signal, empty if that tells none."""
     if signal in ("pitch_acceleration", "roll_acceleration"):
         return "rad/s^2"
     if signal.endswith("acceleration") or signal.startswith("acceleration_at"):
         return "m/s^2"
-    return {"travel": "m", "load": "N"}.get(signal.rsplit("_", 1)[-1], "")
+    return {"travel": "m", "deflection": "m", "load": "N"}.get(signal.rsplit("_", 1)[-1], "")
 
 
 def joined(*parts: str) -> str:

@@ -17,7 +17,7 @@ A measure is written as
 import re
 from dataclasses import dataclass
 
-from . import weightings
+from . import checks, weightings
 from .assembly import ResponseName, label, signal_unit
 from .vehicles import Vehicle
 
@@ -79,6 +79,8 @@ def measure(text: str, vehicle: Vehicle, weighting: str | None) -> Measure:
     body = text.split("=", 1)[-1].strip()
     sign = -1.0 if body.startswith("-") else 1.0
     body = body.removeprefix("-").strip()
+    if body in HANDLING or body.startswith("DLC"):
+        vehicle.assembly()  # whether its masses are known
     if body in HANDLING:
         if "roll" not in (coordinates := vehicle.assembly().coordinates):
             raise ValueError(f"{body} must be of a vehicle that rolls, got one with {', '.join(coordinates)}")
@@ -95,10 +97,10 @@ def measure(text: str, vehicle: Vehicle, weighting: str | None) -> Measure:
 
 def _at_corners(kind: str, where: str, vehicle: Vehicle) -> tuple[Term, ...]:
     """Terms of the strut or tyre called `where`, or of the axle's if it is one; of all wheels if it is empty."""
-    tyres = {tyre.name for tyre in vehicle.assembly().tyres}
+    tyres = set(vehicle.tyres)
     found = {
         str(response.where): name
-        for name, response in vehicle.assembly().responses.items()
+        for name, response in vehicle.meanings.items()
         if response.kind == _KINDS[kind] and (where or response.where in tyres)
     }
     axle = {f"{where}_left", f"{where}_right"} & tyres
@@ -116,7 +118,7 @@ def _accelerated(where: str, vehicle: Vehicle) -> ResponseName:
     name = f"{where or 'body'}_acceleration"
     vertical = [
         known
-        for known, response in vehicle.assembly().responses.items()
+        for known, response in vehicle.meanings.items()
         if response.kind == "acceleration" and response.where not in _TURNED
     ]
     if name not in vertical:
@@ -136,5 +138,5 @@ def _term(text: str, vehicle: Vehicle) -> Term:
         weightings.by_name(weighting)
     if found[4] is not None:
         return Term(("acceleration", float(found[4]), float(found[5])), weighting, float(factor or 1))
-    vehicle.assembly().resolved([response])
+    checks.one_of("response", response, vehicle.meanings)
     return Term(response, weighting, float(factor or 1))

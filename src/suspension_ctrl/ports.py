@@ -6,8 +6,9 @@ from typing import NamedTuple, Protocol
 import control
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
 
-from .assembly import ResponseName, StrutParameter
+from .assembly import ResponseName, StrutParameter, label
 
 Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
@@ -60,19 +61,37 @@ class Ports(NamedTuple):
         frequency, which would cost digits.
         """
         omega = 2 * np.pi * f
-        m, q, r = len(responses), len(vehicle.struts), len(vehicle.contact_points)
-        different = list(dict.fromkeys(responses))
-        rows = [different.index(response) for response in responses] + list(
-            range(len(different), len(different) + q)
-        )
-        plant = vehicle.plant(different)
+        q, r = len(vehicle.struts), len(vehicle.contact_points)
+        names = [label(response) for response in responses]
+        distinct = dict(zip(names, responses, strict=True))  # one may be asked for with several weightings
+        plant = vehicle.plant(list(distinct.values()))
         if gains is not None:
             plant = around(plant, np.hstack(gains))
-        h = np.moveaxis(plant.frequency_response(omega, squeeze=False).frdata, 2, 0)[:, rows]
+        h = np.moveaxis(_response(plant, omega), 2, 0)[:, : len(distinct) + q]
+        h = h[:, [*map(list(distinct).index, names), *range(len(distinct), len(distinct) + q)]]
         roads, struts = h[:, :, :r], h[:, :, -q:]
         if h.shape[2] > r + q:  # damped tyres follow the road's rate too
             roads = roads + 1j * omega[:, None, None] * h[:, :, r : 2 * r]
-        return cls(np.concatenate([roads, struts], axis=2), m, r)
+        return cls(np.concatenate([roads, struts], axis=2), len(names), r)
+
+
+def check_measured(omega: Real, lines: Real) -> None:
+    """Raise ValueError unless angular frequencies [rad/s] lie within the ascending `lines` of a table."""
+    found, known = (np.array([x.min(), x.max()]) / (2 * np.pi) for x in (omega, lines))
+    if not known[0] <= found[0] <= found[1] <= known[1]:
+        raise ValueError(
+            "band must lie within what was measured, {:g} to {:g} Hz, got frequencies from {:g} to {:g} Hz".format(
+                *known, *found
+            )
+        )
+
+
+def _response(plant: control.StateSpace | control.FrequencyResponseData, omega: Real) -> Complex:
+    """Return the frequency response (outputs, inputs, n), of a table by the spline that python-control has."""
+    if isinstance(plant, control.StateSpace):
+        return plant.frequency_response(omega, squeeze=False).frdata
+    check_measured(omega, plant.omega)
+    return np.asarray(CubicSpline(plant.omega, plant.frdata, axis=2)(omega))
 
 
 def around(
@@ -89,4 +108,4 @@ def around(
     h = np.moveaxis(plant.frdata, 2, 0)
     loop = np.eye(q) - gain @ h[:, -2 * q :, -q:]
     closed = h + h[:, :, -q:] @ np.linalg.solve(loop, gain @ h[:, -2 * q :])
-    return control.frd(np.moveaxis(closed, 0, 2), plant.omega, smooth=True)
+    return control.frd(np.moveaxis(closed, 0, 2), plant.omega)

@@ -7,7 +7,6 @@ numbers are from.
 """
 
 import csv
-import math
 import re
 from collections.abc import Sequence
 from pathlib import Path
@@ -17,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import checks
+from .csv_tables import read_table, table_rows
 from .profiles import Profile
 
 if TYPE_CHECKING:
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
 DISTANCE, HEIGHT, LEFT, RIGHT = "distance [m]", "height [m]", "left [m]", "right [m]"
 WAVENUMBER, PSD, COHERENCE = "wavenumber [cycle/m]", "psd [m^3]", "coherence [-]"
-_LARGEST = 1e9
-"""Beyond any road; its square is still a number."""
 _TRACK = re.compile(r"height at y = (-?\d+(?:\.\d+)?(?:e-?\d+)?) m \[m\]", re.ASCII)
 _TRACK_COLUMN = "height at y = {} m [m]"
 
@@ -53,7 +51,7 @@ def read_profile(path: "str | PathLike[str]", track_width: float | None = None) 
     OSError
         If the file cannot be read.
     """
-    names, values = _read(path)
+    names, values = read_table(path)
     if names[:1] != [DISTANCE] or len(names) < 2:
         raise ValueError(f"{path}: first column must be {DISTANCE!r} and then heights, got {names}")
     try:
@@ -93,7 +91,7 @@ def read_curve(path: "str | PathLike[str]", quantity: str) -> tuple[NDArray[np.f
     OSError
         If the file cannot be read.
     """
-    names, values = _read(path)
+    names, values = read_table(path)
     if names != [WAVENUMBER, quantity]:
         raise ValueError(f"{path}: columns must be {WAVENUMBER!r} and {quantity!r}, got {names}")
     n = values[:, 0]
@@ -107,7 +105,7 @@ def read_curve(path: "str | PathLike[str]", quantity: str) -> tuple[NDArray[np.f
 
 def columns(path: "str | PathLike[str]") -> list[str]:
     """Return the names of a file's columns; raises as `read_profile`."""
-    return _rows(path)[0]
+    return table_rows(path)[0]
 
 
 def _tracks(names: Sequence[str], width: float | None) -> tuple[float, ...]:
@@ -129,45 +127,3 @@ def _tracks(names: Sequence[str], width: float | None) -> tuple[float, ...]:
                 f"{_TRACK_COLUMN.format(0.75)!r}, got {name!r}"
             )
     return tuple(float(match[1]) for match in found if match)
-
-
-def _read(path: "str | PathLike[str]") -> tuple[list[str], NDArray[np.float64]]:
-    """Names of the columns (c,) and finite values (rows, c), two rows at least."""
-    names, *rows = _rows(path)
-    if len(rows) < 2:
-        raise ValueError(f"{path}: there must be two rows of numbers at least, got {len(rows)}")
-    values = np.array([_numbers(path, number, names, row) for number, row in enumerate(rows, start=1)])
-    return names, values
-
-
-def _rows(path: "str | PathLike[str]") -> list[list[str]]:
-    """Rows of a CSV file, the first the names of its columns, without comments and empty lines."""
-    try:
-        with Path(path).open(encoding="utf-8-sig", newline="") as file:
-            lines = (line for line in file if line.strip() and not line.startswith("#"))
-            rows = [[cell.strip() for cell in row] for row in csv.reader(lines, strict=True)]
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise ValueError(f"{path}: must be a CSV file in UTF-8, got {_one_line(error)}") from None
-    if not rows:
-        raise ValueError(f"{path}: must begin with the names of its columns, got nothing")
-    return rows
-
-
-def _numbers(path: "str | PathLike[str]", number: int, names: list[str], row: list[str]) -> list[float]:
-    if len(row) != len(names):
-        raise ValueError(f"{path}: row {number} must have {len(names)} cells as {names}, got {len(row)}")
-    return [_number(path, number, name, cell) for name, cell in zip(names, row, strict=True)]
-
-
-def _number(path: "str | PathLike[str]", number: int, name: str, cell: str) -> float:
-    try:
-        value = float(cell)
-    except ValueError:
-        value = math.nan
-    if not abs(value) <= _LARGEST:
-        raise ValueError(f"{path}: {name!r} must be a number up to {_LARGEST:g}, got {cell!r} in row {number}")
-    return value
-
-
-def _one_line(error: Exception) -> str:
-    return " ".join(str(error).split())

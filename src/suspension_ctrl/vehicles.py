@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import checks
-from .assembly import Assembly, ResponseName, StrutParameter
+from .assembly import Assembly, Response, ResponseName, StrutParameter
 from .modes import Mode, modes_of
 from .ports import around
 
@@ -36,12 +36,22 @@ class Vehicle(ABC):
 
     @abstractmethod
     def assembly(self) -> Assembly:
-        """Return the vehicle taken apart."""
+        """Return the vehicle taken apart; ValueError if it was measured as a whole."""
+
+    @property
+    def meanings(self) -> Mapping[str, Response]:
+        """What each response is, by name."""
+        return self.assembly().responses
 
     @property
     def responses(self) -> tuple[str, ...]:
         """Names of the responses; accelerations ``("acceleration", x, y)`` can be asked for beside them."""
-        return tuple(self.assembly().responses)
+        return tuple(self.meanings)
+
+    @property
+    def tyres(self) -> tuple[str, ...]:
+        """Names of the tyres; struts over them are called the same."""
+        return tuple(tyre.name for tyre in self.assembly().tyres)
 
     @property
     def struts(self) -> tuple[str, ...]:
