@@ -50,6 +50,7 @@ class MeasuredPlant(Car):
         Lines, four or more, above zero and ascending by 1e-6 Hz or more [Hz].
     transfer : mapping of (str, str) to (n,) array_like
         Complex frequency response of each output by each input, with names and units as in `plant_tables`.
+        What is in files of other formats, such as universal files read by pyuff, is given here.
     contacts : mapping of str to Position
         Where each road among the inputs touches the ground, x forward and y to the left [m].
 
