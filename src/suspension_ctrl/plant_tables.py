@@ -117,6 +117,7 @@ def _part(name: str) -> tuple[str, str, str]:
     if not found:
         raise ValueError(f"column must be like 'body_acceleration/front_road real [m/s^2/m]', got {name!r}")
     output, given, part, unit = found.groups()
+    output_of(output)  # whether it is one
     right = f"{signal_unit(output)}/{input_of(given).unit}"
     if unit != right:
         raise ValueError(f"column {output}/{given} {part} must be in {right}, got {unit!r}")
