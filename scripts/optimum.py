@@ -1,24 +1,44 @@
 """Table 5: the reference car, the published optimum, and the best struts of the same suspension travel.
 
 For each of the weightings Wk, Wb and Wb-table: exact solutions on the curve SWS = limit, and designs picked
-from a MOEA/D-DRA Pareto set. Writes table5.csv to a folder whose path is the last line printed.
+from a MOEA/D-DRA Pareto set. Of any other vehicle, road or speed: its own struts, the best designs up to the
+limit, and designs picked. Writes table5.csv to a folder whose path is the last line printed.
 """
 
 from pathlib import Path
 from typing import Annotated
 
+import numpy as np
 import pandas as pd
 from typer import Option
 
-from suspension_ctrl import MoeadDra, RideProblem, Run, checks, files, minimise, optimum, paper, tables, terminal
+from suspension_ctrl import (
+    MoeadDra,
+    RideProblem,
+    Run,
+    checks,
+    files,
+    minimise,
+    optimum,
+    paper,
+    problem_files,
+    tables,
+    terminal,
+)
+from suspension_ctrl.problems import column_headers
 
 WEIGHTINGS = ("Wk", "Wb", "Wb-table")
+STARTS = 8  # designs of the Pareto set from which a search goes downhill
+SHOWN = {"SWS": 1.0, "ACC": 1.0, "DTL": 1e-3}  # in m, m/s^2, kN
 
 
 def main(
     sws_limit: Annotated[
         float, Option(parser=terminal.number, help="Suspension working space [m].")
     ] = paper.SWS_LIMIT,
+    vehicle: Annotated[str | None, Option(help=problem_files.VEHICLE_HELP)] = None,
+    road: Annotated[str | None, Option(help=problem_files.ROAD_HELP)] = None,
+    speed: Annotated[float | None, Option(parser=terminal.number, help="Speed [m/s].")] = None,
     population: Annotated[int, Option(parser=terminal.whole_number, help="Subproblems of MOEA/D-DRA.")] = 4000,
     iterations: Annotated[int, Option(parser=terminal.whole_number, help="Iterations of MOEA/D-DRA.")] = 25,
     low_frequency: Annotated[
@@ -30,51 +50,71 @@ def main(
     """Find the best spring and damper within a limit of suspension travel."""
     checks.at_least("iterations", iterations, 1)
     checks.at_least("seed", seed, 0)
+    checks.positive("sws_limit", sws_limit, "m")
     optimiser = MoeadDra(population=population)
     columns = paper.table5()
     published = {"reference car": columns["reference"], "published optimum": columns["optimised"]}
-    parts = []
+    parts, below = [], optimum.AT_LIMIT
     for weighting in WEIGHTINGS:
-        problem = paper.ride_problem(weighting=weighting, band=(low_frequency, paper.ride_problem().band[1]))
-        designs = exact_designs(problem, sws_limit)
+        band = (low_frequency, paper.ride_problem().band[1])
+        problem, struts = problem_files.chosen(vehicle, road, speed, weighting=weighting, band=band)
         run = minimise(problem, optimiser, iterations=iterations, seed=seed)
-        designs |= picked_designs(problem, run, sws_limit)
+        if (vehicle, road, speed) == (None, None, None):
+            designs = exact_designs(problem, sws_limit)
+        else:
+            designs = best_designs(problem, run, sws_limit, [struts[name] for name in problem.variables])
+            published, below = {}, 1.0
+        designs |= picked_designs(problem, run, sws_limit, below)
         parts.append(tables.beside_published(problem, designs, published))
     folder = files.results_folder(out)
     for weighting, part in zip(WEIGHTINGS, parts, strict=True):
-        terminal.show(f"Table 5, ACC weighted by {weighting}: published / here", as_printed(part))
+        said = ": published / here" if published else ""
+        terminal.show(f"Table 5, ACC weighted by {weighting}{said}", as_printed(problem, part))
     files.write_csv(folder / "table5.csv", pd.concat(parts))
     print(folder)
 
 
-def exact_designs(problem: RideProblem, limit: float) -> dict[str, tuple[float, float]]:
-    designs = {"reference car": paper.reference_design(), "published optimum": paper.optimised_design()}
+def exact_designs(problem: RideProblem, limit: float) -> dict[str, tuple[float, ...]]:
+    designs: dict[str, tuple[float, ...]] = {
+        "reference car": paper.reference_design(),
+        "published optimum": paper.optimised_design(),
+    }
     for objective in ("ACC", "DTL"):
         designs[f"exact, least {objective}"] = optimum.best_at_limit(problem, limit, objective)
     return designs
 
 
-def picked_designs(problem: RideProblem, run: Run, limit: float) -> dict[str, tuple[float, float]]:
+def best_designs(problem: RideProblem, run: Run, limit: float, own: list[float]) -> dict[str, tuple[float, ...]]:
+    """Return the vehicle's own struts, and the least of each objective up to the limit."""
+    designs = {"its own struts": tuple(own)}
+    over = np.maximum(run.objectives[:, problem.objectives.index("SWS")] - limit, 0)
+    for objective in ("ACC", "DTL"):
+        best_first = np.lexsort((run.objectives[:, problem.objectives.index(objective)], over))
+        starts = run.designs[best_first[:STARTS]]
+        designs[f"least {objective} up to the limit"] = optimum.least_within_limit(
+            problem, limit, objective, starts
+        )
+    return designs
+
+
+def picked_designs(problem: RideProblem, run: Run, limit: float, below: float) -> dict[str, tuple[float, ...]]:
     return {
-        f"picked, least {objective}": optimum.pick_at_limit(problem, run, limit, objective)
+        f"picked, least {objective}": optimum.pick_at_limit(problem, run, limit, objective, below)
         for objective in ("ACC", "DTL")
     }
 
 
-def as_printed(table: pd.DataFrame) -> pd.DataFrame:
+def as_printed(problem: RideProblem, table: pd.DataFrame) -> pd.DataFrame:
     """Kilo-units, and where there is a published value "published / here (deviation)"."""
-    printed = {
-        "design": table["design"],
-        "Ks [kN/m]": table["spring [N/m]"].map(lambda k: f"{k / 1e3:.3f}"),
-        "Cs [kN s/m]": table["damper [N s/m]"].map(lambda c: f"{c / 1e3:.4f}"),
-    }
-    for name, unit, shown, scale in (
-        ("SWS", "m", "m", 1),
-        ("ACC", "m/s^2", "m/s²", 1),
-        ("DTL", "N", "kN", 1e-3),
-    ):
+    printed = {"design": table["design"]}
+    for header in column_headers(problem.variables, problem.units):
+        decimals = 3 if "spring" in header else 4
+        name = header.replace("spring [N", "Ks [kN").replace("damper [N", "Cs [kN").replace("[N m", "[kN m")
+        printed[name] = table[header].map(lambda value, decimals=decimals: f"{value / 1e3:.{decimals}f}")
+    for name, scale in SHOWN.items():
+        unit = problem.units[name]
         cells = table[[f"{name} [{unit}]", f"published {name} [{unit}]", f"{name} off [%]"]]
-        printed[f"{name} [{shown}]"] = [
+        printed[f"{name} [{'kN' if unit == 'N' else unit.replace('^2', '²')}]"] = [
             f"{here * scale:.4f}" if pd.isna(there) else f"{there * scale:.4f} / {here * scale:.4f} ({off:+.2f} %)"
             for here, there, off in cells.itertuples(index=False)
         ]

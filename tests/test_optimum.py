@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from suspension_ctrl import MoeadDra, minimise, optimum, paper
+from suspension_ctrl import MoeadDra, minimise, optimum, paper, problem_files
 
 
 @pytest.mark.parametrize(
@@ -89,3 +89,36 @@ def test_no_picked_design_is_better_than_the_exact_one():
     picked = optimum.pick_at_limit(problem, run, 0.0287, "ACC")
     exact_acc, picked_acc = problem.evaluate([exact, picked])[:, 0]
     assert exact_acc <= picked_acc < 1.02 * exact_acc
+
+
+@pytest.mark.parametrize("limit", [0.02, 0.0287])
+def test_least_acc_up_to_the_limit_is_the_one_at_it(limit):
+    """Discomfort falls with travel in this box, so both roads end in the same place: SLSQP against the curve."""
+    problem = paper.ride_problem()
+    found = optimum.least_within_limit(problem, limit, "ACC", np.array([[20e3, 3000.0], [5e3, 4000.0]]))
+    exact = optimum.best_at_limit(problem, limit, "ACC")
+    ours, theirs = problem.evaluate([found, exact])
+    np.testing.assert_allclose(ours, theirs, rtol=1e-5)
+    assert ours[0] == pytest.approx(theirs[0], rel=1e-9)
+
+
+@pytest.mark.parametrize("objective", ["ACC", "DTL"])
+def test_nothing_near_the_best_of_a_full_car_is_better(objective):
+    """Where front and rear are equal the largest of them has a kink, which stops a plain descent."""
+    problem, _ = problem_files.chosen("jian_2022_full", "C", None)
+    lower, width = np.array(problem.lower), np.subtract(problem.upper, problem.lower)
+    starts = lower + np.random.default_rng(0).random((4, 6)) * width
+    best = np.array(optimum.least_within_limit(problem, 0.01, objective, starts))
+    steps = np.random.default_rng(1).normal(size=(2000, 6)) * np.repeat([1e-4, 1e-2], 1000)[:, np.newaxis]
+    near = problem.evaluate(np.clip(best + steps * width, problem.lower, problem.upper))
+    column = problem.objectives.index(objective)
+    reached = problem.evaluate([best])[0]
+    assert reached[1] <= 0.01 * (1 + 1e-6)
+    assert near[near[:, 1] <= reached[1], column].min() > reached[column] * (1 - 1e-7)
+
+
+def test_a_limit_that_nothing_meets():
+    with pytest.raises(
+        ValueError, match=r"^sws_limit must be a travel that a design within the bounds has, got 0.001"
+    ):
+        optimum.least_within_limit(paper.ride_problem(), 0.001, "ACC", np.array([[20e3, 3000.0]]))

@@ -1,5 +1,7 @@
 """The best strut within a limit of suspension travel: exact, and picked from a Pareto set (Table 5)."""
 
+from dataclasses import replace
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -11,8 +13,8 @@ from .indicators import non_dominated
 from .objectives import RideProblem
 from .optimisers import Run
 
-_AT_LIMIT = 0.002
-"""How far below the limit, as a fraction of it, the travel of a picked design may be."""
+AT_LIMIT = 0.002
+"""How far below the limit, as a share of it, the travel of a picked design may be in Table 5."""
 
 _HELD = 1e-6
 """How far beyond a limit, as a share of it, a design may be that is called within."""
@@ -98,15 +100,17 @@ def least_within_limit(
 ) -> tuple[float, ...]:
     """Return the design of any number of variables with the least `objective` among those up to SWS = `limit`.
 
-    From each start sequential quadratic programming (SLSQP) goes downhill; the best of where it ends counts.
+    From each start sequential quadratic programming (SLSQP) goes downhill; the best of where it ends counts. The
+    largest of several wheels has kinks, on which that stops short: in its place stands a further variable that no
+    wheel may exceed.
 
     Parameters
     ----------
     problem : RideProblem
-        Bounds, objectives and constraints, all of which are held.
+        Bounds and constraints, which are held too.
     limit : float
-        Suspension working space [m].
-    objective : str
+        Suspension working space of every wheel [m].
+    objective : {"ACC", "DTL"}
         What is least.
     starts : (k, d) ndarray
         Designs, e.g. of a Pareto set.
@@ -122,43 +126,40 @@ def least_within_limit(
         If no design within the limit is found.
     """
     checks.positive("sws_limit", limit, "m")
+    wheels = problem.load_cases[0].vehicle.tyres
+    least = [objective] if objective == "ACC" else [f"{objective} {wheel}".strip() for wheel in wheels]
+    smooth = replace(problem, measures=(*least, *(f"SWS {wheel}".strip() for wheel in wheels)))
     lower, width = np.asarray(problem.lower), np.subtract(problem.upper, problem.lower)
-    m, column, sws = len(problem.objectives), problem.objectives.index(objective), problem.objectives.index("SWS")
-    scale = problem.evaluate(starts[:1])[0, column]
+    most, travels = len(least), len(least) + len(wheels)
+    scale = smooth.evaluate(starts[:1])[0, :most].max()
 
-    def values(unit: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return objective and constraints (1 + c,), g <= 0, at a point (d,) of the unit cube."""
-        scores = problem.evaluate([lower + np.clip(unit, 0, 1) * width])[0]
-        return np.array([scores[column] / scale, scores[sws] / limit - 1, *scores[m:]])
-
-    def height(unit: NDArray[np.float64]) -> float:
-        """Return the objective at a point."""
-        return float(values(unit)[0])
-
-    def room(unit: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return how far within the constraints (c,) a point is."""
-        return -values(unit)[1:]
+    def room(point: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return what is left (c,) up to the point's last value, the objective over `scale`, and to all limits."""
+        scores = smooth.evaluate([lower + np.clip(point[:-1], 0, 1) * width])[0]
+        return np.concatenate(
+            [point[-1] - scores[:most] / scale, 1 - scores[most:travels] / limit, -scores[travels:]]
+        )
 
     settings: dict[str, Any] = {
         "method": "SLSQP",
         "jac": "3-point",
-        "bounds": [(0, 1)] * len(lower),
+        "bounds": [(0, 1)] * len(lower) + [(0, None)],
         "constraints": {"type": "ineq", "fun": room},
         "options": {"ftol": 1e-12, "maxiter": 200},
     }
-    ends = [minimize(height, (start - lower) / width, **settings).x for start in starts]
-    reached = np.array([values(end) for end in ends])
-    allowed = np.flatnonzero((reached[:, 1:] <= _HELD).all(axis=1))
-    if allowed.size == 0:
+    units = np.column_stack([(starts - lower) / width, smooth.evaluate(starts)[:, :most].max(axis=1) / scale])
+    ends = [minimize(itemgetter(-1), unit, **settings).x for unit in units]
+    held = [end for end in ends if room(end).min() >= -_HELD]
+    if not held:
         raise ValueError(f"sws_limit must be a travel that a design within the bounds has, got {limit} m")
-    best = allowed[reached[allowed, 0].argmin()]
-    return tuple((lower + np.clip(ends[best], 0, 1) * width).tolist())
+    best = min(held, key=lambda end: float(end[-1]))
+    return tuple((lower + np.clip(best[:-1], 0, 1) * width).tolist())
 
 
-def pick_at_limit(problem: RideProblem, run: Run, limit: float, objective: str) -> tuple[float, ...]:
+def pick_at_limit(
+    problem: RideProblem, run: Run, limit: float, objective: str, below: float = AT_LIMIT
+) -> tuple[float, ...]:
     """Return the design of a run's Pareto set with the least `objective` among those at SWS = `limit`.
-
-    At the limit are those up to 0.2 % below it, and none beyond.
 
     Parameters
     ----------
@@ -170,6 +171,9 @@ def pick_at_limit(problem: RideProblem, run: Run, limit: float, objective: str) 
         Suspension working space [m].
     objective : {"ACC", "DTL"}
         What is least.
+    below : float
+        How far below the limit, as a share of it, designs still count as at it; none does beyond. With 1 all within
+        the limit do.
 
     Returns
     -------
@@ -182,11 +186,11 @@ def pick_at_limit(problem: RideProblem, run: Run, limit: float, objective: str) 
         If the Pareto set has no design there.
     """
     sws = run.objectives[:, problem.objectives.index("SWS")]
-    at_limit = ((1 - _AT_LIMIT) * limit <= sws) & (sws <= limit)
+    at_limit = ((1 - below) * limit <= sws) & (sws <= limit)
     there = np.flatnonzero(non_dominated(run.objectives) & at_limit)
     if there.size == 0:
         raise ValueError(
-            f"sws_limit must be a travel within {100 * _AT_LIMIT:g} % of which the Pareto set has a design, its "
+            f"sws_limit must be a travel within {100 * below:g} % of which the Pareto set has a design, its "
             f"{sws.size} have {sws.min():.4f} to {sws.max():.4f} m, got {limit} m"
         )
     best = there[run.objectives[there, problem.objectives.index(objective)].argmin()]
