@@ -179,8 +179,8 @@ PLAIN = {"vehicle": FULL, "road": ROAD, "speed": 30.0}
         ({**PLAIN, "bounds": None, "lower": (1e4, 1e3), "upper": (2e4, 2e3)},
          "lower and upper must bound front.spring, front.damper, rear.spring, rear.damper, got (10000.0, 1000.0)"),
         ({**PLAIN, "struts": {"front": (2e4, 1500.0)}},
-         "struts must have front.spring, front.damper, rear.spring, rear.damper, front_antiroll, rear_antiroll, got "
-         "none for rear.spring"),
+         "struts must have front.spring, front.damper, rear.spring, rear.damper, front_antiroll, rear_antiroll, "
+         "got none for rear.spring"),
         ({**PLAIN, "struts": STRUTS | {"middle.spring": 1.0}}, "struts must be one of front.spring, "),
         ({**PLAIN, "measures": ("ACC",)}, "measures must be 2 or more with different names, got ('ACC',)"),
         ({**PLAIN, "measures": "ACC"}, "measures must be 2 or more with different names, got 'ACC'"),
