@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from typing import NamedTuple
 
 import control
 
@@ -40,8 +40,6 @@ class QuarterCar(Vehicle):
     wheel_mass: float
     tyre_stiffness: float
     tyre_damping: float = 0.0
-
-    responses: ClassVar[tuple[str, ...]] = ("body_acceleration", "suspension_travel", "tyre_load")
 
     def __post_init__(self) -> None:
         check_parameters(self)

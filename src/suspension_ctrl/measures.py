@@ -4,8 +4,10 @@ A measure is written as
 
 - ``ACC``, ``ACC driver``, ``ACC (1.2, -0.4)``: weighted acceleration of the body's centre of gravity, of a seat,
   or of a point (x, y) of the body;
-- ``SWS``, ``SWS front``: travel of the strut, or of the one with the most of several;
-- ``DTL``, ``DTL rear_left``: load of the tyre, likewise; ``DLC``: over its static load (dynamic load coefficient);
+- ``SWS``, ``SWS front``, ``SWS driver``: travel of the strut, or of the one with the most of several, of all
+  wheels, an axle or a corner, or of a seat;
+- ``DTL``, ``DTL rear_left``: load of the tyre, likewise; ``DLC``: over its static load on struts in the middle of
+  their ranges (dynamic load coefficient);
 - a root sum of squares of any responses, each with a factor and a weighting of ISO 2631 or none:
   ``Wk driver_acceleration + 0.63 We roll_acceleration + 0.4 We pitch_acceleration``, where 0.63 and 0.4 m/rad are
   the factors of ISO 2631-1, 8.2.2.1, for roll and pitch of a seated person;

@@ -22,7 +22,7 @@ _ALIKE = 1e-9
 """Share of a response by which another may differ that is taken for the same."""
 
 _ROUNDING = 1e-13
-"""Share of the road's power that a difference of its spectra may be off by."""
+"""Share of the road's power that a difference of its spectra may be off by, and of a response's largest value."""
 
 
 def strut_blocks(
@@ -55,9 +55,9 @@ def strut_blocks(
     stiffness, damping = p @ variables.stiffness @ p.T, p @ variables.damping @ p.T
     touched = (_coupled(stiffness) | _coupled(damping)).any(axis=0)
     p, stiffness, damping = p[touched], stiffness[:, touched][:, :, touched], damping[:, touched][:, :, touched]
-    deflections, feedback = p @ ports.h[:, m:, :r] @ x.T, p @ ports.h[:, m:, r:] @ p.T
+    deflections, feedback = _cleared(p @ ports.h[:, m:, :r] @ x.T), p @ ports.h[:, m:, r:] @ p.T
     roads, root = x @ roads @ x.T, np.sqrt(densities.T)[:, :, None]
-    rows, from_struts = root * (ports.h[:, :m, :r] @ x.T), root * (ports.h[:, :m, r:] @ p.T)
+    rows, from_struts = root * _cleared(ports.h[:, :m, :r] @ x.T), root * (ports.h[:, :m, r:] @ p.T)
     power = roads.trace(axis1=1, axis2=2).real
     count, member = _parted(_coupled(feedback) | _coupled(stiffness) | _coupled(damping), deflections, roads)
     blocks = []
@@ -134,6 +134,15 @@ def _audible(rows: Complex) -> NDArray[np.bool_]:
     """Which columns (b,) have a part in the mean square of which responses, each judged for itself, (m, b)."""
     power = (np.abs(rows) ** 2).sum(axis=0)
     return power > _NOTHING**2 * power.sum(axis=1, keepdims=True)
+
+
+def _cleared(by_road: Complex) -> Complex:
+    """Return responses by roads (n, m, r) without what is below rounding of each.
+
+    Towards frequency zero a vehicle rides undeformed over ever higher roads.
+    """
+    sizes = np.abs(by_road)
+    return np.where(sizes > _ROUNDING * sizes.max(axis=(0, 2), keepdims=True, initial=0.0), by_road, 0.0)
 
 
 def _factor(spectrum: Complex, power: Real) -> Complex:
