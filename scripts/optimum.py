@@ -118,7 +118,10 @@ def as_printed(problem: RideProblem, table: pd.DataFrame) -> pd.DataFrame:
             f"{here * scale:.4f}" if pd.isna(there) else f"{there * scale:.4f} / {here * scale:.4f} ({off:+.2f} %)"
             for here, there, off in cells.itertuples(index=False)
         ]
-    return pd.DataFrame(printed)
+    shown = pd.DataFrame(printed)
+    if len(problem.variables) == len(paper.reference_design()):
+        return shown
+    return shown.set_index("design").T.rename_axis("", axis=0).reset_index()  # more variables, down the page
 
 
 if __name__ == "__main__":

@@ -172,8 +172,8 @@ def pick_at_limit(
     objective : {"ACC", "DTL"}
         What is least.
     below : float
-        How far below the limit, as a share of it, designs still count as at it; none does beyond. With 1 all within
-        the limit do.
+        How far below the limit, as a share of it, designs still count as at it; none does beyond. With 1 all
+        within the limit do.
 
     Returns
     -------

@@ -111,7 +111,10 @@ def show(title: str, table: pd.DataFrame, digits: dict[str, int] | None = None) 
         numeric = pd.api.types.is_numeric_dtype(table[column])
         shown.add_column(Text(str(column)), justify="right" if numeric else "left", no_wrap=True)
     for row in table.itertuples(index=False):
-        shown.add_row(*(_cell(v, (digits or {}).get(c)) for c, v in zip(table.columns, row, strict=True)))
+        cells = zip(table.columns, row, strict=True)
+        shown.add_row(
+            *(Text(_cell(v, (digits or {}).get(c))) for c, v in cells)
+        )  # units in brackets are no markup
     console.print(shown)
 
 
