@@ -248,7 +248,7 @@ def test_measures_of_handling_are_those_of_the_mechanics():
             {"front": (2e4, 1500.0), "rear": (2e4, damper), "front_antiroll": bar}).values())])  # fmt: skip
         expected = [
             mechanics.roll_gradient(values, geometry)[0],
-            mechanics.front_load_transfer(values, geometry, FULL.assembly())[0],
+            mechanics.front_load_transfer(values, geometry)[0],
             -mechanics.roll_damping(values)[0],
         ]
         np.testing.assert_allclose(row[1:], expected, rtol=1e-12)
