@@ -15,7 +15,7 @@ compare: $(READY)
 	$(BIN)/python scripts/compare.py $(ARGS)
 
 test: $(READY)
-	$(BIN)/python -m pytest $(ARGS)
+	$(BIN)/python -m pytest -n 2 --dist loadfile $(ARGS)
 
 bench: $(PEERS)
 	$(BIN)/python scripts/benchmark.py $(or $(ARGS),--docs docs)

@@ -67,7 +67,7 @@ def test_classes_by_name(text, road):
 
 
 def test_the_papers_road_by_file(checkout):
-    assert load_road(str(checkout / "data/roads/yuen-ramli-2010.toml")) == paper.ride_problem().road
+    assert load_road(str(checkout / "data/roads/yuen_ramli_2010.toml")) == paper.ride_problem().road
 
 
 def test_example_roads_say_where_they_are_from(checkout):

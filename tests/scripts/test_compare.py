@@ -100,7 +100,7 @@ def test_default_folder_is_new_and_below_results(script, tmp_path):
         (["--algorithms", "nsga3"], "algorithms must be one of nsga2, "),
         (["--weighting", "Wz"], "weighting must be one of Wk, "),
         (["--seed", "-1"], "seed must be a whole number >= 0, got -1"),
-        (["--speed", "3"], "--speed"),
+        (["--fast", "3"], "--fast"),
         (["--jobs", "2"], "jobs and scheduler must stand with quality, got 2 without it"),
         (["--quality", "--jobs", "0"], "jobs must be a whole number >= 1, got 0"),
         (["--quality", "--jobs", "2", "--scheduler", "tcp://h:1"], "jobs must stand without scheduler, got 2 and"),
