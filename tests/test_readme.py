@@ -1,4 +1,4 @@
-"""The README's program runs and prints what stands there; its commands and files exist."""
+"""The README's program, and those of the pages it names, run and print what stands there; files exist."""
 
 import re
 import subprocess
@@ -42,6 +42,15 @@ def test_example_of_roads_prints_what_stands_there(checkout: Path, tmp_path):
     printed = done.stdout.splitlines()
     assert printed[:2] == output.splitlines()
     assert [line.split()[0] for line in printed[2:]] == ["IRI", "measured,"]
+
+
+def test_example_of_vehicles_prints_what_stands_there(checkout: Path, tmp_path):
+    text = (checkout / "docs" / "vehicles.md").read_text()
+    (program,), (output,) = blocks(text, "python"), blocks(text, "text")
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, cwd=tmp_path, check=True
+    )
+    assert done.stdout == output
 
 
 def test_named_files_and_targets_exist(checkout: Path):
