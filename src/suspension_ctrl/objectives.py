@@ -94,7 +94,7 @@ class RideProblem:
                 f"which is off by {error:.1g} at its corners"
             )
 
-    @property
+    @cached_property
     def load_cases(self) -> tuple[LoadCase, ...]:
         """The load cases: those given, or the one that vehicle, road and speed make."""
         if self.cases:
@@ -103,12 +103,12 @@ class RideProblem:
             raise ValueError("vehicle, road and speed must be given, or cases in their place, got neither")
         return (LoadCase(vehicle=self.vehicle, road=self.road, speed=self.speed),)
 
-    @property
+    @cached_property
     def objectives(self) -> tuple[str, ...]:
         """Names of the objectives."""
         return tuple(name_of(text) for text in self.measures)
 
-    @property
+    @cached_property
     def variables(self) -> tuple[str, ...]:
         """Names of the variables."""
         if self.bounds is not None:
