@@ -24,9 +24,9 @@ from suspension_ctrl import (
     terminal,
     weightings,
 )
-from suspension_ctrl.assembly import signal_unit
 from suspension_ctrl.figures import DesignCurves
 from suspension_ctrl.problems import column_headers
+from suspension_ctrl.signals import signal_unit
 
 PAPERS_ORDER = ("suspension_travel", "body_acceleration", "tyre_load")
 

@@ -6,8 +6,8 @@ import numpy as np
 from hypothesis import strategies as st
 
 from suspension_ctrl import FlexibleBody, FullCar, HalfCar, PowerLawRoad, QuarterCar, Seat, weightings
-from suspension_ctrl.assembly import ResponseName
 from suspension_ctrl.quadrature import frequency_nodes
+from suspension_ctrl.signals import ResponseName
 from suspension_ctrl.vehicles import Settings, Vehicle
 
 ROAD = PowerLawRoad(roughness=5e-6, exponent=2.5)

@@ -8,6 +8,7 @@ import suspension_ctrl
 PACKAGE = Path(suspension_ctrl.__file__).parent
 LIBRARY = {"checks", "datafiles", "files", "environment", "terminal"}
 PHYSICS = {
+    "signals",
     "assembly",
     "modes",
     "vehicles",
@@ -19,6 +20,7 @@ PHYSICS = {
     "measured_plants",
     "isotropy",
     "coherence",
+    "random_roads",
     "roads",
     "profiles",
     "measured_roads",

@@ -9,8 +9,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from suspension_ctrl import FullCar, HalfCar, LoadCase, MeasuredPlant, PowerLawRoad, QuarterCar, RideProblem, Seat
-from suspension_ctrl.assembly import signal_unit
 from suspension_ctrl.plant_tables import FREQUENCY
+from suspension_ctrl.signals import signal_unit
 from suspension_ctrl.vehicles import Vehicle
 
 QUARTER = QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3, tyre_damping=400.0)

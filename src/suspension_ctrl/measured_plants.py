@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import checks
-from .assembly import Assembly, Position, Response, ResponseName, StrutParameter, joined, label
+from .assembly import Assembly, Position, Response, StrutParameter
 from .plant_tables import input_of, output_of, read_plant
 from .ports import around, check_measured
+from .signals import ResponseName, joined, label
 from .vehicles import Car, Settings, spring_and_damper
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from . import checks
 from .coherence import Coherence, Isotropic, Tabulated
 from .profiles import Profile
+from .random_roads import RandomRoad
 from .road_tables import DISTANCE, PSD, columns, read_curve, read_profile
-from .roads import RandomRoad
 
 if TYPE_CHECKING:
     from os import PathLike

@@ -20,7 +20,7 @@ import re
 from dataclasses import dataclass
 
 from . import checks, weightings
-from .assembly import ResponseName, label, signal_unit
+from .signals import ResponseName, label, signal_unit
 from .vehicles import Vehicle
 
 HANDLING = {"roll_gradient": "deg/g", "roll_damping": "-", "front_load_transfer": "-"}

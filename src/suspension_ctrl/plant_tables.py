@@ -16,8 +16,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .assembly import Response, signal_unit
+from .assembly import Response
 from .csv_tables import read_table
+from .signals import signal_unit
 
 if TYPE_CHECKING:
     from os import PathLike

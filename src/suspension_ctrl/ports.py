@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from .assembly import ResponseName, StrutParameter, label
+from .assembly import StrutParameter
+from .signals import ResponseName, label
 
 Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]

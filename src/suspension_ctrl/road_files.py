@@ -20,8 +20,9 @@ from typing import Any, NamedTuple
 from . import checks
 from .coherence import Constant, Exponential, Isotropic, Tabulated
 from .measured_roads import MeasuredRoad
+from .random_roads import RandomRoad
 from .road_tables import COHERENCE, read_curve
-from .roads import Iso8608Road, PowerLawRoad, RandomRoad, TwoSlopeRoad
+from .roads import Iso8608Road, PowerLawRoad, TwoSlopeRoad
 
 _CLASS = re.compile(r"([A-Z])(?:-(lower|upper))?")
 _TEXTS = ("file", "class", "level")

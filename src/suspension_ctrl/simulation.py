@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import checks
-from .assembly import signal_unit
 from .profiles import Profile
+from .signals import signal_unit
 
 if TYPE_CHECKING:
     import pandas as pd

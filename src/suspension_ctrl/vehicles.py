@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import checks
-from .assembly import Assembly, Response, ResponseName, StrutParameter
+from .assembly import Assembly, Response, StrutParameter
 from .modes import Mode, modes_of
 from .ports import around
+from .signals import ResponseName
 
 if TYPE_CHECKING:
     import pandas as pd
