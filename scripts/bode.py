@@ -28,6 +28,7 @@ from suspension_ctrl.figures import DesignCurves
 from suspension_ctrl.problems import column_headers
 from suspension_ctrl.signals import signal_unit
 
+LOWEST = 0.1  # Hz, of a band from 0 on
 PAPERS_ORDER = ("suspension_travel", "body_acceleration", "tyre_load")
 
 
@@ -108,6 +109,12 @@ def default_responses(problem: RideProblem) -> list[str]:
     return [next(name for name in names if name.endswith(last)) for last in PAPERS_ORDER]
 
 
+def frequencies(band: tuple[float, float], points: int) -> np.ndarray:
+    """Return frequencies evenly apart on a logarithmic axis, which does not reach down to 0."""
+    low, high = band
+    return np.geomspace(low or min(LOWEST, high / 10), high, points)
+
+
 def settings_of(problem: RideProblem, values: list[float]) -> dict[str, float]:
     return {**problem.struts, **dict(zip(problem.variables, values, strict=True))}
 
@@ -117,7 +124,7 @@ def design_curves(
 ) -> DesignCurves:
     case = problem.load_cases[0]
     closed = case.vehicle.with_struts(settings_of(problem, values), shown)
-    f = np.geomspace(max(0.1, problem.band[0]), problem.band[1], points)
+    f = frequencies(problem.band, points)
     densities = responses.response_psds(closed, f, case.cross_spectrum(f))
     factor = weightings.by_name(problem.weighting).factor(f)
     for name in shown:

@@ -8,6 +8,7 @@ can be spread over processes and machines. What was stopped goes on with the sam
 """
 
 import platform
+import warnings
 from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated, Any
@@ -34,6 +35,7 @@ from suspension_ctrl import (
     terminal,
 )
 from suspension_ctrl.experiments import PlannedRun
+from suspension_ctrl.feasibility import InfeasibleWarning
 from suspension_ctrl.indicators import ReferenceFront
 from suspension_ctrl.problems import column_headers
 from suspension_ctrl.stores import FolderStore
@@ -116,7 +118,8 @@ def main(
     tolerance = QUICK_TOLERANCE if quick else references.TOLERANCE
     arguments["problem"] = references.key(problem, tolerance)
     store = FolderStore(folder / "timed", machine | _plan(arguments, "seed", "repeats"))
-    with environment.single_thread():
+    with environment.single_thread(), warnings.catch_warnings():
+        warnings.simplefilter("ignore", InfeasibleWarning)  # what runs found is said of all of them together
         record = environment.describe(arguments)
         experiments.warm_up(problem, runs)
         for _ in terminal.progress(experiments.carry_out(problem, runs, store), len(runs)):
@@ -130,6 +133,9 @@ def main(
     write_fronts(problem, runs, store, folder / "fronts")
     write_figure5(problem, experiments.final_populations(runs, store), names, folder)
     explain(problem, made_of, counts, names)
+    barren = sum(experiments.feasible_rows(problem, store[run.name].final).empty for run in runs)
+    if barren:
+        terminal.note(f"{barren} of {len(runs)} timed runs found no design within the limits.")
     raised = 0
     if quality:
         campaign = Campaign(problem, names, sizes, counts, range(seed, seed + seeds), front)
@@ -150,7 +156,8 @@ def _problem(
     weighting: str | None, vehicle: str | None, road: str | None, speed: float | None, file: Path | None
 ) -> RideProblem:
     if file is None:
-        return problem_files.chosen(vehicle, road, speed, weighting=weighting or "Wk")[0]
+        settings = {} if weighting is None else {"weighting": weighting}
+        return problem_files.chosen(vehicle, road, speed, **settings)[0]
     if (weighting, vehicle, road, speed) != (None,) * 4:
         raise ValueError(
             f"problem must stand without weighting, vehicle, road and speed, got {str(file)!r} with one"
@@ -182,10 +189,9 @@ def explain(problem: RideProblem, made_of: str, counts: list[int], algorithms: l
         terminal.note(f"Limits: {', '.join(problem.constraints)}.")
     for number, case in enumerate(problem.load_cases, start=1):
         terminal.note(f"Case {number}, share {case.share:g}: {case.road.describe()}; {case.speed:g} m/s.")
-    terminal.note(
-        f"ACC is weighted with {problem.weighting}. Hypervolume and IGD+ are medians over the repeats, against "
-        f"{made_of}."
-    )
+    accelerated = any(text.split("=")[-1].strip(" -").startswith("ACC") for text in problem.measures)
+    weighted = f"ACC is weighted with {problem.weighting}. " if accelerated else ""
+    terminal.note(f"{weighted}Hypervolume and IGD+ are medians over the repeats, against {made_of}.")
     if min(counts) <= MoeadDra.utility_period and any(name.startswith("moead") for name in algorithms):
         terminal.note(
             f"In up to {MoeadDra.utility_period} iterations MOEA/D-DRA has not allocated resources yet: "

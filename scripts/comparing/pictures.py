@@ -1,6 +1,7 @@
 """Figures of a campaign, written to its folder."""
 
 from collections.abc import Mapping
+from itertools import combinations
 from pathlib import Path
 
 import pandas as pd
@@ -64,10 +65,11 @@ def _draw_attainment(campaign: Campaign, population: int, store: Mapping[str, Re
             strict=True,
         )
     )
-    acc, sws, dtl = headers.values()
-    figure, axes = comparison_figures.panels(3)
+    across = sorted(headers.values(), key=lambda header: not header.startswith("SWS"))
+    pairs = list(combinations(across, 2))
+    figure, axes = comparison_figures.panels(len(pairs))
     sides = [side.rename(columns=headers) for side in sides]
-    for ax, pair in zip(axes, ((sws, acc), (sws, dtl), (acc, dtl)), strict=True):
+    for ax, pair in zip(axes, pairs, strict=True):
         drawn = comparison_figures.attainment_differences(ax, *sides, pair)
     figure.colorbar(drawn, ax=axes, label=f"share of runs attaining: {names[0]} less {names[1]}")
     files.write_figure(folder / f"attainment_n{population}", figure)

@@ -26,6 +26,9 @@ from .vehicles import Vehicle
 HANDLING = {"roll_gradient": "deg/g", "roll_damping": "-", "front_load_transfer": "-"}
 """Measures of handling and their units."""
 
+_LARGEST = 1e6
+"""Beyond any factor and any point of a body; squares of such times those of any response are still numbers."""
+
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _POINT = rf"\(\s*({_NUMBER})\s*,\s*({_NUMBER})\s*\)"
 _KINDS = {"SWS": "travel", "DTL": "load", "DLC": "load"}
@@ -116,7 +119,7 @@ def _at_corners(kind: str, where: str, vehicle: Vehicle) -> tuple[Term, ...]:
 
 def _accelerated(where: str, vehicle: Vehicle) -> ResponseName:
     if point := re.fullmatch(_POINT, where):
-        return ("acceleration", float(point[1]), float(point[2]))
+        return _at_point(point[1], point[2])
     name = f"{where or 'body'}_acceleration"
     vertical = [
         known
@@ -129,16 +132,25 @@ def _accelerated(where: str, vehicle: Vehicle) -> ResponseName:
     return name
 
 
+def _at_point(*texts: str) -> ResponseName:
+    x, y = map(float, texts)
+    for name, value in (("x", x), ("y", y)):
+        checks.within(f"{name} of a point", value, -_LARGEST, _LARGEST)
+    return ("acceleration", x, y)
+
+
 def _term(text: str, vehicle: Vehicle) -> Term:
     found = re.fullmatch(rf"(?:({_NUMBER})\s+)?(?:(\S+)\s+)?(\w+|acceleration\s*{_POINT})", text)
     if not found:
         raise ValueError(
             f"measure must be ACC, SWS, DTL, DLC, or terms like '0.4 We pitch_acceleration', got {text!r}"
         )
-    factor, weighting, response = found[1], found[2], found[3]
+    weighting, response = found[2], found[3]
+    factor = float(found[1] or 1)
+    checks.within("factor of a response", factor, -_LARGEST, _LARGEST)
     if weighting is not None:
         weightings.by_name(weighting)
     if found[4] is not None:
-        return Term(("acceleration", float(found[4]), float(found[5])), weighting, float(factor or 1))
+        return Term(_at_point(found[4], found[5]), weighting, factor)
     checks.one_of("response", response, vehicle.meanings)
-    return Term(response, weighting, float(factor or 1))
+    return Term(response, weighting, factor)

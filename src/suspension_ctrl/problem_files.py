@@ -1,6 +1,6 @@
 """Ride problems from TOML files, and from a vehicle, a road and a speed named on a command line.
 
-A file holds, as wanted, ``measures`` and ``constraints`` (see those modules), ``weighting``, ``band_Hz``,
+A file holds ``measures`` and, as wanted, ``constraints`` (see those modules), ``weighting``, ``band_Hz``,
 ``worst_case`` and ``title``; ``[bounds]`` and ``[struts]`` as the file of a vehicle has them, in place of those of
 the first case's vehicle; ``[[seats]]`` that are put on the vehicle of every case; and ``[[cases]]``, each with
 
@@ -14,13 +14,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from . import checks, paper
+from . import paper, weightings
 from .cases import LoadCase
+from .constraints import limit
+from .measures import measure
 from .mounted import Payload
 from .objectives import RideProblem
 from .road_files import load_road
-from .toml_tables import Table, keyed, naming, read_toml
+from .toml_tables import Table, keyed, naming, read_toml, under
 from .vehicle_files import VehicleFile, load_vehicle, read_bounds, read_roll_geometry, read_struts, with_seats
+from .vehicles import Vehicle
 
 VEHICLE_HELP = "Vehicle in place of the paper's: path of a TOML file, or the name of one that comes along."
 ROAD_HELP = "Road in place of the paper's: class of ISO 8608 (C, C-lower, C-upper), or path of a CSV or TOML file."
@@ -53,8 +56,8 @@ def chosen(
     """
     papers = paper.ride_problem()
     changes: dict[str, Any] = {
-        "road": load_road(road) if road else papers.road,
-        "speed": speed or papers.speed,
+        "road": papers.road if road is None else load_road(road),
+        "speed": papers.speed if speed is None else speed,
     } | settings
     if vehicle is None:
         struts = dict(zip(papers.variables, paper.reference_design(), strict=True))
@@ -82,26 +85,50 @@ def load_problem(path: Path) -> RideProblem:
     with naming(path):
         table = read_toml(path)
         table.check_keys(dict(zip(_KEYS, _KEYS, strict=True)), ["cases", "measures"])
+        settings = _settings(table)
         files, cases = zip(*(_case(table, one, path.parent) for one in _cases(table)), strict=True)
-        first = cases[0].vehicle
-        bounds = read_bounds(table.table("bounds").flat(), first) if "bounds" in table.content else files[0].bounds
-        struts = files[0].struts
-        if "struts" in table.content:
-            struts = {**struts, **read_struts(table.table("struts").flat(), first)}
-        settings: dict[str, Any] = {"weighting": table.text("weighting")} if "weighting" in table.content else {}
-        if "band_Hz" in table.content:
-            settings["band"] = table.pair("band_Hz")
-        if "worst_case" in table.content:
-            checks.one_of("worst_case", table.content["worst_case"], (True, False))
-            settings["worst_case"] = table.content["worst_case"]
-        return RideProblem(
-            cases=cases,
-            bounds=bounds,
-            struts={name: value for name, value in struts.items() if name not in bounds},
-            measures=_texts(table, "measures"),
-            constraints=_texts(table, "constraints"),
-            **settings,
-        )
+        bounds, struts = _bounds_and_struts(table, files[0], cases[0].vehicle)
+        settings |= {key: _texts(table, key) for key in ("measures", "constraints")}
+        for case in cases:
+            _check_texts(case, settings)
+        with keyed("", {"band_Hz": "band"}), keyed("", {"band_Hz": "f"}):  # f of a road that is not known there
+            return RideProblem(cases=cases, bounds=bounds, struts=struts, **settings)
+
+
+def _settings(table: Table) -> dict[str, Any]:
+    """Return what of weighting, band and worst case the file has."""
+    settings: dict[str, Any] = {}
+    if "title" in table.content:
+        table.text("title")
+    if "weighting" in table.content:
+        settings["weighting"] = table.text("weighting")
+        weightings.by_name(settings["weighting"])
+    if "band_Hz" in table.content:
+        settings["band"] = table.pair("band_Hz")
+    if "worst_case" in table.content:
+        settings["worst_case"] = table.boolean("worst_case")
+    return settings
+
+
+def _bounds_and_struts(
+    table: Table, file: VehicleFile, vehicle: Vehicle
+) -> tuple[dict[str, tuple[float, float]], dict[str, float]]:
+    """Return the bounds of coefficients that vary and the values of those that do not."""
+    own = "bounds" in table.content
+    bounds = read_bounds(table.table("bounds").flat(), vehicle) if own else dict(file.bounds)
+    if not bounds:
+        raise ValueError("bounds must be given, one at least, where the first case's vehicle has none, got none")
+    struts = read_struts(table.table("struts").flat(), vehicle) if "struts" in table.content else file.struts
+    return bounds, {name: value for name, value in struts.items() if name not in bounds}
+
+
+def _check_texts(case: LoadCase, settings: Mapping[str, Any]) -> None:
+    """Raise ValueError that says which measure or constraint means nothing in a case."""
+    weighting = settings.get("weighting", RideProblem.weighting)
+    for key, meaning in (("measures", measure), ("constraints", limit)):
+        for i, text in enumerate(settings[key], start=1):
+            with under(f"{key}[{i}]"):
+                meaning(text, case.vehicle, weighting)
 
 
 def _cases(table: Table) -> list[Table]:
@@ -114,7 +141,11 @@ def _cases(table: Table) -> list[Table]:
 def _case(table: Table, case: Table, folder: Path) -> tuple[VehicleFile, LoadCase]:
     """Return the file of a case's vehicle, and the case."""
     case.check_keys(dict(zip(_CASE, _CASE, strict=True)), _CASE[:3])
-    file = load_vehicle(_beside(folder, case.text("vehicle")))
+    names = {key: _beside(folder, case.text(key)) for key in _CASE[:2]}
+    with under(f"{case.name}vehicle"):
+        file = load_vehicle(names["vehicle"])
+    with under(f"{case.name}road"):
+        road = load_road(names["road"])
     vehicle = with_seats(file.vehicle, table)
     for load in case.tables("payload"):
         load.check_keys(_PAYLOAD, ["mass_kg"])
@@ -124,7 +155,7 @@ def _case(table: Table, case: Table, folder: Path) -> tuple[VehicleFile, LoadCas
     with keyed(case.name, {"speed_m_per_s": "speed", "share": "share"}):
         return file, LoadCase(
             vehicle=vehicle,
-            road=load_road(_beside(folder, case.text("road"))),
+            road=road,
             speed=case.number("speed_m_per_s"),
             share=case.number("share") if "share" in case.content else 1.0,
             roll_geometry=read_roll_geometry(case) or file.roll_geometry,

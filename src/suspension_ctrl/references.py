@@ -109,11 +109,22 @@ def _best(objectives: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def best_known(found: Sequence[NDArray[np.float64]]) -> ReferenceFront:
-    """Return the front of the best of several sets of feasible objectives (n, m); ValueError if all are empty."""
+    """Return the front of the best of several sets of feasible objectives (n, m).
+
+    Raises
+    ------
+    ValueError
+        If all sets are empty, or the best designs are all alike in an objective, so that nothing scales it.
+    """
     merged = np.concatenate(found)
     if len(merged) == 0:
         raise ValueError("constraints must leave a feasible design, got none in any run")
-    return ReferenceFront.of(_best(merged))
+    best = _best(merged)
+    if not np.ptp(best, axis=0).all():
+        raise ValueError(
+            f"the best designs of all runs must differ in every objective, got {len(best)} that do not"
+        )
+    return ReferenceFront.of(best)
 
 
 def digest(front: ReferenceFront) -> str:

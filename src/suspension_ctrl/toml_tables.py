@@ -41,6 +41,15 @@ def keyed(prefix: str, names: Mapping[str, str]) -> Iterator[None]:
         raise ValueError(keys.get(name, name) + space + rest) from None
 
 
+@contextmanager
+def under(key: str) -> Iterator[None]:
+    """Have a ValueError about what a key names begin with the key."""
+    try:
+        yield
+    except ValueError as error:
+        raise ValueError(f"{key}: {error}") from None
+
+
 def read_toml(path: Path) -> "Table":
     """Read a file; ValueError if it is no TOML in UTF-8, OSError if it cannot be read."""
     try:
@@ -78,6 +87,13 @@ class Table:
         value = self.content.get(key)
         if not (isinstance(value, str) and value.strip()):
             raise ValueError(f"{self.name}{key} must be a text, got {reprlib.repr(value)}")
+        return value
+
+    def boolean(self, key: str) -> bool:
+        """Return true or false."""
+        value = self.content.get(key)
+        if not isinstance(value, bool):
+            raise ValueError(f"{self.name}{key} must be true or false, got {reprlib.repr(value)}")
         return value
 
     def number(self, key: str) -> float:
