@@ -52,7 +52,7 @@ def main(
 ) -> None:
     """Draw the frequency responses and response spectra of any number of designs."""
     checks.at_least("points", points, 2)
-    settings = {} if band is None else {"band": tuple(terminal.numbers("band", band, 2))}
+    settings = terminal.band_of(band)
     problem, struts = problem_files.chosen(vehicle, road, speed, weighting=weighting, **settings)
     chosen = [terminal.numbers("design", text, len(problem.variables)) for text in design or []]
     if designs is not None:

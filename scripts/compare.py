@@ -44,7 +44,7 @@ POPULATIONS, ITERATIONS = ",".join(map(str, paper.POPULATIONS)), ",".join(map(st
 ALGORITHMS = "nsga2,moead-dra"
 SEEDS = 31
 QUICK_TOLERANCE = 1e-3
-GRID_VARIABLES = 2  # of more variables a grid is too coarse
+GRID_VARIABLES = 2  # of more a grid is too coarse, and of several wheels it would take too long
 SHORT = {
     "population": "N", "iterations": "iter.", "budget": "equal", "evaluations": "evals",
     "published_seconds": "publ. [s]", "seconds": "here [s]", "microseconds_per_evaluation": "µs/eval",
@@ -68,6 +68,7 @@ def main(
     vehicle: Annotated[str | None, Option(help=problem_files.VEHICLE_HELP)] = None,
     road: Annotated[str | None, Option(help=problem_files.ROAD_HELP)] = None,
     speed: Annotated[float | None, Option(parser=terminal.number, help="Speed [m/s].")] = None,
+    band: Annotated[str | None, Option(help="Frequencies [Hz]: 0.5,20.")] = None,
     problem_file: Annotated[
         Path | None, Option("--problem", help="TOML file with vehicles, roads, speeds, objectives, limits.")
     ] = None,
@@ -110,7 +111,7 @@ def main(
     )
     checks.at_least("seeds", seeds, 1)
     checks.within("target", target, 0, 1)
-    problem = _problem(weighting, vehicle, road, speed, problem_file)
+    problem = _problem(weighting, vehicle, road, speed, band, problem_file)
     names = terminal.names(algorithms)
     runs = experiments.plan(problem, names, sizes, counts, repeats, seed)
     folder = files.results_folder(out, resumed_by="timed")
@@ -129,7 +130,7 @@ def main(
     if not (folder / "environment.json").exists():  # of the command that began the timed runs
         files.write_json(folder / "environment.json", record)
     files.write_csv(folder / "runs.csv", timed)
-    write_tables(timed, folder, beside_paper=(vehicle, road, speed, problem_file) == (None,) * 4)
+    write_tables(timed, folder, beside_paper=(vehicle, road, speed, band, problem_file) == (None,) * 5)
     write_fronts(problem, runs, store, folder / "fronts")
     write_figure5(problem, experiments.final_populations(runs, store), names, folder)
     explain(problem, made_of, counts, names)
@@ -153,14 +154,19 @@ def main(
 
 
 def _problem(
-    weighting: str | None, vehicle: str | None, road: str | None, speed: float | None, file: Path | None
+    weighting: str | None,
+    vehicle: str | None,
+    road: str | None,
+    speed: float | None,
+    band: str | None,
+    file: Path | None,
 ) -> RideProblem:
     if file is None:
         settings = {} if weighting is None else {"weighting": weighting}
-        return problem_files.chosen(vehicle, road, speed, **settings)[0]
-    if (weighting, vehicle, road, speed) != (None,) * 4:
+        return problem_files.chosen(vehicle, road, speed, **settings, **terminal.band_of(band))[0]
+    if (weighting, vehicle, road, speed, band) != (None,) * 5:
         raise ValueError(
-            f"problem must stand without weighting, vehicle, road and speed, got {str(file)!r} with one"
+            f"problem must stand without weighting, vehicle, road, speed and band, got {str(file)!r} with one"
         )
     return problem_files.load_problem(file)
 
@@ -169,15 +175,17 @@ def _reference(
     problem: RideProblem, runs: list[PlannedRun], store: FolderStore, tolerance: float
 ) -> tuple[ReferenceFront, str]:
     """Return what fronts are judged by, and what it was made of in words."""
-    if len(problem.variables) > GRID_VARIABLES:
+    big = any(len(case.vehicle.contact_points) > 1 for case in problem.load_cases)
+    if big or len(problem.variables) > GRID_VARIABLES:
         found = [
             experiments.objectives_of(problem, experiments.feasible_rows(problem, store[run.name].final))
             for run in runs
         ]
         return references.best_known(found), "the non-dominated designs of all these runs"
     grid = references.cached(problem, tolerance)
+    points = " x ".join([str(grid.points)] * len(problem.variables))
     return grid.front, (
-        f"the non-dominated designs of a {grid.points} x {grid.points} grid (hypervolume "
+        f"the non-dominated designs of a {points} grid (hypervolume "
         f"{grid.front.volume:.4f}, which half as many values change by {grid.change:.1e} and a second "
         f"grid by {grid.second:.1e})"
     )
@@ -187,6 +195,9 @@ def explain(problem: RideProblem, made_of: str, counts: list[int], algorithms: l
     """Say what the tables rest on."""
     if problem.constraints:
         terminal.note(f"Limits: {', '.join(problem.constraints)}.")
+    if len(problem.load_cases) > 1:
+        how = "their worst" if problem.worst_case else "their mean square by shares"
+        terminal.note(f"Objectives are over {len(problem.load_cases)} load cases, {how}; limits hold in each.")
     for number, case in enumerate(problem.load_cases, start=1):
         terminal.note(f"Case {number}, share {case.share:g}: {case.road.describe()}; {case.speed:g} m/s.")
     accelerated = any(text.split("=")[-1].strip(" -").startswith("ACC") for text in problem.measures)

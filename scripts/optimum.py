@@ -41,9 +41,7 @@ def main(
     speed: Annotated[float | None, Option(parser=terminal.number, help="Speed [m/s].")] = None,
     population: Annotated[int, Option(parser=terminal.whole_number, help="Subproblems of MOEA/D-DRA.")] = 4000,
     iterations: Annotated[int, Option(parser=terminal.whole_number, help="Iterations of MOEA/D-DRA.")] = 25,
-    low_frequency: Annotated[
-        float, Option(parser=terminal.number, help="Lower end of the frequency band [Hz].")
-    ] = 0.0,
+    band: Annotated[str | None, Option(help="Frequencies [Hz]: 0.1,20.")] = None,
     seed: Annotated[int, Option(parser=terminal.whole_number, help="Seed of MOEA/D-DRA.")] = 0,
     out: Annotated[Path | None, Option(help="Folder for the results, absent or empty.")] = None,
 ) -> None:
@@ -55,9 +53,9 @@ def main(
     columns = paper.table5()
     published = {"reference car": columns["reference"], "published optimum": columns["optimised"]}
     parts, below = [], optimum.AT_LIMIT
+    settings = terminal.band_of(band)
     for weighting in WEIGHTINGS:
-        band = (low_frequency, paper.ride_problem().band[1])
-        problem, struts = problem_files.chosen(vehicle, road, speed, weighting=weighting, band=band)
+        problem, struts = problem_files.chosen(vehicle, road, speed, weighting=weighting, **settings)
         run = minimise(problem, optimiser, iterations=iterations, seed=seed)
         if (vehicle, road, speed) == (None, None, None):
             designs = exact_designs(problem, sws_limit)

@@ -62,7 +62,6 @@ CASES = [
     (SEATED, "worst = DTL front", lambda v: root(v, "front_left_tyre_load", "front_right_tyre_load"), "N"),
     (SEATED, "ACC passenger", lambda v: root(v, "passenger_acceleration", weighting="Wk"), "m/s^2"),
     (SEATED, "roll_acceleration", lambda v: root(v, "roll_acceleration"), "rad/s^2"),
-    (SEATED, "Wd rear_left_tyre_load", lambda v: root(v, "rear_left_tyre_load", weighting="Wd"), "N"),
     (SEATED, "2e-1 passenger_suspension_travel", lambda v: 0.2 * root(v, "passenger_suspension_travel"), "m"),
     (BENDING.on(FULL), "Wb acceleration (1.2, 0.0)", lambda v: root(v, ("acceleration", 1.2, 0.0), weighting="Wb"),
      "m/s^2"),

@@ -121,6 +121,8 @@ def test_vehicles_of_the_package(name):
         road=Iso8608Road("C", level="upper"),
         speed=12.0,
         bounds=file.bounds,
+        lower=(),
+        upper=(),
         struts=problem.struts,
         weighting="Wd",
     )
@@ -308,7 +310,7 @@ FIRST = '[[cases]]\nvehicle = "minaker_half"\nroad = "C"\nspeed_m_per_s = 15\n'
         (study("DTL rear", ""), r"measures\[3\]: measure must be a text such as "),
         (study("DTL rear", "nonsense"), r"measures\[3\]: response must be one of "),
         (study("DTL rear", "roll_gradient"), r"measures\[3\]: roll_gradient must be of a vehicle that rolls"),
-        (study("DTL rear", "1e400 body_velocity"), r"measures\[3\]: factor of a response must be a number from"),
+        (study("DTL rear", "1e400 body_velocity"), r"measures\[3\]: factor of a response must be above 0"),
         (study("DTL rear", "ACC (1e7, 0)"), r"measures\[3\]: x of a point must be a number from .* got 1"),
         (study("DTL rear", "Wz body_acceleration"), r"measures\[3\]: weighting must be one of Wk, "),
         (study("<= 0.05", "<= nan"), r"constraints\[1\]: constraint must be like "),

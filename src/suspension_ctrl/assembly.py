@@ -106,7 +106,7 @@ class Assembly:
 
     def mass_matrix(self) -> NDArray[np.float64]:
         """Return the masses and inertias (n, n) of the coordinates, payload included."""
-        matrix = np.diag([*self.masses.values(), *self.inertias.values()])
+        matrix = np.diag(np.array([*self.masses.values(), *self.inertias.values()], dtype=float))
         for mass, position in self.payload:
             matrix += mass * np.outer(self.shape(position), self.shape(position))
         return matrix

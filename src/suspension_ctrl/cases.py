@@ -61,6 +61,10 @@ class LoadCase:
     roll_geometry: RollGeometry | None = None
 
     def __post_init__(self) -> None:
+        if not isinstance(self.vehicle, Vehicle):
+            raise ValueError(f"vehicle must be a Vehicle such as a QuarterCar, got {self.vehicle!r}")
+        if not hasattr(self.road, "psd"):
+            raise ValueError(f"road must be a road such as Iso8608Road('C'), got {self.road!r}")
         checks.positive("speed", self.speed, "m/s")
         checks.positive("share", self.share)
 
@@ -124,7 +128,8 @@ def ride_case(
     omega, vehicle = 2 * np.pi * f, case.vehicle
     density = np.array([w * (weighting.factor(f) ** 2 if weighting else 1.0) for weighting in weights])
     responses = [term.response for term in terms]
-    if [p.name for p in vehicle.parameters] == list(variables) == ["spring", "damper"]:
+    one_wheel = len(vehicle.contact_points) == 1
+    if one_wheel and [p.name for p in vehicle.parameters] == list(variables) == ["spring", "damper"]:
         ports = Ports.of(vehicle, f, responses)
         loop = StrutLoop.around(ports, omega, density * case.road.psd(f, case.speed))
         return RideCase(loop, np.arange(len(terms)))

@@ -17,6 +17,9 @@ from .assembly import GRAVITY, Assembly
 
 Real = NDArray[np.float64]
 
+_TOPPLED = 180.0
+"""Roll gradient of a body that nothing holds up [deg/g]."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class RollGeometry:
@@ -122,22 +125,22 @@ class Mechanics(NamedTuple):
         return loads
 
     def roll_gradient(self, coefficients: Real, geometry: RollGeometry) -> Real:
-        """Return the angle (p,) by which the body leans in a steady curve [deg/g]."""
-        lean = self._lean(coefficients, geometry)
-        return np.degrees(lean[:, self.coordinates.index("roll")])
+        """Return the angle (p,) by which the body leans in a steady curve [deg/g], 180 at most.
+
+        180 is also where the body topples: where struts and tyres do not hold its weight against leaning further.
+        """
+        lean = np.degrees(self._lean(coefficients, geometry)[:, self.coordinates.index("roll")])
+        topples = np.linalg.eigvalsh(self._leaning(coefficients, geometry))[:, 0] <= 0
+        return np.where(topples, _TOPPLED, np.minimum(lean, _TOPPLED))
 
     def front_load_transfer(self, coefficients: Real, geometry: RollGeometry) -> Real:
-        """Return the share (p,) of the lateral load transfer that the front axle carries [-]."""
-        elastic = (self.tyre_loads @ self._lean(coefficients, geometry)[..., None])[..., 0]
-        static = self.static_loads(coefficients)
-        transfer = {}
-        for axle, centre in (("front", geometry.front_roll_centre), ("rear", geometry.rear_roll_centre)):
-            left, right = (self.tyres.index(f"{axle}_{side}") for side in ("left", "right"))
-            wheels = 2 * self.weights[self.coordinates.index(f"{axle}_left_wheel")] * GRAVITY
-            body = static[:, left] + static[:, right] - wheels
-            track = self.contacts[left][1] - self.contacts[right][1]
-            transfer[axle] = elastic[:, left] + (body * centre + wheels * geometry.wheel_centre) / track
-        return transfer["front"] / (transfer["front"] + transfer["rear"])
+        """Return the share (p,) of the lateral load transfer that the front axle carries [-].
+
+        It says nothing of a design that topples, see `roll_gradient`.
+        """
+        loads = (self.tyre_loads @ self._lean(coefficients, geometry)[..., None])[..., 0]
+        front, rear = (loads[:, self.tyres.index(f"{axle}_left")] for axle in ("front", "rear"))
+        return front / (front + rear)
 
     def roll_damping(self, coefficients: Real) -> Real:
         """Return the damping ratio (p,) of the mode with most of its kinetic energy in roll, 1 if it creeps."""
@@ -155,11 +158,29 @@ class Mechanics(NamedTuple):
         return ratio
 
     def _lean(self, coefficients: Real, geometry: RollGeometry) -> Real:
-        """Return the displacement of each coordinate (p, n) at 1 g to the left."""
-        moment = self.sprung_mass * GRAVITY * geometry.roll_arm
-        roll = self.coordinates.index("roll")
+        """Return the displacement of each coordinate (p, n) at 1 g to the left.
+
+        The body is turned by its weight at the roll arm; what goes through the roll centres and acts at the
+        wheels themselves turns the axles, whose tyres carry it.
+        """
+        load = np.zeros((len(coefficients), len(self.coordinates)))
+        load[:, self.coordinates.index("roll")] = self.sprung_mass * GRAVITY * geometry.roll_arm
+        static = self.static_loads(coefficients)
+        for axle, centre in (("front", geometry.front_roll_centre), ("rear", geometry.rear_roll_centre)):
+            left, right = (self.tyres.index(f"{axle}_{side}") for side in ("left", "right"))
+            wheels = 2 * self.weights[self.coordinates.index(f"{axle}_left_wheel")] * GRAVITY
+            body = static[:, left] + static[:, right] - wheels
+            force = (body * centre + wheels * geometry.wheel_centre) / (
+                self.contacts[left] - self.contacts[right]
+            )[1]
+            load[:, self.coordinates.index(f"{axle}_left_wheel")] = force
+            load[:, self.coordinates.index(f"{axle}_right_wheel")] = -force
+        leaning = self._leaning(coefficients, geometry)
+        return np.asarray(np.linalg.solve(leaning, load[..., None])[..., 0], dtype=float)
+
+    def _leaning(self, coefficients: Real, geometry: RollGeometry) -> Real:
+        """Return the stiffness matrices (p, n, n) less what the leaning weight takes from roll."""
         stiffness = self.stiffness_of(coefficients)
-        stiffness[:, roll, roll] -= moment  # the weight leans too
-        load = np.zeros((len(self.coordinates), 1))
-        load[roll] = moment
-        return np.asarray(np.linalg.solve(stiffness, load)[..., 0], dtype=float)
+        roll = self.coordinates.index("roll")
+        stiffness[:, roll, roll] -= self.sprung_mass * GRAVITY * geometry.roll_arm
+        return stiffness

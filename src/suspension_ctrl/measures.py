@@ -97,6 +97,8 @@ def measure(text: str, vehicle: Vehicle, weighting: str | None) -> Measure:
     if kind == "ACC":
         return Measure(name, _UNITS[kind], (Term(_accelerated(where.strip(), vehicle), weighting),), False, sign)
     terms = tuple(_term(part.strip(), vehicle) for part in re.split(r"\+(?![^(]*\))", body))
+    if len({signal_unit(label(term.response)).removeprefix("rad").removeprefix("m") for term in terms}) > 1:
+        raise ValueError(f"measure must be a sum of responses of one kind, got {body!r}")
     return Measure(name, signal_unit(label(terms[0].response)), terms, False, sign)  # factors carry further units
 
 
@@ -110,6 +112,8 @@ def _at_corners(kind: str, where: str, vehicle: Vehicle) -> tuple[Term, ...]:
     }
     axle = {f"{where}_left", f"{where}_right"} & tyres
     chosen = {end: name for end, name in found.items() if where in ("", end) or end in axle}
+    if not found:
+        raise ValueError(f"{kind} must be of a vehicle that has it by name, got one without")
     if not chosen:
         raise ValueError(
             f"{kind} must be of one of {', '.join(filter(None, found)) or 'all wheels'}, got {where!r}"
@@ -147,9 +151,12 @@ def _term(text: str, vehicle: Vehicle) -> Term:
         )
     weighting, response = found[2], found[3]
     factor = float(found[1] or 1)
-    checks.within("factor of a response", factor, -_LARGEST, _LARGEST)
+    if not 0 < factor <= _LARGEST:
+        raise ValueError(f"factor of a response must be above 0 and up to {_LARGEST:g}, got {found[1]}")
     if weighting is not None:
         weightings.by_name(weighting)
+        if "acceleration" not in response:
+            raise ValueError(f"weighting must be of an acceleration, got {weighting} of {response}")
     if found[4] is not None:
         return Term(_at_point(found[4], found[5]), weighting, factor)
     checks.one_of("response", response, vehicle.meanings)

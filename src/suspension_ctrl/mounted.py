@@ -38,7 +38,8 @@ class Mounted(Car):
 
     def __post_init__(self) -> None:
         assembly = self.assembly()
-        assembly.elongations(assembly.struts)  # whether a body that bends has shapes at each
+        assembly.elongations(assembly.struts)  # whether a body that bends has shapes at each,
+        assembly.mass_matrix()  # and where loads lie
 
     def assembly(self) -> Assembly:
         """Return the vehicle taken apart."""
@@ -153,9 +154,9 @@ class FlexibleBody(Part):
         [-].
     shapes : mapping of (float, float) to (k,) sequence of float
         By point of the body, x forward and y to the left of its centre of gravity [m], the vertical displacement
-        in each mode at a modal mass of 1 [kg^-1/2]: at all struts, and wherever else a seat is to stand or an
-        acceleration to be known. Elastic modes of a free body leave its centre of gravity and its principal axes
-        in their places, so that the rigid coordinates stay those of the mean motion.
+        in each mode at a modal mass of 1 [kg^-1/2]: at all struts, and wherever else a seat is to stand, a load to
+        lie or an acceleration to be known. Elastic modes of a free body leave its centre of gravity and its
+        principal axes in their places, so that the rigid coordinates stay those of the mean motion.
 
     Raises
     ------

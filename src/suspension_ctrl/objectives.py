@@ -84,14 +84,22 @@ class RideProblem:
     nodes: int | None = None
 
     def __post_init__(self) -> None:
+        if isinstance(self.cases, LoadCase):
+            raise ValueError("cases must be a list of load cases, got one by itself")
         if self.cases and (self.vehicle, self.road, self.speed) != (None, None, None):
             raise ValueError("cases must stand in place of vehicle, road and speed, got both")
         checks.interval("band", self.band, "Hz")
         self._check_bounds()
         if not (error := self._error(self._nodes)) < _RESOLVED:
+            several = any(len(case.vehicle.contact_points) > 1 for case in self.load_cases)
+            hint = (
+                "; under several wheels a band may have to begin above 0 Hz"
+                if several and not self.band[0]
+                else ""
+            )
             raise ValueError(
                 f"nodes must resolve every resonance in the box to {_RESOLVED:g}, got {self._nodes}, "
-                f"which is off by {error:.1g} at its corners"
+                f"which is off by {error:.1g} at its corners{hint}"
             )
 
     @cached_property
@@ -160,9 +168,7 @@ class RideProblem:
     def _check_bounds(self) -> None:
         names = self.variables
         if self.bounds is not None:
-            pairs = [tuple(pair) if np.size(pair) == 2 else (np.nan, np.nan) for pair in self.bounds.values()]
-            object.__setattr__(self, "lower", tuple(low for low, _ in pairs))
-            object.__setattr__(self, "upper", tuple(high for _, high in pairs))
+            self._take_bounds(self.bounds)
         checks.ordered("lower", "upper", self.lower, self.upper)
         if len(self.lower) != len(names):
             raise ValueError(f"lower and upper must bound {', '.join(names)}, got {self.lower!r}")
@@ -171,6 +177,21 @@ class RideProblem:
             checks.one_of("bounds", name, known)
             check = checks.not_negative if known[name].default == 0 else checks.positive
             check(f"lower bound of {name}", value, known[name].unit)
+
+    def _take_bounds(self, bounds: Mapping[str, tuple[float, float]]) -> None:
+        if not bounds:
+            raise ValueError("bounds must hold one coefficient at least, got none")
+        known = {parameter.name: parameter for parameter in self.load_cases[0].vehicle.parameters}
+        for name, pair in bounds.items():
+            checks.one_of("bounds", name, known)
+            checks.interval(f"bounds of {name}", pair, known[name].unit)
+        lower, upper = (tuple(float(pair[i]) for pair in bounds.values()) for i in (0, 1))
+        for name, given, taken in (("lower", self.lower, lower), ("upper", self.upper, upper)):
+            if len(given) and tuple(given) != taken:
+                raise ValueError(f"{name} must not stand beside bounds that differ from it, got {given!r}")
+            object.__setattr__(self, name, taken)
+        if both := bounds.keys() & self.struts.keys():
+            raise ValueError(f"struts must be those that do not vary, got {min(both)} with bounds")
 
     @cached_property
     def _nodes(self) -> int:
@@ -191,6 +212,9 @@ class RideProblem:
 
         if isinstance(self.measures, str) or len(set(self.objectives)) < max(2, len(self.measures)):
             raise ValueError(f"measures must be 2 or more with different names, got {self.measures!r}")
+        for names, what in ((self.objectives, "measures"), (self.constraints, "constraints")):
+            if len(set(names) | set(self.variables)) < len(names) + len(self.variables):
+                raise ValueError(f"{what} must have names of their own, got {list(names)}")
         middle = np.add(self.lower, self.upper) / 2
         scores = [*map(score, self.measures), *map(limited, self.constraints)]
         if not any(one.measures[0].terms for one in scores):

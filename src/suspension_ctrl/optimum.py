@@ -28,9 +28,10 @@ def damper_at_limit(problem: RideProblem, spring: float, limit: float) -> float:
 
     Travel falls as damping rises; NaN where no damper within the bounds meets the limit.
     """
+    sws = problem.objectives.index("SWS")
 
     def excess(damper: float) -> float:
-        return float(problem.evaluate([[spring, damper]])[0, 1]) - limit
+        return float(problem.evaluate([[spring, damper]])[0, sws]) - limit
 
     low, high = problem.lower[1], problem.upper[1]
     if excess(low) < 0 or excess(high) > 0:
@@ -39,7 +40,7 @@ def damper_at_limit(problem: RideProblem, spring: float, limit: float) -> float:
 
 
 def best_at_limit(problem: RideProblem, limit: float, objective: str) -> tuple[float, float]:
-    """Return the design with the least `objective` on the curve SWS = `limit`.
+    """Return the design with the least `objective` on the curve SWS = `limit`; constraints are not held.
 
     Parameters
     ----------
@@ -70,7 +71,7 @@ def best_at_limit(problem: RideProblem, limit: float, objective: str) -> tuple[f
     springs = np.linspace(problem.lower[0], problem.upper[0], _SPRINGS)
     values = np.array([along_curve(spring) for spring in springs])
     if np.isnan(values).all():
-        corners = problem.evaluate([problem.lower, problem.upper])[:, 1]
+        corners = problem.evaluate([problem.lower, problem.upper])[:, problem.objectives.index("SWS")]
         raise ValueError(
             f"sws_limit must be a travel that a design within the bounds has, about {corners.min():.4f} to "
             f"{corners.max():.4f} m, got {limit} m"

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from .assembly import StrutParameter
-from .signals import ResponseName, label
+from .signals import ResponseName
 
 Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
@@ -63,17 +63,16 @@ class Ports(NamedTuple):
         """
         omega = 2 * np.pi * f
         q, r = len(vehicle.struts), len(vehicle.contact_points)
-        names = [label(response) for response in responses]
-        distinct = dict(zip(names, responses, strict=True))  # one may be asked for with several weightings
-        plant = vehicle.plant(list(distinct.values()))
+        distinct = list(dict.fromkeys(responses))  # one may be asked for with several weightings
+        plant = vehicle.plant(distinct)
         if gains is not None:
             plant = around(plant, np.hstack(gains))
         h = np.moveaxis(_response(plant, omega), 2, 0)[:, : len(distinct) + q]
-        h = h[:, [*map(list(distinct).index, names), *range(len(distinct), len(distinct) + q)]]
+        h = h[:, [*map(distinct.index, responses), *range(len(distinct), len(distinct) + q)]]
         roads, struts = h[:, :, :r], h[:, :, -q:]
         if h.shape[2] > r + q:  # damped tyres follow the road's rate too
             roads = roads + 1j * omega[:, None, None] * h[:, :, r : 2 * r]
-        return cls(np.concatenate([roads, struts], axis=2), len(names), r)
+        return cls(np.concatenate([roads, struts], axis=2), len(responses), r)
 
 
 def check_measured(omega: Real, lines: Real) -> None:

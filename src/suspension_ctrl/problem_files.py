@@ -69,7 +69,7 @@ def chosen(
         changes["bounds"] = file.bounds
     struts = file.vehicle.coefficients(file.struts)
     fixed = {name: value for name, value in struts.items() if name not in changes["bounds"]}
-    return replace(papers, vehicle=file.vehicle, struts=fixed, **changes), struts
+    return replace(papers, vehicle=file.vehicle, struts=fixed, lower=(), upper=(), **changes), struts
 
 
 def load_problem(path: Path) -> RideProblem:

@@ -8,7 +8,7 @@ def label(response: ResponseName) -> str:
     """Return the name of a response as a signal of python-control, which has no dots."""
     if isinstance(response, str):
         return response
-    return "acceleration_at_{:.0f}_{:.0f}_mm".format(*(1e3 * x for x in response[1:]))
+    return "acceleration_at_{}_{}_mm".format(*(round(1e3 * x) for x in response[1:]))
 
 
 def signal_unit(signal: str) -> str:

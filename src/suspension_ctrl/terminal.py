@@ -84,6 +84,14 @@ def numbers(name: str, text: str, count: int) -> list[float]:
     return values
 
 
+def band_of(text: str | None) -> dict[str, tuple[float, float]]:
+    """Return the setting ``band`` [Hz] that an option's text stands for, none if it is not given."""
+    if text is None:
+        return {}
+    low, high = numbers("band", text, 2)
+    return {"band": (low, high)}
+
+
 def names(text: str) -> list[str]:
     """Return the names of a comma-separated list, each once."""
     return list(dict.fromkeys(part.strip() for part in text.split(",")))

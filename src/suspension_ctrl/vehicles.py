@@ -137,11 +137,15 @@ class Vehicle(ABC):
         """Return every coefficient by its name, defaults included; ValueError where `settings` does not fit."""
         given: dict[str, float] = {}
         for name, value in settings.items():
-            if isinstance(value, Sequence):
-                spring, damper = value if len(value) == 2 else (float("nan"), float("nan"))
-                given |= {f"{name}.spring": spring, f"{name}.damper": damper}
+            if isinstance(value, Sequence | np.ndarray) and not isinstance(value, str):
+                if len(value) != 2:
+                    raise ValueError(f"struts must have two numbers, spring and damper, for {name}, got {value!r}")
+                pair = {f"{name}.spring": value[0], f"{name}.damper": value[1]}
             else:
-                given[name] = value
+                pair = {name: value}
+            if twice := given.keys() & pair:
+                raise ValueError(f"struts must have each coefficient once, got {min(twice)} twice")
+            given |= pair
         known = {parameter.name: parameter for parameter in self.parameters}
         for name in given:
             checks.one_of("struts", name, known)

@@ -91,7 +91,7 @@ def test_bode_draws_many_designs_and_frequencies_beyond_the_band(script, tmp_pat
 
 
 def test_optimum_makes_table_5(script, tmp_path):
-    done = script("optimum", "--low-frequency", "0.1", "--out", tmp_path / "out")
+    done = script("optimum", "--band", "0.1,20", "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
     table = pd.read_csv(tmp_path / "out" / "table5.csv").set_index(["weighting", "design"])
     assert len(table) == 3 * 6
@@ -110,7 +110,7 @@ def test_optimum_makes_table_5(script, tmp_path):
     [
         (["--sws-limit", "0"], "sws_limit must be finite and > 0 m, got 0.0"),
         (["--sws-limit", "1"], "sws_limit must be a travel that a design within the bounds has"),
-        (["--low-frequency", "30"], "band must be finite with 0 <= lower < upper [Hz], got (30.0, 20.0)"),
+        (["--band", "30,20"], "band must be finite with 0 <= lower < upper [Hz], got (30.0, 20.0)"),
         (["--sws-limit", "0.0449", "--population", "20"], "within 0.2 % of which the Pareto set has a design"),
         (["--out", "/proc/results"], "out must be a folder that can be written, got '/proc/results'"),
         (["--population", "3"], "population must be a whole number >= 4, got 3"),
