@@ -258,7 +258,8 @@ FRONT, REAR = {"front": (2e4, 1500.0)}, {"rear": (2e4, 1500.0)}
     [
         (HALF, FRONT, "struts must have front.spring, front.damper, rear.spring, rear.damper, "
          "got none for rear.spring, rear.damper"),
-        (HALF, FRONT | {"rear": (2e4,)}, "struts must have two numbers, spring and damper, for rear"),
+        (HALF, FRONT | {"rear": (2e4,)},
+         "struts must have two numbers, spring and damper, for rear, got (20000.0,)"),
         (HALF, FRONT | {"rear": (2e4, 0.0)}, "rear.damper must be finite and > 0 N s/m, got 0.0"),
         (HALF, FRONT | REAR | {"middle": (1.0, 1.0)},
          "struts must be one of front.spring, front.damper, rear.spring, rear.damper, got 'middle.spring'"),
