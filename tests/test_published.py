@@ -3,7 +3,7 @@
 ZDT1 to ZDT3, hypervolume at (1, 1) with N = 100 and 25,000 evaluations, objectives scaled to the front: A. J.
 Nebro, F. Luna, E. Alba, B. Dorronsoro, J. J. Durillo, A. Beham, "AbYSS: adapting scatter search to multiobjective
 optimization", IEEE Trans. Evol. Comput. 12(4), 2008, print the medians below for NSGA-II, with interquartile
-ranges of 2 to 5e-4, and for the best of the algorithms compared.
+ranges of 2 to 5e-4, and for the best of the algorithms compared (quoted from memory; jMetal's data, next, agree).
 
 jMetal's repository holds tables of its own over 25 runs at these settings (crossover 0.9 and eta 20, mutation 1/d
 and eta 20): ``experiment/NSGAIIStudy/latex/NSGAIIStudy.tex`` at commit 68df5ee, column NSGAIIb, with IGD+ on ZDT1

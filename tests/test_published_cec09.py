@@ -3,7 +3,7 @@
 Q. Zhang, W. Liu, H. Li, "The performance of a new version of MOEA/D on CEC09 unconstrained MOP test instances",
 IEEE CEC 2009: 30 variables, N = 600, 300,000 evaluations, T = 60, n_r = 6, delta = 0.9, CR = 1, F = 0.5, no
 scaling of objectives, and 100 points chosen by weights from the last population for the indicator, the inverted
-generational distance.
+generational distance. The means are quoted from memory of the paper, but for UF6's, which others quote too.
 
 Over seeds 0 to 10 the means here are 0.0043, 0.0071, 0.0060, 0.0585 and 0.0043 on UF1, UF2, UF3, UF4 and UF7, the
 medians 0.0043, 0.0069, 0.0041, 0.0589 and 0.0043; the tests take three of these seeds. Of the other problems of
