@@ -18,13 +18,14 @@ test: $(READY)
 	$(BIN)/python -m pytest -n 2 --dist loadfile $(ARGS)
 
 bench: $(PEERS)
-	$(BIN)/python scripts/benchmark.py $(or $(ARGS),--docs docs)
-	$(BIN)/python -m pytest tests/bench --benchmark-only --benchmark-group-by=group
+	$(BIN)/python benchmarks/benchmark.py $(or $(ARGS),--docs docs)
+	$(BIN)/python -m pytest benchmarks/bench --benchmark-only --benchmark-group-by=group
 
 lint: $(READY)
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
+	$(BIN)/lint-imports
 
 $(READY): pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)

@@ -1,11 +1,21 @@
 """Fixtures shared by the tests: the paper's problem, and where the checkout is."""
 
+import importlib
+import os
+import subprocess
+import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
 
-from suspension_ctrl import RideProblem, paper, references
+from suspension_ctrl import RideProblem
+from suspension_ctrl.commands import terminal
+from suspension_ctrl.paper import experiment as paper
+from suspension_ctrl.study import reference as references
+
+Script = Callable[..., subprocess.CompletedProcess]
 
 # Examples are drawn from a fixed stream, so that a failure can be had again; timings of examples say nothing here.
 settings.register_profile("suspension_ctrl", deadline=None, derandomize=True)
@@ -28,3 +38,34 @@ def checkout() -> Path:
 @pytest.fixture(scope="session")
 def table1_problem() -> RideProblem:
     return paper.ride_problem()
+
+
+@pytest.fixture(scope="session")
+def script(checkout: Path, tmp_path_factory) -> Script:
+    """Run a script of the project as its user does, in a folder of its own."""
+
+    def run(
+        name: str, *arguments: object, cwd: Path | None = None, warnings: str = "error"
+    ) -> subprocess.CompletedProcess:
+        command = [sys.executable, str(next(checkout.glob(f"*/{name}.py"))), *map(str, arguments)]
+        folder = cwd or tmp_path_factory.mktemp(name)
+        return subprocess.run(
+            command, capture_output=True, text=True, cwd=folder, env=os.environ | {"PYTHONWARNINGS": warnings}
+        )
+
+    return run
+
+
+@pytest.fixture
+def called(monkeypatch, capsys, tmp_path) -> Script:
+    """Run a script of the project in this process, which saves seconds of imports, in the test's folder."""
+
+    def run(name: str, *arguments: object) -> subprocess.CompletedProcess:
+        command = [name, *map(str, arguments)]
+        monkeypatch.setattr(sys, "argv", command)
+        monkeypatch.chdir(tmp_path)
+        with pytest.raises(SystemExit) as ended:
+            terminal.run_script(importlib.import_module(f"suspension_ctrl.commands.{name}").main)
+        return subprocess.CompletedProcess(command, ended.value.code or 0, *capsys.readouterr())
+
+    return run

@@ -5,10 +5,11 @@ from collections.abc import Sequence
 import numpy as np
 from hypothesis import strategies as st
 
-from suspension_ctrl import FlexibleBody, FullCar, HalfCar, PowerLawRoad, QuarterCar, Seat, weightings
-from suspension_ctrl.quadrature import frequency_nodes
-from suspension_ctrl.signals import ResponseName
-from suspension_ctrl.vehicles import Settings, Vehicle
+from suspension_ctrl import FlexibleBody, FullCar, HalfCar, PowerLawRoad, QuarterCar, Seat
+from suspension_ctrl.response import weightings
+from suspension_ctrl.response.quadrature import frequency_nodes
+from suspension_ctrl.vehicles.assembly import ResponseName
+from suspension_ctrl.vehicles.vehicle import Settings, Vehicle
 
 ROAD = PowerLawRoad(roughness=5e-6, exponent=2.5)
 SPEED = 20.0

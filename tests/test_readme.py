@@ -55,7 +55,7 @@ def test_example_of_vehicles_prints_what_stands_there(checkout: Path, tmp_path):
 
 def test_named_files_and_targets_exist(checkout: Path):
     readme, makefile = (checkout / "README.md").read_text(), (checkout / "Makefile").read_text()
-    for name in re.findall(r"\]\(([^)]+)\)|`(scripts/\w+\.py)`", readme):
+    for name in re.findall(r"\]\(([^)]+)\)|`((?:scripts|benchmarks)/\w+\.py)`", readme):
         assert (checkout / (name[0] or name[1])).exists(), name
     for target in re.findall(r"make (\w+)", readme.split("##")[0]):
         assert f"\n{target}: " in makefile

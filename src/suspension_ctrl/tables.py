@@ -1,152 +1,106 @@
-"""Tables of the comparison, measured beside published: DataFrame in, DataFrame out."""
+"""CSV files in and out: numbers under the names of their columns, read strictly and written whole.
 
-from collections.abc import Mapping
+Lines that start with ``#`` say where the numbers are from.
+"""
+
+import csv
+import json
+import math
+import os
+from collections.abc import Callable
+from pathlib import Path
+from tempfile import NamedTemporaryFile
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
+from numpy.typing import NDArray
 
-from .experiments import EQUAL_EVALUATIONS, EQUAL_ITERATIONS
-from .objectives import RideProblem
-from .problems import column_headers
+if TYPE_CHECKING:
+    from os import PathLike
 
-CONFIGURATION = ["population", "iterations"]
+    import pandas as pd
+
+_LARGEST = 1e9
+"""Beyond what roads and vehicles have; its square is still a number."""
 
 
-def seconds_by_repeat(runs: pd.DataFrame, published: pd.DataFrame, family: str) -> pd.DataFrame:
-    """Return Table 2 (`family` ``"nsga2"``) or Table 3 (``"moead-dra"``).
+def read_table(path: "str | PathLike[str]") -> tuple[list[str], NDArray[np.float64]]:
+    """Return the names of the columns (c,) and their values (rows, c), two rows at least.
 
-    Parameters
-    ----------
-    runs : DataFrame
-        One row per run, from `experiments.tidy`.
-    published : DataFrame
-        From `paper.published_seconds`.
-    family : str
-        The published algorithm; measured ones whose names begin with it belong to the table.
-
-    Returns
-    -------
-    DataFrame
-        Columns algorithm, population, iterations, repeat, published_seconds, seconds, evaluations and
-        microseconds_per_evaluation.
+    Raises
+    ------
+    ValueError
+        Naming the file, if it is no such table or a cell is no finite number.
+    OSError
+        If the file cannot be read.
     """
-    measured = runs[runs.algorithm.str.startswith(family) & (runs.budget == EQUAL_ITERATIONS)]
-    beside = published[published.algorithm == family].drop(columns="algorithm")
-    table = measured.merge(beside, on=[*CONFIGURATION, "repeat"], how="left")
-    table["microseconds_per_evaluation"] = 1e6 * table.seconds / table.evaluations
-    columns = ["published_seconds", "seconds", "evaluations", "microseconds_per_evaluation"]
-    return table[["algorithm", *CONFIGURATION, "repeat", *columns]]
+    names, *rows = table_rows(path)
+    if len(rows) < 2:
+        raise ValueError(f"{path}: there must be two rows of numbers at least, got {len(rows)}")
+    values = np.array([_numbers(path, number, names, row) for number, row in enumerate(rows, start=1)])
+    return names, values
 
 
-def as_printed(table: pd.DataFrame) -> pd.DataFrame:
-    """Return Table 2 or 3 of one algorithm as the paper lays it out, a column per configuration.
+def table_rows(path: "str | PathLike[str]") -> list[list[str]]:
+    """Return the rows of a CSV file, the first the names of its columns, without comments and empty lines."""
+    try:
+        with Path(path).open(encoding="utf-8-sig", newline="") as file:
+            lines = (line for line in file if line.strip() and not line.startswith("#"))
+            rows = [[cell.strip() for cell in row] for row in csv.reader(lines, strict=True)]
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise ValueError(f"{path}: must be a CSV file in UTF-8, got {_one_line(error)}") from None
+    if not rows:
+        raise ValueError(f"{path}: must begin with the names of its columns, got nothing")
+    return rows
 
-    Each cell of a repeat holds "published / measured" seconds; below them stand both means, the evaluations
-    per run and the microseconds per evaluation.
+
+def _numbers(path: "str | PathLike[str]", number: int, names: list[str], row: list[str]) -> list[float]:
+    if len(row) != len(names):
+        raise ValueError(f"{path}: row {number} must have {len(names)} cells as {names}, got {len(row)}")
+    return [_number(path, number, name, cell) for name, cell in zip(names, row, strict=True)]
+
+
+def _number(path: "str | PathLike[str]", number: int, name: str, cell: str) -> float:
+    try:
+        value = float(cell)
+    except ValueError:
+        value = math.nan
+    if not abs(value) <= _LARGEST:
+        raise ValueError(f"{path}: {name!r} must be a number up to {_LARGEST:g}, got {cell!r} in row {number}")
+    return value
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).split())
+
+
+def write_whole(path: Path, write: Callable[[Path], object]) -> None:
+    """Let `write` fill a temporary file beside `path`, then put it in place in one step.
+
+    The temporary file has the ending of `path` and is gone again if `write` fails.
     """
-    columns: dict[str, list[str]] = {}
-    for (population, iterations), part in table.groupby(CONFIGURATION):
-        seconds = part[["published_seconds", "seconds"]]
-        rows = [*seconds.itertuples(index=False), tuple(seconds.mean())]
-        columns[f"N={population}, {iterations} iterations"] = [
-            *("{} / {:.4f}".format("-" if pd.isna(p) else f"{p:.1f}", s) for p, s in rows),
-            str(part.evaluations.iloc[0]),
-            f"{part.microseconds_per_evaluation.mean():.2f}",
-        ]
-    labels = [*map(str, sorted(table.repeat.unique())), "mean", "evaluations", "µs per evaluation"]
-    return pd.DataFrame({"repeat": labels, **columns})
+    with NamedTemporaryFile(dir=path.parent, prefix=".", suffix=path.suffix, delete=False) as file:
+        temporary = Path(file.name)
+    try:
+        write(temporary)
+        temporary.chmod(0o644)
+        with temporary.open("rb") as written:
+            os.fsync(written.fileno())  # the content is on the disk before the name is
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)
 
 
-def comparison(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
-    """Return Table 4, each algorithm against the first one in `runs`, at equal iterations and evaluations.
-
-    Parameters
-    ----------
-    runs, published : DataFrame
-        As for `seconds_by_repeat`.
-
-    Returns
-    -------
-    DataFrame
-        One row per configuration, budget and algorithm: evaluations, mean of published and of measured
-        seconds, microseconds per evaluation, ``published_ratio_percent`` and ``ratio_percent`` (the
-        baseline's mean seconds over this algorithm's, times 100), median hypervolume and IGD+.
-    """
-    keys = [*CONFIGURATION, "algorithm", "budget"]
-    table = (
-        runs.groupby(keys, sort=False)
-        .agg(
-            evaluations=("evaluations", "first"),
-            seconds=("seconds", "mean"),
-            hypervolume=("hypervolume", "median"),
-            igd_plus=("igd_plus", "median"),
-        )
-        .reset_index()
-    )
-    table = pd.concat([table, _also_at_equal_evaluations(table)]).sort_values(keys[:2], kind="stable")
-    means = published.groupby(["algorithm", *CONFIGURATION]).published_seconds.mean().reset_index()
-    table = table.merge(means.assign(budget=EQUAL_ITERATIONS), on=keys, how="left")
-    table["microseconds_per_evaluation"] = 1e6 * table.seconds / table.evaluations
-    same = [*CONFIGURATION, "budget"]
-    baseline = table[table.algorithm == runs.algorithm.iloc[0]].set_index(same)
-    for seconds, ratio in (("published_seconds", "published_ratio_percent"), ("seconds", "ratio_percent")):
-        table[ratio] = 100 * table.join(baseline[seconds].rename("first"), on=same)["first"] / table[seconds]
-    return table[
-        [
-            *keys,
-            "evaluations",
-            "published_seconds",
-            "seconds",
-            "microseconds_per_evaluation",
-            "published_ratio_percent",
-            "ratio_percent",
-            "hypervolume",
-            "igd_plus",
-        ]
-    ]
+def write_csv(path: Path, frame: "pd.DataFrame") -> None:
+    """Write a table without its index."""
+    write_whole(path, lambda temporary: frame.to_csv(temporary, index=False))
 
 
-def _also_at_equal_evaluations(table: pd.DataFrame) -> pd.DataFrame:
-    """Rows of those that spend the most evaluations anyway, which others match: again, as equal evaluations."""
-    others = table[table.budget == EQUAL_EVALUATIONS]
-    matched = table.merge(others[CONFIGURATION].drop_duplicates(), on=CONFIGURATION)
-    theirs = pd.MultiIndex.from_frame(others[[*CONFIGURATION, "algorithm"]])
-    most = matched[~pd.MultiIndex.from_frame(matched[[*CONFIGURATION, "algorithm"]]).isin(theirs)]
-    return most.assign(budget=EQUAL_EVALUATIONS)
+def write_text(path: Path, text: str) -> None:
+    """Write a text file."""
+    write_whole(path, lambda temporary: temporary.write_text(text))
 
 
-def beside_published(
-    problem: RideProblem,
-    designs: Mapping[str, tuple[float, float]],
-    published: Mapping[str, Mapping[str, float]],
-) -> pd.DataFrame:
-    """Return Table 5: objectives of named designs, with published values and the deviation from them.
-
-    Parameters
-    ----------
-    problem : RideProblem
-        What gives the objectives.
-    designs : mapping
-        Spring [N/m] and damper [N s/m] by name.
-    published : mapping
-        By name of a design, its published objectives by name, in the problem's units.
-
-    Returns
-    -------
-    DataFrame
-        One row per design: weighting, design, variables, objectives, ``published <objective>`` and
-        ``<objective> off [%]``; NaN where nothing is published.
-    """
-    values = np.array(list(designs.values()), dtype=float)
-    objectives = problem.evaluate(values)
-    table = pd.DataFrame(
-        np.hstack([values, objectives]),
-        columns=column_headers([*problem.variables, *problem.objectives], problem.units),
-    )
-    table.insert(0, "design", list(designs))
-    table.insert(0, "weighting", problem.weighting)
-    for column, name in enumerate(problem.objectives):
-        printed = np.array([published.get(design, {}).get(name, np.nan) for design in designs])
-        table[f"published {name} [{problem.units[name]}]"] = printed
-        table[f"{name} off [%]"] = 100 * (objectives[:, column] / printed - 1)
-    return table
+def write_json(path: Path, content: dict[str, Any]) -> None:
+    """Write a JSON file, indented."""
+    write_text(path, json.dumps(content, indent=2) + "\n")

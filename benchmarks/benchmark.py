@@ -1,0 +1,163 @@
+"""Speed against other libraries, side by side in one process: evaluation, NSGA-II, MOEA/D, whole processes.
+
+Writes every timing, the tables as a page in Markdown and a picture to a folder, whose path is the last line
+printed; `--docs` puts page and picture there too. `make bench` installs the other libraries first; those that
+are missing are listed as absent.
+"""
+
+import warnings
+from pathlib import Path
+from typing import Annotated, Any
+
+import pandas as pd
+from scipy import signal
+from typer import Option
+
+from peers import OURS, Contenders, contenders
+from sections import evaluation, process, report, searches, summary
+from suspension_ctrl import tables as files
+from suspension_ctrl.commands import results, terminal
+from suspension_ctrl.paper import experiment as paper
+from suspension_ctrl.search.indicators import ReferenceFront
+from suspension_ctrl.study import machine as environment
+from suspension_ctrl.study.reference import grid_front
+
+SETTINGS: dict[str, Any] = {
+    "nodes": 200,
+    "repeats": 7,
+    "sample": 16,
+    "designs": (1, 100, 1000, 10_000, 100_000),
+    "evaluation_limit": 10.0,
+    "memory_designs": 1_000_000,
+    "populations": (500, 1000, 4000, 16_000),
+    "generations": 20,
+    "identical_population": 200,
+    "limit": 60.0,
+    "moead_population": 1000,
+    "moead_generations": 4,  # 5,000 evaluations, those of MOEA/D-DRA in 20 iterations
+    "target_populations": (500, 640, 800, 1000, 1240, 1600),
+    "target_repeats": 15,
+    "target_share": 0.995,
+    "target_limit": 1.0,
+    "grid": 400,
+    "compare": [],
+    "import_repeats": 15,
+}
+QUICK = SETTINGS | {
+    "repeats": 2,
+    "sample": 2,
+    "designs": (1, 10, 1000),
+    "evaluation_limit": 1.0,
+    "populations": (100, 200),
+    "generations": 2,
+    "limit": 1.0,
+    "moead_population": 100,
+    "target_populations": (500,),
+    "target_repeats": 2,
+    "target_limit": 0.1,
+    "grid": 100,
+    "compare": ["--quick"],
+    "import_repeats": 2,
+}
+
+
+def main(
+    out: Annotated[Path | None, Option(help="Folder for the results, absent or empty.")] = None,
+    docs: Annotated[Path | None, Option(help="Folder that gets page and picture too.")] = None,
+    quick: Annotated[bool, Option("--quick", help="Short form: small sizes, two repeats.")] = False,
+) -> None:
+    """Measure the speed of this package and of other libraries on the same work."""
+    if docs and not docs.is_dir():
+        raise ValueError(f"docs must be a folder that exists, got {str(docs)!r}")
+    settings = QUICK if quick else SETTINGS
+    folder = results.results_folder(out)
+    warnings.filterwarnings("ignore", category=signal.BadCoefficients)  # zeros ahead of scipy's numerators
+    warnings.filterwarnings("ignore", module="jmetal|pymoo|vamos")
+    field = contenders()
+    with environment.single_thread():
+        machine = environment.describe(settings)
+        machine["versions"] |= {name: version for name, version in field.versions.items() if name != OURS}
+        field = searches.working(field, paper.ride_problem(nodes=settings["nodes"]))
+        found = measure(settings, field, folder)
+    beside = {"errors": found.errors, "megabytes": found.memory, "absent": found.absent}
+    files.write_json(folder / "environment.json", machine | beside)
+    write_page(folder, found, settings, machine)
+    if docs:
+        write_page(docs, found, settings, machine)
+    terminal.show("In short", summary.goals(found), {"here": 3})
+    terminal.show("NSGA-II, ms", report.nsga2_table(found))
+    terminal.show("NSGA-II, ratio to ours", report.nsga2_ratios(found))
+    terminal.show("MOEA/D", report.moead_table(found))
+    terminal.show("Time to the hypervolume", report.target_table(found))
+    for name, reason in field.absent.items():
+        terminal.console.print(f"Absent: {name} ({reason})")
+    print(folder)
+
+
+def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summary.Measurements:
+    """Carry out all sections, each of which leaves its timings in `folder` as soon as it is done."""
+    problem = paper.ride_problem(nodes=settings["nodes"])
+    reference = ReferenceFront.of(grid_front(problem, settings["grid"]))
+    scaled = searches.scaled_problem(problem, reference)
+    scaled_front = reference.in_own_scale()
+    both = {f"{name}, NSGA-II": search for name, search in field.nsga2.items()}
+    both |= {f"{name}, MOEA/D": search for name, search in field.moead.items()}
+    repeats, limit = settings["repeats"], settings["limit"]
+
+    def kept(name: str, timings: pd.DataFrame) -> pd.DataFrame:
+        files.write_csv(folder / f"{name}.csv", timings)
+        return timings
+
+    return summary.Measurements(
+        process=kept(
+            "process", process.measure(COMPARE, settings["compare"], repeats, settings["import_repeats"])
+        ),
+        errors=evaluation.errors(problem, settings["sample"], seed=0),
+        memory=evaluation.memory(settings["memory_designs"], settings["nodes"]),
+        evaluation=kept(
+            "evaluation", evaluation.measure(problem, settings["designs"], repeats, settings["evaluation_limit"])
+        ),
+        moead=kept(
+            "moead",
+            searches.by_population(
+                field.moead, scaled, [settings["moead_population"]], settings["moead_generations"], repeats, limit
+            ),
+        ),
+        target=kept(
+            "target",
+            searches.to_target(
+                both,
+                scaled,
+                scaled_front,
+                settings["target_share"] * scaled_front.volume,
+                settings["target_populations"],
+                settings["target_repeats"],
+                settings["target_limit"],
+            ),
+        ),
+        nsga2=kept(
+            "nsga2",
+            searches.by_population(
+                field.nsga2, problem, settings["populations"], settings["generations"], repeats, limit
+            ),
+        ),
+        identical=searches.identical(problem, settings["identical_population"], settings["generations"]),
+        absent=field.absent,
+    )
+
+
+COMPARE = Path(__file__).parents[1] / "scripts" / "compare.py"
+
+
+def write_page(
+    folder: Path, found: summary.Measurements, settings: dict[str, Any], machine: dict[str, Any]
+) -> None:
+    """Write page and picture."""
+    text = report.page(found, settings, machine)
+    files.write_whole(folder / "performance.md", lambda path: path.write_text(text))
+    figure = report.picture(found)
+    files.write_whole(folder / "performance.png", lambda path: figure.savefig(path, dpi=160))
+
+
+if __name__ == "__main__":
+    terminal.run_script(main)

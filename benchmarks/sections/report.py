@@ -1,0 +1,249 @@
+"""The page of results: tables in Markdown and the picture of time against population."""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import pandas as pd
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from peers import OURS
+from sections import evaluation
+from sections.searches import GENERATIONS
+from sections.summary import (
+    GROWTH_FROM,
+    Measurements,
+    best_to_target,
+    goals,
+    growth,
+    medians,
+    ratios,
+)
+
+
+def page(found: Measurements, settings: dict[str, Any], machine: dict[str, Any]) -> str:
+    """Return the page as Markdown, its picture being ``performance.png`` beside it."""
+    parts = [
+        *_opening(found, settings, machine),
+        *_about_evaluation(found, settings),
+        *_about_nsga2(found, settings),
+        *_about_moead(found, settings),
+        *_about_target(found, settings),
+        *_about_processes(found),
+    ]
+    return "\n\n".join(parts) + "\n"
+
+
+def _opening(found: Measurements, settings: dict[str, Any], machine: dict[str, Any]) -> list[str]:
+    versions = ", ".join(f"{name} {version}" for name, version in machine["versions"].items())
+    return [
+        "# Performance",
+        f"Written by `make bench`. {machine['processor']}, {machine['cores']} cores, one thread each; "
+        f"Python {machine['python']}; {versions}.",
+        f"Table 1's problem, {settings['nodes']} nodes over frequency. Medians and quartiles of "
+        f"{settings['repeats']} repeats, contenders taking turns in one process after a first run that is not "
+        "counted. A ratio is a median over ours. What a library sets up before its run is not counted; of "
+        "ours that is the toolbox, and the weight vectors of MOEA/D, which the others get too.",
+        *[f"Absent: {name} ({reason})." for name, reason in found.absent.items()],
+        "## In short",
+        _markdown(_goals_shown(goals(found))),
+    ]
+
+
+def _about_evaluation(found: Measurements, settings: dict[str, Any]) -> list[str]:
+    return [
+        "## Evaluation",
+        "Microseconds per design by number of designs, and the largest relative error against adaptive quadrature "
+        f"at the corners of the box and {settings['sample']} designs in it. A method is left out where by its "
+        f"time so far it would take more than {settings['evaluation_limit']:g} s.",
+        _markdown(evaluation_table(found)),
+        f"A process that evaluates {settings['memory_designs']:,} designs in one call takes "
+        f"{number(found.memory)} MB at its peak, imports and designs included.",
+    ]
+
+
+def _about_nsga2(found: Measurements, settings: dict[str, Any]) -> list[str]:
+    return [
+        "## NSGA-II",
+        f"Milliseconds for {settings['generations']} generations: simulated binary crossover (probability 0.9, "
+        "eta 20), polynomial mutation (1/d, eta 20), the same function evaluating a generation in one call. "
+        f"A library is left out where in proportion to its time so far it would take more than "
+        f"{settings['limit']:g} s; a run that took longer all the same was made once. Growth is the exponent of "
+        f"time against N from {GROWTH_FROM:,} on. Evaluations are counted at the least N.",
+        _markdown(nsga2_table(found)),
+        "Ratios:",
+        _markdown(nsga2_ratios(found)),
+        "![Seconds against population, a line per library](performance.png)",
+    ]
+
+
+def _about_moead(found: Measurements, settings: dict[str, Any]) -> list[str]:
+    return [
+        "## MOEA/D",
+        f"Microseconds per evaluation over {settings['moead_generations'] + 1} N evaluations, "
+        f"N = {settings['moead_population']:,}: neighbourhoods of N/10, at most N/100 replacements, mates from "
+        "the neighbourhood with probability 0.9, differential evolution (pymoo: crossover, and no limit to "
+        "replacements), the same weight vectors (pygmo: its own). Objectives are scaled to the reference front: "
+        "not every library normalises them. A batch evaluates a fifth of N, or all, in one call. Ours is "
+        "MOEA/D-DRA, which does so by itself; it evaluates by the problem's compiled kernel, and without one by a "
+        "call per design as the others do. Finding neighbours counts, for all but jMetalPy.",
+        _markdown(moead_table(found)),
+    ]
+
+
+def _about_target(found: Measurements, settings: dict[str, Any]) -> list[str]:
+    return [
+        "## Time to a hypervolume",
+        f"Milliseconds of the shortest run whose final population has {100 * settings['target_share']:g} % of the "
+        f"reference front's hypervolume, with that N of {', '.join(map(str, settings['target_populations']))} "
+        f"that gets there soonest; {settings['target_repeats']} repeats. Runs have up to {max(GENERATIONS)} "
+        f"generations ({', '.join(map(str, GENERATIONS))}); a search is given up at an N where it fails once, or "
+        f"where a run takes more than {settings['target_limit']:g} s and does not get there. "
+        "Generations of MOEA/D are counted in N evaluations.",
+        _markdown(target_table(found)),
+    ]
+
+
+def _about_processes(found: Measurements) -> list[str]:
+    return [
+        "## Whole process",
+        "Seconds. The package is imported where control is imported already.",
+        _markdown(process_table(found)),
+    ]
+
+
+def _goals_shown(table: pd.DataFrame) -> pd.DataFrame:
+    return table.assign(here=[number(v) for v in table.here], holds=["yes" if h else "no" for h in table.holds])
+
+
+def evaluation_table(found: Measurements) -> pd.DataFrame:
+    """Return microseconds per design by method and number of designs, and the error of each method."""
+    table = ratios(found.evaluation, "designs", evaluation.OURS)
+    wide = _wide(table, "designs", lambda row: spread(row, 1e6 / row.designs))
+    wide["ratio at 1,000"] = _column(table[table.designs == 1000], "ratio")
+    wide["error"] = pd.Series({name: f"{error:.1e}" for name, error in found.errors.items()})
+    return _named(wide, "method")
+
+
+def nsga2_table(found: Measurements) -> pd.DataFrame:
+    """Return milliseconds by library and population, the exponent of growth, and evaluations at the least N."""
+    wide = _wide(medians(found.nsga2, "population"), "population", lambda row: spread(row, 1e3))
+    wide["growth"] = growth(found.nsga2).map(number)
+    least = found.nsga2[found.nsga2.population == found.nsga2.population.min()]
+    wide["evaluations"] = least.groupby("contender").evaluations.first().map("{:,.0f}".format)
+    return _named(wide)
+
+
+def nsga2_ratios(found: Measurements) -> pd.DataFrame:
+    """Return each library's median over ours by population."""
+    return _named(_wide(ratios(found.nsga2, "population"), "population", lambda row: number(row.ratio)))
+
+
+def moead_table(found: Measurements) -> pd.DataFrame:
+    """Return microseconds per evaluation, ratio and evaluations of every MOEA/D."""
+    each = found.moead.assign(seconds=found.moead.seconds / found.moead.evaluations)
+    table = ratios(each, "population").sort_values("median")
+    evaluations = found.moead.groupby("contender").evaluations.first()
+    return pd.DataFrame(
+        {
+            "library": table.contender,
+            "µs per evaluation": [spread(row, 1e6) for row in table.itertuples()],
+            "ratio": table.ratio.map(number),
+            "evaluations": table.contender.map(evaluations).map("{:,.0f}".format),
+        }
+    )
+
+
+def target_table(found: Measurements) -> pd.DataFrame:
+    """Return milliseconds to the target, population and generations of every search, soonest first."""
+    table = best_to_target(found.target)
+    ours = table[table.contender.str.startswith(OURS)]["median"].min()
+    reached = table["median"].notna()
+    return pd.DataFrame(
+        {
+            "search": table.contender,
+            "ms": [
+                spread(row, 1e3) if yes else "not reached"
+                for row, yes in zip(table.itertuples(), reached, strict=True)
+            ],
+            "ratio": [number(r) for r in table["median"] / ours],
+            "N": [f"{n:,}" if yes else "" for n, yes in zip(table.population, reached, strict=True)],
+            "generations": [number(g) for g in table.generations],
+        }
+    )
+
+
+def process_table(found: Measurements) -> pd.DataFrame:
+    """Return seconds of the main script and of imports."""
+    table = medians(found.process.assign(size=1), "size")
+    names = [f"`{name}`" for name in table.contender]
+    return pd.DataFrame({"what": names, "s": [spread(row, 1) for row in table.itertuples()]})
+
+
+def picture(found: Measurements) -> Figure:
+    """Draw seconds against population, a line per library, ours thick."""
+    table = medians(found.nsga2, "population")
+    names = sorted(table.contender.unique(), key=lambda name: (name != OURS, name))
+    colours = ["black", *colormaps["tab10"].colors]
+    figure = Figure(figsize=(8, 5), layout="constrained")
+    ax = figure.subplots()
+    for name, colour in zip(names, colours, strict=False):
+        part = table[table.contender == name]
+        ax.loglog(part.population, part["median"], "o-", color=colour, ms=4, lw=2.5 if name == OURS else 1.2)
+    ends = table.sort_values("population").groupby("contender").tail(1)
+    for name, colour in zip(names, colours, strict=False):
+        _label_end(ax, ends, name, colour)
+    sizes = sorted(table.population.unique())
+    ax.set(xlabel="population N", ylabel="seconds", title="NSGA-II, the same evaluator in every library")
+    ax.set_xticks(sizes, [f"{n:,}" for n in sizes])
+    ax.minorticks_off()
+    ax.set_xlim(right=2.6 * sizes[-1])
+    ax.grid(alpha=0.3)
+    return figure
+
+
+def _label_end(ax: Axes, ends: pd.DataFrame, name: str, colour: Any) -> None:
+    """Write a library's name beside its last point, out of the way of one that ends close by."""
+    own = ends[ends.contender == name].iloc[0]
+    others = ends[(ends.population == own.population) & (ends.contender != name)]["median"] / own["median"]
+    below, above = others.between(1 / 1.3, 1).any(), others.between(1, 1.3).any()
+    va = "bottom" if below and not above else "top" if above and not below else "center"
+    ax.annotate(f" {name}", (own.population, own["median"]), color=colour, fontsize=8, va=va)
+
+
+def spread(row: Any, scale: float) -> str:
+    """Return a median with its quartiles, or alone where there was one call only."""
+    if row.repeats < 2:
+        return f"{number(row.median * scale)} (once)"
+    return f"{number(row.median * scale)} ({number(row.lower * scale)} to {number(row.upper * scale)})"
+
+
+def number(value: float) -> str:
+    """Return three significant digits without an exponent; nothing for NaN."""
+    if math.isnan(value):
+        return ""
+    digits = max(0, 2 - math.floor(math.log10(abs(value)))) if value else 0
+    return f"{value:,.{digits}f}"
+
+
+def _wide(table: pd.DataFrame, size: str, cell: Callable[[Any], str]) -> pd.DataFrame:
+    """Return a row per contender, quickest first, and a column per size."""
+    shown = table.assign(cell=[cell(row) for row in table.itertuples()])
+    wide = shown.set_index(["contender", size]).cell.unstack(fill_value="")  # noqa: PD010 - text has no mean
+    order = table.sort_values([size, "median"]).drop_duplicates("contender").contender
+    return wide.loc[order].rename(columns=lambda n: f"{'N = ' if size == 'population' else ''}{n:,}")
+
+
+def _column(table: pd.DataFrame, name: str) -> "pd.Series[str]":
+    return table.set_index("contender")[name].map(number)
+
+
+def _named(wide: pd.DataFrame, name: str = "library") -> pd.DataFrame:
+    wide.columns.name = None
+    return wide.fillna("").rename_axis(name).reset_index()
+
+
+def _markdown(table: pd.DataFrame) -> str:
+    return table.to_markdown(index=False, disable_numparse=True)

@@ -1,0 +1,129 @@
+"""What the timings say: medians, ratios, growth, and whether we are where we want to be."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from peers import OURS
+from sections import evaluation, process
+
+GROWTH_FROM = 1000
+"""Population from which on growth is fitted; below it what a run costs whatever its size weighs too much."""
+
+
+@dataclass(frozen=True)
+class Measurements:
+    """The timings of all sections, one row each, and what was found beside them.
+
+    Parameters
+    ----------
+    evaluation, nsga2, moead, target, process : DataFrame
+        From `evaluation.measure`, `searches.by_population` (twice), `searches.to_target`, `process.measure`.
+    errors : dict of str to float
+        From `evaluation.errors`.
+    memory : float
+        From `evaluation.memory` [MB].
+    identical : bool
+        From `searches.identical`.
+    absent : dict of str to str
+        Why a library is not in the tables.
+    """
+
+    evaluation: pd.DataFrame
+    nsga2: pd.DataFrame
+    moead: pd.DataFrame
+    target: pd.DataFrame
+    process: pd.DataFrame
+    errors: dict[str, float]
+    memory: float
+    identical: bool
+    absent: dict[str, str]
+
+
+def medians(timings: pd.DataFrame, size: str) -> pd.DataFrame:
+    """Return for each contender and size: median, lower and upper quartile of seconds, and how many there are."""
+    seconds = timings.groupby(["contender", size], sort=False).seconds
+    quartiles = {name: seconds.quantile(q) for name, q in (("lower", 0.25), ("median", 0.5), ("upper", 0.75))}
+    return pd.DataFrame({**quartiles, "repeats": seconds.count()}).reset_index()
+
+
+def ratios(timings: pd.DataFrame, size: str, ours: str = OURS) -> pd.DataFrame:
+    """Return `medians` with the column ``ratio``, the median over that of ours at the same size."""
+    table = medians(timings, size)
+    own = table[table.contender == ours].set_index(size)["median"]
+    return table.assign(ratio=table["median"] / table[size].map(own))
+
+
+def growth(timings: pd.DataFrame) -> pd.Series:
+    """Return by contender the exponent b of seconds ~ N^b, fitted to the medians from N = 1000 on.
+
+    NaN where there are fewer than two sizes.
+    """
+    table = medians(timings, "population")
+    large = table[table.population >= GROWTH_FROM]
+
+    def exponent(part: pd.DataFrame) -> float:
+        if len(part) < 2:
+            return np.nan
+        return float(np.polyfit(np.log(part.population), np.log(part["median"]), 1)[0])
+
+    return pd.Series({name: exponent(part) for name, part in large.groupby("contender", sort=False)}, dtype=float)
+
+
+def best_to_target(timings: pd.DataFrame) -> pd.DataFrame:
+    """Return for each search the population with which it is soonest at the target, soonest search first.
+
+    Columns: contender, population, lower, median, upper [s], generations (median), repeats; NaN for who does
+    not get there in every repeat.
+    """
+    reached = timings.groupby(["contender", "population"]).seconds.transform(lambda s: s.notna().all())
+    timings = timings.assign(seconds=timings.seconds.where(reached))
+    table = medians(timings, "population")
+    generations = timings.groupby(["contender", "population"]).generations.median().rename("generations")
+    table = table.join(generations, on=["contender", "population"])
+    return table.sort_values("median").drop_duplicates("contender").reset_index(drop=True)
+
+
+def best_of_others(table: pd.DataFrame, ours: str = OURS) -> tuple[str, float]:
+    """Return the contender with the least median that is not ours, and that median; NaN if there is none."""
+    others = table[~table.contender.str.startswith(ours)].dropna(subset="median").sort_values("median")
+    return (others.contender.iloc[0], float(others["median"].iloc[0])) if len(others) else ("-", np.nan)
+
+
+def import_seconds(found: Measurements) -> float:
+    """Return what importing the package takes where control is imported already [s]."""
+    return float(found.process.groupby("contender").seconds.median()[process.IMPORTS[1]])
+
+
+def goals(found: Measurements) -> pd.DataFrame:
+    """Return what we want to hold, the bar and what was measured; columns what, bar, here, against, holds."""
+    rows: list[tuple[str, str, float, str, bool]] = []
+    evaluated = ratios(found.evaluation, "designs", evaluation.OURS)
+    loop = evaluated[(evaluated.contender == evaluation.LOOP) & (evaluated.designs == 1000)].ratio
+    for ratio in loop:
+        rows.append(("evaluate, 1,000 designs", ">= 2000 x", ratio, evaluation.LOOP, ratio >= 2000))
+    table = medians(found.nsga2, "population")
+    for population in (1000, 16000):
+        here = table[table.population == population]
+        if len(here):
+            rows.append(_against_best(f"NSGA-II, N = {population:,}: ours / fastest", here, 0.7))
+    exponents = growth(found.nsga2)
+    own, lowest = exponents.get(OURS, np.nan), exponents.idxmin() if exponents.notna().any() else "-"
+    gentle = own < 1.6 and own <= exponents.min() + 0.05
+    rows.append(
+        ("NSGA-II, growth exponent", "< 1.6, lowest + 0.05", own, f"{lowest} {exponents.min():.2f}", gentle)
+    )
+    each = found.moead.assign(seconds=found.moead.seconds / found.moead.evaluations)
+    rows.append(_against_best("MOEA/D, time per evaluation: ours / fastest", medians(each, "population"), 1.0))
+    rows.append(_against_best("time to the hypervolume: ours / fastest", best_to_target(found.target), 0.8))
+    rows.append(("NSGA-II, same seed, DEAP's selection", "identical", np.nan, "DEAP standard", found.identical))
+    extra = import_seconds(found)
+    rows.append(("import beyond `import control`", "<= 0.3 s", extra, "", extra <= 0.3))
+    return pd.DataFrame(rows, columns=["what", "bar", "here", "against", "holds"])
+
+
+def _against_best(what: str, table: pd.DataFrame, bar: float) -> tuple[str, str, float, str, bool]:
+    name, fastest = best_of_others(table)
+    ours = table[table.contender.str.startswith(OURS)]["median"].min()
+    return what, f"<= {bar}", float(ours / fastest), name, bool(ours / fastest <= bar)

@@ -1,0 +1,154 @@
+"""TOML files whose keys end in their units: tables that say in one line what is wrong with them.
+
+A quantity called ``body_mass`` in kg has the key ``body_mass_kg``; of units, ``^`` is left out and ``/`` spelt
+``per``: ``pitch_inertia_kg_m2``, ``spring_N_per_m``.
+"""
+
+import reprlib
+import tomllib
+from collections.abc import Collection, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+_SMALLEST, _LARGEST = 1e-12, 1e12
+"""Beyond any vehicle; squares, products and quotients of such are still numbers."""
+
+
+@contextmanager
+def naming(path: Path) -> Iterator[None]:
+    """Have whatever is wrong with a file be a ValueError of one line that names it."""
+    try:
+        yield
+    except (ValueError, RecursionError) as error:
+        raise ValueError(f"{path}: {' '.join(str(error).split())}") from None
+
+
+@contextmanager
+def keyed(prefix: str, names: Mapping[str, str]) -> Iterator[None]:
+    """Have a ValueError that begins with one of the `names` by key begin with `prefix` and the key instead."""
+    try:
+        yield
+    except ValueError as error:
+        keys = {name: prefix + key for key, name in names.items()}
+        name, space, rest = str(error).partition(" ")
+        raise ValueError(keys.get(name, name) + space + rest) from None
+
+
+@contextmanager
+def under(key: str) -> Iterator[None]:
+    """Have a ValueError about what a key names begin with the key."""
+    try:
+        yield
+    except ValueError as error:
+        raise ValueError(f"{key}: {error}") from None
+
+
+def read_toml(path: Path) -> "Table":
+    """Read a file; ValueError if it is no TOML in UTF-8, OSError if it cannot be read."""
+    try:
+        return Table("", tomllib.loads(path.read_bytes().decode("utf-8-sig")))
+    except ValueError as error:
+        raise ValueError(f"the file must be TOML in UTF-8, got {error}") from None
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table of a file.
+
+    Parameters
+    ----------
+    name : str
+        What goes before its keys in errors, ``"struts.front."``; empty for the file itself.
+    content : mapping of str to object
+        Values by key.
+    """
+
+    name: str
+    content: Mapping[str, object]
+
+    def check_keys(self, allowed: Mapping[str, str], needed: Collection[str] = ()) -> None:
+        """Raise ValueError unless all `needed` keys are there, and only `allowed` ones, which have names."""
+        for key, value in self.content.items():
+            if key not in allowed:
+                raise ValueError(f"{self.name}{key} must be {_meant(key, allowed)}, got {reprlib.repr(value)}")
+        for key in needed:
+            if key not in self.content:
+                raise ValueError(f"{self.name}{key} must be given, got none: keys are {', '.join(allowed)}")
+
+    def text(self, key: str) -> str:
+        """Return a text that is not empty."""
+        value = self.content.get(key)
+        if not (isinstance(value, str) and value.strip()):
+            raise ValueError(f"{self.name}{key} must be a text, got {reprlib.repr(value)}")
+        return value
+
+    def boolean(self, key: str) -> bool:
+        """Return true or false."""
+        value = self.content.get(key)
+        if not isinstance(value, bool):
+            raise ValueError(f"{self.name}{key} must be true or false, got {reprlib.repr(value)}")
+        return value
+
+    def number(self, key: str) -> float:
+        """Return a finite number."""
+        value = self.content.get(key)
+        if not _is_number(value):
+            raise ValueError(f"{self.name}{key} must be {_NUMBER}, got {reprlib.repr(value)}")
+        return float(value)  # type: ignore[arg-type]
+
+    def numbers(self, key: str) -> tuple[float, ...]:
+        """Return an array of finite numbers, one or more."""
+        value = self.content.get(key)
+        if not (isinstance(value, list) and value and all(map(_is_number, value))):
+            raise ValueError(f"{self.name}{key} must be an array, each {_NUMBER}, got {reprlib.repr(value)}")
+        return tuple(map(float, value))
+
+    def pair(self, key: str) -> tuple[float, float]:
+        """Return an array of two finite numbers."""
+        value = self.numbers(key)
+        if len(value) != 2:
+            raise ValueError(f"{self.name}{key} must be an array of two numbers, got {list(value)}")
+        return value[0], value[1]
+
+    def table(self, key: str) -> "Table":
+        """Return a table in this one, empty if there is none."""
+        return _table(f"{self.name}{key}", self.content.get(key, {}))
+
+    def tables(self, key: str) -> "list[Table]":
+        """Return an array of tables, numbered from 1 in errors, empty if there is none."""
+        value = self.content.get(key, [])
+        if not isinstance(value, list):
+            raise ValueError(f"{self.name}{key} must be an array of tables, got {reprlib.repr(value)}")
+        return [_table(f"{self.name}{key}[{i}]", one) for i, one in enumerate(value, start=1)]
+
+    def flat(self) -> "Table":
+        """Return the table with those in it spread out under dotted keys."""
+        flat: dict[str, object] = {}
+        for key, value in self.content.items():
+            if isinstance(value, dict) and value:
+                flat |= {f"{key}.{inner}": one for inner, one in value.items()}
+            else:
+                flat[key] = value
+        return Table(self.name, flat)
+
+
+_NUMBER = f"a number from {_SMALLEST:g} to {_LARGEST:g} in size or 0"
+
+
+def _is_number(value: Any) -> bool:
+    real = isinstance(value, int | float) and not isinstance(value, bool)
+    return real and (value == 0 or _SMALLEST <= abs(value) <= _LARGEST)
+
+
+def _table(name: str, content: object) -> Table:
+    if not isinstance(content, dict):
+        raise ValueError(f"{name} must be a table, got {reprlib.repr(content)}")
+    return Table(f"{name}.", content)
+
+
+def _meant(key: str, allowed: Mapping[str, str]) -> str:
+    """Return the key with the same name but another unit, or what keys there are."""
+    meant = [(len(name), right) for right, name in allowed.items() if f"{key}_".startswith(f"{name}_")]
+    return max(meant)[1] if meant else f"one of the keys {', '.join(allowed)}"

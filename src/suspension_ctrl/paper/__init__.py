@@ -1,0 +1,1 @@
+"""The experiment of Yuen and Ramli (2010)."""

@@ -1,0 +1,125 @@
+"""The experiment of Yuen and Ramli (2010): its vehicle, road and bounds, and the tables it printed.
+
+T. J. Yuen and R. Ramli, "Comparison of computational efficiency of MOEA/D and NSGA-II for passive vehicle
+suspension optimization", 2010.
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from .. import datafiles
+from ..response.problem import RideProblem
+from ..roads.files import load_road
+from ..roads.spectra import PowerLawRoad
+from ..vehicles.cars import QuarterCar
+from ..vehicles.files import load_vehicle
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+POPULATIONS = (500, 1000)
+ITERATIONS = (10, 20)
+REPEATS = 5
+SWS_LIMIT = 0.0287
+"""Design limit of the suspension working space [m]."""
+
+
+def ride_problem(**changes: Any) -> RideProblem:
+    """Return the problem of Table 1; keyword arguments take the place of `RideProblem`'s, e.g. ``weighting``."""
+    rows = _table1()
+    value = {symbol: float(row["value"]) for symbol, row in rows.items() if row["value"]}
+    car = QuarterCar(body_mass=value["Mb"], wheel_mass=value["Mw"], tyre_stiffness=value["Kt"])
+    road = PowerLawRoad(roughness=value["G"], exponent=value["kappa"])
+    settings: dict[str, Any] = {
+        "speed": value["V"],
+        "band": (float(rows["f"]["lower"]), float(rows["f"]["upper"])),
+        "lower": tuple(float(rows[symbol]["lower"]) for symbol in ("Ks", "Cs")),
+        "upper": tuple(float(rows[symbol]["upper"]) for symbol in ("Ks", "Cs")),
+    }
+    return RideProblem(car, road, **settings | changes)
+
+
+def reference_design() -> tuple[float, float]:
+    """Return spring [N/m] and damper [N s/m] of the reference car, Table 1."""
+    rows = _table1()
+    return float(rows["Ks"]["value"]), float(rows["Cs"]["value"])
+
+
+def optimised_design() -> tuple[float, float]:
+    """Return spring [N/m] and damper [N s/m] of the published optimum, Table 5."""
+    column = table5()["optimised"]
+    return column["Ks"], column["Cs"]
+
+
+def table5() -> dict[str, dict[str, float]]:
+    """Return the columns ``reference`` and ``optimised`` of Table 5 by quantity.
+
+    Ks [N/m], Cs [N s/m], SWS [m], ACC [m/s^2], DTL [N].
+    """
+    rows = datafiles.rows("paper/table5_optimum.csv")
+    return {
+        column: {row["quantity"]: float(row[column]) * (1e3 if row["unit"].startswith("k") else 1) for row in rows}
+        for column in ("reference", "optimised")
+    }
+
+
+def published_seconds() -> "pd.DataFrame":
+    """Return Tables 2 and 3: columns algorithm, population, iterations, repeat, published_seconds."""
+    import pandas as pd
+
+    tables = {"nsga2": "paper/table2_nsga2_seconds.csv", "moead-dra": "paper/table3_moead_seconds.csv"}
+    frames = [
+        pd.read_csv(datafiles.path(name), comment="#").assign(algorithm=algorithm)
+        for algorithm, name in tables.items()
+    ]
+    columns = ["algorithm", "population", "iterations", "repeat", "published_seconds"]
+    return pd.concat(frames).rename(columns={"seconds": "published_seconds"})[columns]
+
+
+def _table1() -> dict[str, dict[str, str]]:
+    return {row["symbol"]: row for row in datafiles.rows("paper/table1_vehicle.csv")}
+
+
+VEHICLE_HELP = "Vehicle in place of the paper's: path of a TOML file, or the name of one that comes along."
+
+
+ROAD_HELP = "Road in place of the paper's: class of ISO 8608 (C, C-lower, C-upper), or path of a CSV or TOML file."
+
+
+def chosen(
+    vehicle: str | None, road: str | None, speed: float | None, **settings: Any
+) -> tuple[RideProblem, Mapping[str, float]]:
+    """Return the paper's problem with another vehicle, road or speed, and the vehicle's own struts by name.
+
+    Parameters
+    ----------
+    vehicle, road : str, optional
+        As for `vehicle_files.load_vehicle` and `road_files.load_road`.
+    speed : float, optional
+        [m/s].
+    **settings
+        What else of `RideProblem` is to be other than in the paper.
+
+    Raises
+    ------
+    ValueError
+        If a file is not in order, has no bounds, or the settings do not fit.
+    """
+    papers = ride_problem()
+    changes: dict[str, Any] = {
+        "road": papers.road if road is None else load_road(road),
+        "speed": papers.speed if speed is None else speed,
+    } | settings
+    if vehicle is None:
+        struts = dict(zip(papers.variables, reference_design(), strict=True))
+        return replace(papers, **changes), struts
+    file = load_vehicle(vehicle)
+    if not file.bounds:
+        raise ValueError(f"vehicle must be a file with bounds, got {vehicle!r}")
+    if "bounds" not in settings:
+        changes["bounds"] = file.bounds
+    struts = file.vehicle.coefficients(file.struts)
+    fixed = {name: value for name, value in struts.items() if name not in changes["bounds"]}
+    return replace(papers, vehicle=file.vehicle, struts=fixed, lower=(), upper=(), **changes), struts

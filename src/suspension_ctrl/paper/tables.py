@@ -1,0 +1,152 @@
+"""Tables of the comparison, measured beside published: DataFrame in, DataFrame out."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+
+from ..quantities import column_headers
+from ..response.problem import RideProblem
+from ..study.timing import EQUAL_EVALUATIONS, EQUAL_ITERATIONS
+
+CONFIGURATION = ["population", "iterations"]
+
+
+def seconds_by_repeat(runs: pd.DataFrame, published: pd.DataFrame, family: str) -> pd.DataFrame:
+    """Return Table 2 (`family` ``"nsga2"``) or Table 3 (``"moead-dra"``).
+
+    Parameters
+    ----------
+    runs : DataFrame
+        One row per run, from `experiments.tidy`.
+    published : DataFrame
+        From `paper.published_seconds`.
+    family : str
+        The published algorithm; measured ones whose names begin with it belong to the table.
+
+    Returns
+    -------
+    DataFrame
+        Columns algorithm, population, iterations, repeat, published_seconds, seconds, evaluations and
+        microseconds_per_evaluation.
+    """
+    measured = runs[runs.algorithm.str.startswith(family) & (runs.budget == EQUAL_ITERATIONS)]
+    beside = published[published.algorithm == family].drop(columns="algorithm")
+    table = measured.merge(beside, on=[*CONFIGURATION, "repeat"], how="left")
+    table["microseconds_per_evaluation"] = 1e6 * table.seconds / table.evaluations
+    columns = ["published_seconds", "seconds", "evaluations", "microseconds_per_evaluation"]
+    return table[["algorithm", *CONFIGURATION, "repeat", *columns]]
+
+
+def as_printed(table: pd.DataFrame) -> pd.DataFrame:
+    """Return Table 2 or 3 of one algorithm as the paper lays it out, a column per configuration.
+
+    Each cell of a repeat holds "published / measured" seconds; below them stand both means, the evaluations
+    per run and the microseconds per evaluation.
+    """
+    columns: dict[str, list[str]] = {}
+    for (population, iterations), part in table.groupby(CONFIGURATION):
+        seconds = part[["published_seconds", "seconds"]]
+        rows = [*seconds.itertuples(index=False), tuple(seconds.mean())]
+        columns[f"N={population}, {iterations} iterations"] = [
+            *("{} / {:.4f}".format("-" if pd.isna(p) else f"{p:.1f}", s) for p, s in rows),
+            str(part.evaluations.iloc[0]),
+            f"{part.microseconds_per_evaluation.mean():.2f}",
+        ]
+    labels = [*map(str, sorted(table.repeat.unique())), "mean", "evaluations", "µs per evaluation"]
+    return pd.DataFrame({"repeat": labels, **columns})
+
+
+def comparison(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
+    """Return Table 4, each algorithm against the first one in `runs`, at equal iterations and evaluations.
+
+    Parameters
+    ----------
+    runs, published : DataFrame
+        As for `seconds_by_repeat`.
+
+    Returns
+    -------
+    DataFrame
+        One row per configuration, budget and algorithm: evaluations, mean of published and of measured
+        seconds, microseconds per evaluation, ``published_ratio_percent`` and ``ratio_percent`` (the
+        baseline's mean seconds over this algorithm's, times 100), median hypervolume and IGD+.
+    """
+    keys = [*CONFIGURATION, "algorithm", "budget"]
+    table = (
+        runs.groupby(keys, sort=False)
+        .agg(
+            evaluations=("evaluations", "first"),
+            seconds=("seconds", "mean"),
+            hypervolume=("hypervolume", "median"),
+            igd_plus=("igd_plus", "median"),
+        )
+        .reset_index()
+    )
+    table = pd.concat([table, _also_at_equal_evaluations(table)]).sort_values(keys[:2], kind="stable")
+    means = published.groupby(["algorithm", *CONFIGURATION]).published_seconds.mean().reset_index()
+    table = table.merge(means.assign(budget=EQUAL_ITERATIONS), on=keys, how="left")
+    table["microseconds_per_evaluation"] = 1e6 * table.seconds / table.evaluations
+    same = [*CONFIGURATION, "budget"]
+    baseline = table[table.algorithm == runs.algorithm.iloc[0]].set_index(same)
+    for seconds, ratio in (("published_seconds", "published_ratio_percent"), ("seconds", "ratio_percent")):
+        table[ratio] = 100 * table.join(baseline[seconds].rename("first"), on=same)["first"] / table[seconds]
+    return table[
+        [
+            *keys,
+            "evaluations",
+            "published_seconds",
+            "seconds",
+            "microseconds_per_evaluation",
+            "published_ratio_percent",
+            "ratio_percent",
+            "hypervolume",
+            "igd_plus",
+        ]
+    ]
+
+
+def _also_at_equal_evaluations(table: pd.DataFrame) -> pd.DataFrame:
+    """Rows of those that spend the most evaluations anyway, which others match: again, as equal evaluations."""
+    others = table[table.budget == EQUAL_EVALUATIONS]
+    matched = table.merge(others[CONFIGURATION].drop_duplicates(), on=CONFIGURATION)
+    theirs = pd.MultiIndex.from_frame(others[[*CONFIGURATION, "algorithm"]])
+    most = matched[~pd.MultiIndex.from_frame(matched[[*CONFIGURATION, "algorithm"]]).isin(theirs)]
+    return most.assign(budget=EQUAL_EVALUATIONS)
+
+
+def beside_published(
+    problem: RideProblem,
+    designs: Mapping[str, tuple[float, float]],
+    published: Mapping[str, Mapping[str, float]],
+) -> pd.DataFrame:
+    """Return Table 5: objectives of named designs, with published values and the deviation from them.
+
+    Parameters
+    ----------
+    problem : RideProblem
+        What gives the objectives.
+    designs : mapping
+        Spring [N/m] and damper [N s/m] by name.
+    published : mapping
+        By name of a design, its published objectives by name, in the problem's units.
+
+    Returns
+    -------
+    DataFrame
+        One row per design: weighting, design, variables, objectives, ``published <objective>`` and
+        ``<objective> off [%]``; NaN where nothing is published.
+    """
+    values = np.array(list(designs.values()), dtype=float)
+    objectives = problem.evaluate(values)
+    table = pd.DataFrame(
+        np.hstack([values, objectives]),
+        columns=column_headers([*problem.variables, *problem.objectives], problem.units),
+    )
+    table.insert(0, "design", list(designs))
+    table.insert(0, "weighting", problem.weighting)
+    for column, name in enumerate(problem.objectives):
+        printed = np.array([published.get(design, {}).get(name, np.nan) for design in designs])
+        table[f"published {name} [{problem.units[name]}]"] = printed
+        table[f"{name} off [%]"] = 100 * (objectives[:, column] / printed - 1)
+    return table

@@ -1,0 +1,133 @@
+"""Ride problems from TOML files, and from a vehicle, a road and a speed named on a command line.
+
+A file holds ``measures`` and, as wanted, ``constraints`` (see those modules), ``weighting``, ``band_Hz``,
+``worst_case`` and ``title``; ``[bounds]`` and ``[struts]`` as the file of a vehicle has them, in place of those of
+the first case's vehicle; ``[[seats]]`` that are put on the vehicle of every case; and ``[[cases]]``, each with
+
+- vehicle: the path of a file from this one, or the name of one that comes with the package (see `vehicle_files`);
+- road: a class of ISO 8608 or the path of a file from this one (see `road_files`), and speed_m_per_s;
+- if wanted share, ``[[cases.payload]]`` of mass_kg and position_m, and ``[cases.roll_geometry]``.
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ..documents import Table, keyed, naming, read_toml, under
+from ..roads.files import load_road
+from ..vehicles.files import VehicleFile, load_vehicle, read_bounds, read_roll_geometry, read_struts, with_seats
+from ..vehicles.mounted import Payload
+from ..vehicles.vehicle import Vehicle
+from . import weightings
+from .limits import limit
+from .load_case import LoadCase
+from .measures import measure
+from .problem import RideProblem
+
+_KEYS = (
+    "title", "measures", "constraints", "weighting", "band_Hz", "worst_case", "bounds", "struts", "seats", "cases",
+)  # fmt: skip
+_CASE = ("vehicle", "road", "speed_m_per_s", "share", "payload", "roll_geometry")
+_PAYLOAD = {"mass_kg": "mass", "position_m": "position"}
+
+
+def load_problem(path: Path) -> RideProblem:
+    """Return the problem that a TOML file holds.
+
+    Raises
+    ------
+    ValueError
+        Naming the file and the key if it does not hold a problem.
+    OSError
+        If it, or a file that it names, cannot be read.
+    """
+    with naming(path):
+        table = read_toml(path)
+        table.check_keys(dict(zip(_KEYS, _KEYS, strict=True)), ["cases", "measures"])
+        settings = _settings(table)
+        files, cases = zip(*(_case(table, one, path.parent) for one in _cases(table)), strict=True)
+        bounds, struts = _bounds_and_struts(table, files[0], cases[0].vehicle)
+        settings |= {key: _texts(table, key) for key in ("measures", "constraints")}
+        for case in cases:
+            _check_texts(case, settings)
+        with keyed("", {"band_Hz": "band"}), keyed("", {"band_Hz": "f"}):  # f of a road that is not known there
+            return RideProblem(cases=cases, bounds=bounds, struts=struts, **settings)
+
+
+def _settings(table: Table) -> dict[str, Any]:
+    """Return what of weighting, band and worst case the file has."""
+    settings: dict[str, Any] = {}
+    if "title" in table.content:
+        table.text("title")
+    if "weighting" in table.content:
+        settings["weighting"] = table.text("weighting")
+        weightings.by_name(settings["weighting"])
+    if "band_Hz" in table.content:
+        settings["band"] = table.pair("band_Hz")
+    if "worst_case" in table.content:
+        settings["worst_case"] = table.boolean("worst_case")
+    return settings
+
+
+def _bounds_and_struts(
+    table: Table, file: VehicleFile, vehicle: Vehicle
+) -> tuple[dict[str, tuple[float, float]], dict[str, float]]:
+    """Return the bounds of coefficients that vary and the values of those that do not."""
+    own = "bounds" in table.content
+    bounds = read_bounds(table.table("bounds").flat(), vehicle) if own else dict(file.bounds)
+    if not bounds:
+        raise ValueError("bounds must be given, one at least, where the first case's vehicle has none, got none")
+    struts = read_struts(table.table("struts").flat(), vehicle) if "struts" in table.content else file.struts
+    return bounds, {name: value for name, value in struts.items() if name not in bounds}
+
+
+def _check_texts(case: LoadCase, settings: Mapping[str, Any]) -> None:
+    """Raise ValueError that says which measure or constraint means nothing in a case."""
+    weighting = settings.get("weighting", RideProblem.weighting)
+    for key, meaning in (("measures", measure), ("constraints", limit)):
+        for i, text in enumerate(settings[key], start=1):
+            with under(f"{key}[{i}]"):
+                meaning(text, case.vehicle, weighting)
+
+
+def _cases(table: Table) -> list[Table]:
+    cases = table.tables("cases")
+    if not cases:
+        raise ValueError("cases must be an array of tables, one at least, got none")
+    return cases
+
+
+def _case(table: Table, case: Table, folder: Path) -> tuple[VehicleFile, LoadCase]:
+    """Return the file of a case's vehicle, and the case."""
+    case.check_keys(dict(zip(_CASE, _CASE, strict=True)), _CASE[:3])
+    names = {key: _beside(folder, case.text(key)) for key in _CASE[:2]}
+    with under(f"{case.name}vehicle"):
+        file = load_vehicle(names["vehicle"])
+    with under(f"{case.name}road"):
+        road = load_road(names["road"])
+    vehicle = with_seats(file.vehicle, table)
+    for load in case.tables("payload"):
+        load.check_keys(_PAYLOAD, ["mass_kg"])
+        with keyed(load.name, _PAYLOAD):
+            position = load.pair("position_m") if "position_m" in load.content else (0.0, 0.0)
+            vehicle = Payload(mass=load.number("mass_kg"), position=position).on(vehicle)
+    with keyed(case.name, {"speed_m_per_s": "speed", "share": "share"}):
+        return file, LoadCase(
+            vehicle=vehicle,
+            road=road,
+            speed=case.number("speed_m_per_s"),
+            share=case.number("share") if "share" in case.content else 1.0,
+            roll_geometry=read_roll_geometry(case) or file.roll_geometry,
+        )
+
+
+def _beside(folder: Path, text: str) -> str:
+    """Return a path as seen from the file that names it; a name without an ending is none."""
+    return str(folder / text) if Path(text).suffix else text
+
+
+def _texts(table: Table, key: str) -> tuple[str, ...]:
+    value = table.content.get(key, [])
+    if not (isinstance(value, list) and all(isinstance(text, str) for text in value)):
+        raise ValueError(f"{key} must be an array of texts, got {value!r}")
+    return tuple(value)

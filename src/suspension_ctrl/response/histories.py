@@ -1,0 +1,184 @@
+"""Human exposure to a history of vibration, ISO 2631-1:1997, clause 6: weighted signal, running r.m.s., dose.
+
+Histories are sampled at even times, each sample counting for one time step.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .. import checks
+from .weightings import weighting
+
+Real = NDArray[np.float64]
+
+INTEGRATIONS = ("linear", "exponential")
+"""Means of running r.m.s. in clause 6.3.1."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Exposure:
+    """Measures of a weighted acceleration [m/s^2]; [rad/s^2] of a rotation.
+
+    Parameters
+    ----------
+    rms : float
+        Root mean square a_w, clause 6.1 [m/s^2].
+    peak : float
+        Largest magnitude [m/s^2].
+    mtvv : float
+        Maximum transient vibration value, the largest running r.m.s., clause 6.3.1 [m/s^2].
+    vdv : float
+        Vibration dose value, clause 6.3.2 [m/s^1.75].
+    duration : float
+        Of the history, T [s].
+    """
+
+    rms: float
+    peak: float
+    mtvv: float
+    vdv: float
+    duration: float
+
+    @property
+    def crest_factor(self) -> float:
+        """Peak over r.m.s., clause 6.2.1 [-]; up to 9 the r.m.s. is normally enough (6.2.2)."""
+        return self.peak / self.rms
+
+    @property
+    def mtvv_ratio(self) -> float:
+        """MTVV/a_w [-]: above 1.5 the r.m.s. alone may say too little (clause 6.3.3)."""
+        return self.mtvv / self.rms
+
+    @property
+    def vdv_ratio(self) -> float:
+        """VDV/(a_w T^(1/4)) [-]: above 1.75 the r.m.s. alone may say too little (clause 6.3.3)."""
+        return self.vdv / (self.rms * self.duration**0.25)
+
+
+def weighted(acceleration: ArrayLike, time_step: float, name: str) -> Real:
+    """Return a history of acceleration as a weighting filter of ISO 2631 lets it pass, at rest before it.
+
+    The analogue filter is made digital by the bilinear transform: at f it does what the analogue one does at
+    ``tan(pi f time_step)/(pi time_step)``, a frequency higher by (pi f time_step)^2/3. In steps of 5 ms the factor
+    of Wk is so within 0.3 % up to 10 Hz and 3.1 % at 20 Hz, in steps of 2 ms within 0.05 % and 0.5 %. To have no
+    such error simulate the filter behind the vehicle, ``control.ss(weighting("Wk")) * closed[response, road]``.
+
+    Parameters
+    ----------
+    acceleration : (n,) array_like
+        [m/s^2], or [rad/s^2] of a rotation.
+    time_step : float
+        Between two samples [s]; no longer than a period of the filter's upper band limit, 10 ms but for Wf.
+    name : str
+        One of `weightings.FILTERS`.
+
+    Returns
+    -------
+    (n,) ndarray
+        The weighted history; its first seconds are the filter's own start where the history begins amidst motion.
+
+    Raises
+    ------
+    ValueError
+        If the history or the step is not as above, or there is no filter of that name.
+    """
+    from scipy import signal
+
+    history = _checked(acceleration, time_step)
+    filter_ = weighting(name)
+    zeros, poles = filter_.zeros(), filter_.poles()
+    highest = float(np.abs(poles).max()) / (2 * np.pi)
+    if time_step * highest > 1 + 1e-9:
+        raise ValueError(f"time_step must be at most {1 / highest:.3g} s for {name}, got {time_step!r}")
+    gain = float(filter_.num[0][0][0] / filter_.den[0][0][0])
+    digital = signal.bilinear_zpk(zeros, poles, gain, 1 / time_step)
+    return np.asarray(signal.sosfilt(signal.zpk2sos(*digital), history))
+
+
+def running_rms(
+    acceleration: ArrayLike, time_step: float, *, integration: str = "linear", time_constant: float = 1.0
+) -> Real:
+    """Return the running root mean square of a weighted acceleration, clause 6.3.1, with silence before it.
+
+    Parameters
+    ----------
+    acceleration : (n,) array_like
+        Weighted [m/s^2].
+    time_step : float
+        Between two samples [s].
+    integration : str
+        ``"linear"``, over the last `time_constant` seconds alike (to the nearest number of steps), or
+        ``"exponential"``, over all that has been with a weight that falls to 1/e in that time.
+    time_constant : float
+        tau [s]; the standard recommends 1 s.
+
+    Returns
+    -------
+    (n,) ndarray
+        At the end of each time step [m/s^2].
+
+    Raises
+    ------
+    ValueError
+        If a parameter is out of range, or the time constant shorter than a step.
+    """
+    from scipy import signal
+
+    squares = _checked(acceleration, time_step) ** 2
+    checks.one_of("integration", integration, INTEGRATIONS)
+    checks.positive("time_constant", time_constant, "s")
+    if time_constant < time_step:
+        raise ValueError(f"time_constant must be at least a time step of {time_step} s, got {time_constant!r}")
+    if integration == "linear":
+        steps = round(time_constant / time_step)
+        return np.sqrt(signal.lfilter(np.full(steps, 1 / steps), [1.0], squares))
+    kept = math.exp(-time_step / time_constant)
+    return np.sqrt(signal.lfilter([1 - kept], [1.0, -kept], squares))
+
+
+def exposure(acceleration: ArrayLike, time_step: float, *, integration: str = "linear") -> Exposure:
+    """Return the measures of a weighted acceleration.
+
+    Parameters
+    ----------
+    acceleration : (n,) array_like
+        Weighted, see `weighted` [m/s^2], of a second at least.
+    time_step : float
+        Between two samples [s].
+    integration : str
+        Of the running r.m.s. with a time constant of 1 s: ``"linear"`` or ``"exponential"``.
+
+    Returns
+    -------
+    Exposure
+
+    Raises
+    ------
+    ValueError
+        If a parameter is out of range, or the history too short or zero throughout.
+    """
+    history = _checked(acceleration, time_step)
+    duration = history.size * time_step
+    peak = float(np.abs(history).max())
+    if duration < 1.0 - 1e-9 or peak == 0:
+        raise ValueError(
+            f"acceleration must last 1 s at least and not be zero throughout, got {duration:g} s, peak {peak:g}"
+        )
+    return Exposure(
+        rms=float(np.sqrt(np.mean(history**2))),
+        peak=peak,
+        mtvv=float(running_rms(history, time_step, integration=integration).max()),
+        vdv=float(time_step * np.sum(history**4)) ** 0.25,
+        duration=duration,
+    )
+
+
+def _checked(acceleration: ArrayLike, time_step: float) -> Real:
+    checks.positive("time_step", time_step, "s")
+    history = np.asarray(acceleration, dtype=float)
+    if history.ndim != 1 or history.size == 0 or not np.isfinite(history).all():
+        raise ValueError(f"acceleration must be finite and of shape (n,), n >= 1, got shape {history.shape}")
+    return history

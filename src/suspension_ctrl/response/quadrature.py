@@ -1,0 +1,62 @@
+"""Integrals over frequency as weighted sums: Gauss-Legendre nodes in the square root of frequency."""
+
+from collections.abc import Iterable
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import roots_legendre
+
+from .. import checks
+
+_LEAST_PER_PANEL = 16
+"""Nodes that a panel needs for 1e-9 where a slow pole, K/C of a soft and heavily damped strut, lies beside it."""
+
+
+def frequency_nodes(
+    band: tuple[float, float], nodes: int, breakpoints: Iterable[float] = ()
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return nodes and weights such that ``(g(f) * w).sum()`` is the integral of g over the band.
+
+    With u = sqrt(f) a road spectrum in a half-integer power of f becomes a rational function, on which
+    Gauss-Legendre quadrature converges geometrically. The nodes never touch the ends of the band.
+
+    Parameters
+    ----------
+    band : (float, float)
+        Lower and upper frequency [Hz], 0 <= lower < upper.
+    nodes : int
+        Least number of nodes over the band.
+    breakpoints : iterable of float
+        Frequencies at which the integrand has a kink [Hz]; those inside the band divide it into panels,
+        which share the nodes evenly, each at least 16.
+
+    Returns
+    -------
+    f : (n,) ndarray
+        Nodes in ascending order [Hz], n >= `nodes`.
+    w : (n,) ndarray
+        Weights [Hz].
+
+    Raises
+    ------
+    ValueError
+        If the band is not finite, reversed or reaches below zero, or `nodes` is not a whole number >= 2.
+    """
+    checks.interval("band", band, "Hz")
+    low, high = band
+    checks.at_least("nodes", nodes, 2)
+    edges = np.sqrt([low, *(f for f in sorted(breakpoints) if low < f < high), high])
+    panels = edges.size - 1
+    x, w = roots_legendre(nodes if panels == 1 else max(_LEAST_PER_PANEL, -(-nodes // panels)))
+    f, weight = zip(*(_panel(x, w, start, end) for start, end in pairwise(edges)), strict=True)
+    return np.concatenate(f), np.concatenate(weight)
+
+
+def _panel(
+    x: NDArray[np.float64], w: NDArray[np.float64], start: float, end: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Gauss-Legendre nodes x and weights w of (-1, 1), carried to u in (start, end) and on to f = u^2."""
+    half = (end - start) / 2
+    u = start + half * (1 + x)
+    return u**2, w * half * 2 * u  # df = 2 u du

@@ -1,0 +1,111 @@
+"""International Roughness Index of a profile: how far the suspension of a reference car travels per distance."""
+
+from dataclasses import dataclass
+
+import control
+import numpy as np
+from numpy.typing import NDArray
+
+from ..roads.profiles import Profile
+from ..vehicles.cars import QuarterCar
+
+SPEED = 80 / 3.6
+"""Speed of the reference quarter car [m/s]."""
+_BASE = 0.25
+"""Length over which a tyre averages the profile [m]."""
+_START = 11.0
+"""Length whose mean slope the car begins with [m]: half a second of driving."""
+_COARSEST = 0.3
+"""Longest step of a profile [m]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RoughnessIndex:
+    """International Roughness Index of a profile.
+
+    Parameters
+    ----------
+    tracks : (t,) tuple of float
+        Index of each track [mm/m].
+    """
+
+    tracks: tuple[float, ...]
+
+    @property
+    def mean(self) -> float:
+        """Mean of the indices of the tracks [mm/m]."""
+        return sum(self.tracks) / len(self.tracks)
+
+
+def golden_car() -> control.StateSpace:
+    """Return the reference quarter car, with masses per mass of the body.
+
+    Tyre 653 1/s^2, spring 63.3 1/s^2, damper 6.0 1/s and wheel 0.15, the golden car of [1]_ and [2]_.
+
+    Returns
+    -------
+    control.StateSpace
+        From ``road`` to ``suspension_travel`` in the same unit: elevations [m] or, as it is linear, slopes [m/m].
+
+    References
+    ----------
+    .. [1] M. W. Sayers, "On the calculation of International Roughness Index from longitudinal road profile",
+       Transportation Research Record 1501 (1995).
+    .. [2] ASTM E1926, Standard practice for computing International Roughness Index of roads from longitudinal
+       profile measurements.
+    """
+    car = QuarterCar(body_mass=1.0, wheel_mass=0.15, tyre_stiffness=653.0)
+    return car.closed(spring=63.3, damper=6.0)["suspension_travel", "road"]
+
+
+def international_roughness_index(profile: Profile) -> RoughnessIndex:
+    """Return the International Roughness Index of every track of a profile.
+
+    The profile's slope, averaged over 250 mm (the nearest whole number of steps, one at least, so that steps of
+    more than 167 mm are not averaged), drives the golden car at 80 km/h; the response is exact for an averaged
+    profile that is straight between its points. The car begins at rest on the mean slope of the first 11 m. The
+    index is the mean magnitude of the difference of the slopes of body and wheel (Sayers 1995, as `golden_car`).
+
+    Parameters
+    ----------
+    profile : Profile
+        In steps of at most 300 mm and at least 11 m long. How the car begins tells in the index of a short road:
+        some 20 m of lead, and 100 m of road, are good practice.
+
+    Returns
+    -------
+    RoughnessIndex
+        In mm/m, which is m/km.
+
+    Raises
+    ------
+    ValueError
+        If the profile is too short or its step too long.
+    """
+    step = profile.step
+    if step > _COARSEST * (1 + 1e-9):
+        raise ValueError(
+            f"a profile for the roughness index must have steps of at most {_COARSEST} m, got {step:g} m"
+        )
+    length = step * (profile.distance.size - 1)
+    if length < _START + _BASE:
+        raise ValueError(
+            f"a profile for the roughness index must be at least {_START + _BASE} m long, got {length:g} m"
+        )
+    base = max(round(_BASE / step), 1)
+    slope = (profile.height[base:] - profile.height[:-base]) / (base * step)
+    start = round(_START / step)
+    first = (profile.height[start] - profile.height[0]) / (start * step)
+    indices = (_mean_rectified(slope[:, i], first[i], step / SPEED) for i in range(slope.shape[1]))
+    return RoughnessIndex(tracks=tuple(1e3 * index for index in indices))
+
+
+def _mean_rectified(slope: NDArray[np.float64], first: float, dt: float) -> float:
+    """Mean magnitude of the car's response to slopes (k,), each held for `dt` [s], after steady slope `first`."""
+    car = golden_car()
+    at_rest = -np.linalg.solve(car.A, car.B)[:, 0] * first
+    sampled = control.sample_system(car, dt, method="zoh")
+    # a response at the end of each step, where the next slope would begin
+    driven = np.append(slope, slope[-1])
+    answer = control.forced_response(sampled, inputs=driven, initial_state=at_rest)
+    return float(np.abs(answer.outputs[1:]).mean())

@@ -1,0 +1,137 @@
+"""Frequency weightings of ISO 2631 for human exposure to whole-body vibration, as filters and as table.
+
+The filters are the analogue ones of ISO 8041-1, the table its design-goal factors in one-third-octave bands.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import ClassVar
+
+import control
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .. import checks, datafiles
+
+
+@dataclass(frozen=True)
+class FilterWeighting:
+    """Weighting by an analogue filter, named as in ISO 2631: ``"Wk"``."""
+
+    name: str
+
+    breakpoints: ClassVar[tuple[float, ...]] = ()
+    """Frequencies at which the factor has a kink [Hz]: none."""
+
+    def factor(self, f: ArrayLike) -> NDArray[np.float64]:
+        """Magnitude of the weighting at the frequencies `f` (n,) [Hz], shape (n,) [-]."""
+        return np.abs(weighting(self.name)(2j * np.pi * np.asarray(f, dtype=float)))
+
+
+@dataclass(frozen=True)
+class TabulatedWeighting:
+    """Weighting by the one-third-octave table, straight in log factor over log frequency between the bands.
+
+    Beyond the table's 0.1 and 100 Hz the first and the last segment go on.
+    """
+
+    name: str
+
+    @property
+    def breakpoints(self) -> tuple[float, ...]:
+        """Frequencies at which the factor has a kink [Hz]: the bands inside the table."""
+        return tuple(np.exp(self._table()[0][1:-1]).tolist())
+
+    def factor(self, f: ArrayLike) -> NDArray[np.float64]:
+        """Magnitude of the weighting at the frequencies `f` (n,) [Hz], shape (n,) [-]."""
+        log_band, log_factor = self._table()
+        log_f = np.log(np.asarray(f, dtype=float))
+        segment = np.clip(np.searchsorted(log_band, log_f) - 1, 0, log_band.size - 2)
+        slope = np.diff(log_factor)[segment] / np.diff(log_band)[segment]
+        return np.exp(log_factor[segment] + slope * (log_f - log_band[segment]))
+
+    def _table(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        column = self.name.removesuffix("-table").lower()
+        rows = datafiles.rows("standards/iso8041_wk_wb_table.csv")
+        return np.log(BANDS), np.log([float(row[column]) for row in rows])
+
+
+BANDS = 10.0 ** (np.arange(-10, 21) / 10)
+"""Exact frequencies of the table's one-third-octave bands [Hz]; its frequency column rounds them."""
+
+FILTERS = ("Wk", "Wd", "Wf", "Wc", "We", "Wj", "Wb")
+TABLES = ("Wk-table", "Wb-table")
+
+
+def by_name(name: str) -> FilterWeighting | TabulatedWeighting:
+    """Return the weighting called `name`, one of `FILTERS` or `TABLES`; ValueError for any other."""
+    checks.one_of("weighting", name, FILTERS + TABLES)
+    return TabulatedWeighting(name) if name in TABLES else FilterWeighting(name)
+
+
+def weighting(name: str) -> control.TransferFunction:
+    """Return a weighting filter of ISO 2631 as a transfer function.
+
+    Parameters
+    ----------
+    name : str
+        One of ``Wk, Wd, Wf, Wc, We, Wj`` (ISO 2631-1) and ``Wb`` (ISO 2631-4).
+
+    Returns
+    -------
+    control.TransferFunction
+        From acceleration to weighted acceleration [-]: the product of band limiting,
+        acceleration-velocity transition and upward step of ISO 8041-1 with the weighting's gain.
+
+    Raises
+    ------
+    ValueError
+        If there is no filter of that name.
+    """
+    checks.one_of("weighting", name, FILTERS)
+    return _filter(name).copy()
+
+
+@lru_cache
+def _filter(name: str) -> control.TransferFunction:
+    p = _parameters(name)
+    filter_ = p["gain"] * _band_limits(p) * _transition(p) * _upward_step(p)
+    filter_.update_names(name=name, inputs=["acceleration"], outputs=["weighted_acceleration"])
+    return filter_
+
+
+def _parameters(name: str) -> dict[str, float]:
+    """Row of the standard's table: gain, quality factors and frequencies [Hz]; where it has none, NaN."""
+    row = next(r for r in datafiles.rows("standards/iso8041_parameters.csv") if r["weighting"] == name)
+    return {key: float(row[key] or "nan") for key in row if key not in ("weighting", "use")}
+
+
+def _band_limits(p: dict[str, float]) -> control.TransferFunction:
+    """Two-pole Butterworth high pass at f1 and low pass at f2."""
+    w1, q = 2 * math.pi * p["f1_hz"], 1 / math.sqrt(2)
+    high_pass = control.tf([1 / w1**2, 0, 0], _quadratic(p["f1_hz"], q))
+    low_pass = control.tf([1], _quadratic(p["f2_hz"], q))
+    return high_pass * low_pass
+
+
+def _transition(p: dict[str, float]) -> control.TransferFunction:
+    """Weight on acceleration below f3, on velocity above f4; either or both may be infinite."""
+    if math.isinf(p["f4_hz"]):
+        return control.tf([1], [1])
+    lead = [1] if math.isinf(p["f3_hz"]) else [1 / (2 * math.pi * p["f3_hz"]), 1]
+    return control.tf(lead, _quadratic(p["f4_hz"], p["q4"]))
+
+
+def _upward_step(p: dict[str, float]) -> control.TransferFunction:
+    """Step from (f5/f6)^2 at low to one at high frequency; absent where both are infinite."""
+    if math.isinf(p["f5_hz"]):
+        return control.tf([1], [1])
+    step = (p["f5_hz"] / p["f6_hz"]) ** 2
+    return step * control.tf(_quadratic(p["f5_hz"], p["q5"]), _quadratic(p["f6_hz"], p["q6"]))
+
+
+def _quadratic(f: float, q: float) -> list[float]:
+    """Coefficients of 1 + s/(q w) + (s/w)^2 with w = 2 pi f, highest power first."""
+    w = 2 * math.pi * f
+    return [1 / w**2, 1 / (q * w), 1]

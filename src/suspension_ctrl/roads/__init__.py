@@ -1,0 +1,1 @@
+"""Roads: spectra, coherence of tracks, profiles, measured and from files."""

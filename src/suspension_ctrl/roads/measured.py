@@ -1,0 +1,227 @@
+"""Roads as measured: the spectrum and the coherence of a profile, or a spectrum from a table."""
+
+from dataclasses import KW_ONLY, dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import checks
+from .coherence import Coherence, Isotropic, Tabulated
+from .curves import DISTANCE, PSD, columns, read_curve, read_profile
+from .profiles import Profile
+from .road import RandomRoad
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+
+SEGMENTS = 8
+"""Into how many lengths a profile is cut for its spectrum, where nothing else is said."""
+_LOWEST = 4
+"""Waves in a segment at the lowest usable wavenumber: longer waves leak in some percent there."""
+_POINTS = 4
+"""Points in a wave at the highest usable wavenumber: there an exponent of 2 folds in a ninth from short waves."""
+_LEAST = 32
+"""Points of the shortest segment, which has waves 4 to 8."""
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredRoad(RandomRoad):
+    """Road of a measured spectrum, a power law between each two of its wavenumbers and nothing beyond them.
+
+    `from_profile`, `from_csv` make one; `band` is where it holds.
+
+    Parameters
+    ----------
+    wavenumber : (k,) array_like
+        Ascending and above zero [cycle/m].
+    density : (k,) array_like
+        One-sided spectral density of elevation [m^3], above zero.
+    coherence : Coherence
+        How alike parallel tracks are. `Isotropic` needs an exponent here, as the spectrum ends.
+    source : str
+        What the spectrum is from, for `describe`.
+
+    Raises
+    ------
+    ValueError
+        If there are less than two wavenumbers, or they or the densities are not as above.
+    """
+
+    wavenumber: NDArray[np.float64]
+    density: NDArray[np.float64]
+    _: KW_ONLY
+    coherence: Coherence = field(default_factory=Isotropic)
+    source: str = "a table"
+
+    def __post_init__(self) -> None:
+        n, density = np.array(self.wavenumber, dtype=float), np.array(self.density, dtype=float)
+        if n.ndim != 1 or n.shape != density.shape or n.size < 2:
+            raise ValueError(
+                f"wavenumber and density must be of one length >= 2, got {n.shape} and {density.shape}"
+            )
+        if not (np.isfinite(n).all() and (np.diff(n, prepend=0.0) > 0).all()):
+            raise ValueError("wavenumber must be finite, above zero and ascend")
+        if not (np.isfinite(density) & (density > 0)).all():
+            raise ValueError(
+                f"density must be finite and > 0 m^3 throughout, got a least value of {density.min()}"
+            )
+        for name, values in (("wavenumber", n), ("density", density)):
+            values.flags.writeable = False
+            object.__setattr__(self, name, values)
+
+    @classmethod
+    def from_profile(
+        cls,
+        profile: Profile,
+        *,
+        segment: float | None = None,
+        coherence: Coherence | None = None,
+        source: str = "a profile",
+    ) -> "MeasuredRoad":
+        """Estimate spectrum and coherence of a profile.
+
+        Welch's method: segments that overlap by half, each rid of its straight line and weighted with Hann's
+        window; means over segments and tracks, then over third-octave bands. Usable are wavenumbers from four
+        waves in a segment to four points in a wave. Steps that are uneven within what `Profile` allows count as
+        their mean.
+
+        Parameters
+        ----------
+        profile : Profile
+            The profile.
+        segment : float, optional
+            Length of a segment [m]; an eighth of the profile if not given. A longer one reaches longer waves, a
+            shorter one has a smaller scatter.
+        coherence : Coherence, optional
+            How alike parallel tracks are. If not given, the profile's own where it has two tracks that are apart:
+            the root of the squared coherence over the same bands, which for strangers is not 0 but about the root
+            of one over the number of estimates in a band. With one track, or more than two, `Isotropic`.
+        source : str
+            What the profile is from, for `describe`.
+
+        Raises
+        ------
+        ValueError
+            If the profile or the segment is too short, the segment longer than the profile, or a track flat.
+        """
+        points = _segment_points(profile, segment)
+        n, spectra = _welch(profile, points)
+        edges = _third_octaves(n, 1 / (_POINTS * profile.step))
+        middle = np.exp(_means(np.log(np.maximum(n, n[1])) + 0j, edges).real)
+        smooth = _means(spectra, edges)
+        own = np.einsum("iib->ib", smooth).real
+        if not (own > 0).all():
+            raise ValueError("a profile must not be flat in any track")
+        if coherence is None and len(set(profile.tracks)) == len(profile.tracks) == 2:
+            gamma = np.minimum(np.abs(smooth[0, 1]) / np.sqrt(own[0]) / np.sqrt(own[1]), 1.0)
+            coherence = Tabulated(tuple(middle), tuple(gamma), abs(profile.tracks[0] - profile.tracks[1]))
+        density = own.mean(axis=0)
+        return cls(middle, density, coherence=coherence or Isotropic(), source=source)
+
+    @classmethod
+    def from_csv(
+        cls,
+        path: "str | PathLike[str]",
+        *,
+        track_width: float | None = None,
+        segment: float | None = None,
+        coherence: Coherence | None = None,
+    ) -> "MeasuredRoad":
+        """Read a profile or a spectrum, whichever the columns are of; see `road_tables` and `from_profile`.
+
+        Raises
+        ------
+        ValueError
+            Naming the file, as `read_profile`, `read_curve`, `from_profile` and the road itself raise, or for a
+            `track_width` or `segment` beside a spectrum.
+        OSError
+            If the file cannot be read.
+        """
+        if columns(path)[0] == DISTANCE:
+            profile = read_profile(path, track_width)
+        else:
+            profile, (n, density) = None, read_curve(path, PSD)
+        try:
+            if profile is not None:
+                return cls.from_profile(profile, segment=segment, coherence=coherence, source=str(path))
+            if track_width is not None or segment is not None:
+                raise ValueError("a spectrum takes neither track_width nor segment")
+            return cls(n, density, coherence=coherence or Isotropic(), source=str(path))
+        except ValueError as error:
+            raise ValueError(f"{path}: {error}") from None
+
+    @property
+    def band(self) -> tuple[float, float]:
+        """Lowest and highest wavenumber at which the road is known [cycle/m]."""
+        return float(self.wavenumber[0]), float(self.wavenumber[-1])
+
+    def describe(self) -> str:
+        """Return a line that says which road this is."""
+        low, high = self.band
+        reference = f"Gd(0.1 cycle/m) = {self.psd(0.1, 1.0):.3g} m^3, " if low <= 0.1 <= high else ""
+        return f"measured, {self.source}: {reference}known from {low:.3g} to {high:.3g} cycle/m"
+
+    def breakpoints(self, speed: float, /) -> tuple[float, ...]:
+        """Frequencies of the wavenumbers inside the band at `speed` [m/s], kinks of the spectrum [Hz]."""
+        return tuple((self.wavenumber[1:-1] * speed).tolist())
+
+    def isotropic_coherence(self, _n: NDArray[np.float64], _distance: float) -> NDArray[np.float64]:
+        """Raise ValueError: isotropy takes the spectrum of all shorter waves to give a coherence."""
+        raise ValueError(
+            "coherence of a measured spectrum must be a model of its own, such as Isotropic(exponent=2.0), "
+            "got Isotropic(), which needs the spectrum of all shorter waves"
+        )
+
+    def _psd(self, f: NDArray[np.float64], speed: float) -> NDArray[np.float64]:
+        n, (low, high) = f / speed, self.band
+        outside = ~((n >= low * (1 - 1e-9)) & (n <= high * (1 + 1e-9)))  # f = V n may round
+        if outside.any():
+            raise ValueError(
+                f"f must lie from {low * speed:.5g} to {high * speed:.5g} Hz at {speed:g} m/s, as the road is "
+                f"known from {low:.5g} to {high:.5g} cycle/m, got {f[outside].flat[0]:.5g} Hz"
+            )
+        return np.exp(np.interp(np.log(n), np.log(self.wavenumber), np.log(self.density))) / speed
+
+
+def _segment_points(profile: Profile, segment: float | None) -> int:
+    """Points in a segment of so many metres, or of its share of the profile."""
+    whole = profile.distance.size
+    if segment is not None:
+        checks.positive("segment", segment, "m")
+    points = whole // SEGMENTS if segment is None else round(min(segment / profile.step, whole + 1))
+    if not _LEAST <= points <= whole:
+        least = _LEAST * profile.step
+        allowed = f"a segment from {least:g} to {whole * profile.step:g} m, got {segment!r}"
+        if segment is None:
+            allowed = f"{_LEAST * SEGMENTS} points at least, or longer segments than an eighth, got {whole} points"
+        raise ValueError(f"a profile in steps of {profile.step:g} m must have {allowed}")
+    return points
+
+
+def _welch(profile: Profile, points: int) -> tuple[NDArray[np.float64], NDArray[np.complex128]]:
+    """Wavenumbers (k,) [cycle/m] and cross-spectra (t, t, k) [m^3] of the tracks by segments of so many points."""
+    from scipy import signal
+
+    tracks = profile.height.T
+    n, spectra = signal.csd(
+        tracks[:, None], tracks[None, :], fs=1 / profile.step, nperseg=points, detrend=signal.detrend
+    )
+    return n, spectra
+
+
+def _third_octaves(n: NDArray[np.float64], highest: float) -> NDArray[np.int64]:
+    """Where third-octave bands begin in the usable part of wavenumbers k/segment, and where the last one ends.
+
+    The first is about the lowest usable wavenumber. None is empty, each being wide by 0.23 of its middle.
+    """
+    end = int(np.searchsorted(n, highest * (1 + 1e-9), side="right"))
+    band = np.round(3 * np.log2(np.arange(_LOWEST, end) / _LOWEST))
+    return np.append(_LOWEST + np.flatnonzero(np.diff(band, prepend=-1)), end)
+
+
+def _means(values: NDArray[np.complex128], edges: NDArray[np.int64]) -> NDArray[np.complex128]:
+    """Means of values (..., k) over the bands between the edges (b + 1,), shape (..., b)."""
+    sums: NDArray[np.complex128] = np.add.reduceat(values[..., : edges[-1]], edges[:-1], axis=-1)
+    return sums / np.diff(edges)

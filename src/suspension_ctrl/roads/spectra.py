@@ -1,0 +1,181 @@
+"""Roads as one-sided spectral densities of elevation, met over time frequency."""
+
+from dataclasses import KW_ONLY, dataclass, field
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import checks, datafiles
+from .coherence import Coherence, Isotropic
+from .isotropy import power_law_coherence, two_slope_coherence
+from .road import RandomRoad
+
+
+@dataclass(frozen=True, kw_only=True)
+class PowerLawRoad(RandomRoad):
+    """Road whose elevation spectrum is a single power of frequency (Yuen and Ramli 2010, Table 1).
+
+    Over wavenumber n [cycle/m] the spectrum is ``roughness / n**exponent``.
+
+    Parameters
+    ----------
+    roughness : float
+        One-sided spectral density at 1 cycle/m, G [m^(3 - exponent) cycle^(exponent - 1)].
+    exponent : float
+        Waviness kappa [-].
+    coherence : Coherence
+        How alike parallel tracks are.
+
+    Raises
+    ------
+    ValueError
+        If a parameter is not finite and above zero.
+    """
+
+    roughness: float
+    exponent: float
+    coherence: Coherence = field(default_factory=Isotropic)
+
+    def __post_init__(self) -> None:
+        checks.positive("roughness", self.roughness)
+        checks.positive("exponent", self.exponent)
+
+    def describe(self) -> str:
+        """Return a line that says which road this is."""
+        return f"power law: Gd(1 cycle/m) = {self.roughness:g} m^3, exponent {self.exponent:g}"
+
+    def isotropic_coherence(self, n: NDArray[np.float64], distance: float) -> NDArray[np.float64]:
+        """Return the coherence of an isotropic surface, see `power_law_coherence`."""
+        return power_law_coherence(n, distance, self.exponent)
+
+    def _psd(self, f: NDArray[np.float64], speed: float) -> NDArray[np.float64]:
+        return self.roughness * speed ** (self.exponent - 1) / f**self.exponent
+
+
+@dataclass(frozen=True, kw_only=True)
+class TwoSlopeRoad(RandomRoad):
+    """Road whose elevation spectrum has one exponent below a wavenumber and another above (Dodds and Robson 1973).
+
+    Parameters
+    ----------
+    roughness : float
+        One-sided spectral density at the reference wavenumber, Gd(n0) [m^3].
+    reference : float
+        Reference wavenumber n0 [cycle/m], on either side of the corner.
+    lower_exponent, upper_exponent : float
+        Waviness below and above the corner [-].
+    corner : float
+        Wavenumber at which the exponent changes [cycle/m]; the spectrum is continuous there.
+    coherence : Coherence
+        How alike parallel tracks are.
+
+    Raises
+    ------
+    ValueError
+        If a parameter is not finite and above zero.
+    """
+
+    roughness: float
+    reference: float
+    lower_exponent: float
+    upper_exponent: float
+    corner: float
+    coherence: Coherence = field(default_factory=Isotropic)
+
+    def __post_init__(self) -> None:
+        for name, unit in (("roughness", "m^3"), ("reference", "cycle/m"), ("corner", "cycle/m")):
+            checks.positive(name, getattr(self, name), unit)
+        checks.positive("lower_exponent", self.lower_exponent)
+        checks.positive("upper_exponent", self.upper_exponent)
+
+    def describe(self) -> str:
+        """Return a line that says which road this is."""
+        return (
+            f"two slopes: Gd({self.reference:g} cycle/m) = {self.roughness:g} m^3, exponent "
+            f"{self.lower_exponent:g} below and {self.upper_exponent:g} above {self.corner:g} cycle/m"
+        )
+
+    def breakpoints(self, speed: float, /) -> tuple[float, ...]:
+        """Frequency of the corner at `speed` [m/s], the only kink of the spectrum [Hz]."""
+        return (self.corner * speed,)
+
+    def isotropic_coherence(self, n: NDArray[np.float64], distance: float) -> NDArray[np.float64]:
+        """Return the coherence of an isotropic surface, see `two_slope_coherence`."""
+        return two_slope_coherence(n, distance, self.lower_exponent, self.upper_exponent, self.corner)
+
+    def _psd(self, f: NDArray[np.float64], speed: float) -> NDArray[np.float64]:
+        at_corner = self.roughness / self._shape(np.array(self.reference))
+        return at_corner * self._shape(f / speed) / speed
+
+    def _shape(self, n: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Spectrum over wavenumbers [cycle/m], one at the corner."""
+        ratio = n / self.corner
+        return ratio ** -np.where(ratio < 1, self.lower_exponent, self.upper_exponent)
+
+
+@dataclass(frozen=True)
+class Iso8608Road(RandomRoad):
+    """Road of a class of ISO 8608:2016, ``Gd(n) = Gd(n0) (n/n0)^-w`` with n0 = 0.1 cycle/m.
+
+    Parameters
+    ----------
+    road_class : str
+        ``"A"`` (smoothest) to ``"H"``.
+    level : str
+        ``"geometric mean"`` of the class, or its ``"lower"`` or ``"upper"`` limit. A has no lower, H no upper one.
+    waviness : float
+        Exponent w [-]; 2 in the standard's classes.
+    coherence : Coherence
+        How alike parallel tracks are.
+
+    Raises
+    ------
+    ValueError
+        If there is no such class or level, or the waviness is not finite and above zero.
+    """
+
+    road_class: str
+    _: KW_ONLY
+    level: str = "geometric mean"
+    waviness: float = 2.0
+    coherence: Coherence = field(default_factory=Isotropic)
+
+    def __post_init__(self) -> None:
+        checks.one_of("road_class", self.road_class, tuple(_classes()))
+        checks.one_of("level", self.level, tuple(_classes()[self.road_class]))
+        checks.positive("waviness", self.waviness)
+
+    @property
+    def roughness(self) -> float:
+        """Spectral density at the reference wavenumber, Gd(n0) [m^3]."""
+        return _classes()[self.road_class][self.level]
+
+    @property
+    def reference(self) -> float:
+        """Reference wavenumber n0 [cycle/m]."""
+        return 0.1
+
+    def describe(self) -> str:
+        """Return a line that says which road this is."""
+        return (
+            f"ISO 8608 class {self.road_class}, {self.level}: Gd({self.reference:g} cycle/m) = "
+            f"{1e6 * self.roughness:g}e-6 m^3, waviness {self.waviness:g}"
+        )
+
+    def isotropic_coherence(self, n: NDArray[np.float64], distance: float) -> NDArray[np.float64]:
+        """Return the coherence of an isotropic surface, see `power_law_coherence`."""
+        return power_law_coherence(n, distance, self.waviness)
+
+    def _psd(self, f: NDArray[np.float64], speed: float) -> NDArray[np.float64]:
+        return self.roughness * (f / (speed * self.reference)) ** -self.waviness / speed
+
+
+@lru_cache
+def _classes() -> dict[str, dict[str, float]]:
+    """Gd(n0) [m^3] by class and level; a level that a class does not have is absent."""
+    levels = {"geometric mean": "gd_n0_geometric_mean", "lower": "gd_n0_lower", "upper": "gd_n0_upper"}
+    return {
+        row["class"]: {level: float(row[column]) for level, column in levels.items() if row[column]}
+        for row in datafiles.rows("standards/iso8608_classes.csv")
+    }

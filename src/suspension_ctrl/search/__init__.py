@@ -1,0 +1,1 @@
+"""Multi-objective searches as DEAP toolboxes over arrays; they know no cars."""

@@ -1,0 +1,177 @@
+"""The NSGA-II of MATLAB's ``gamultiobj`` as of 2008, the paper's own, as a DEAP toolbox over arrays.
+
+Documented by The MathWorks (Genetic Algorithm and Direct Search Toolbox, "gamultiobj Algorithm" and "Options
+Reference"): a controlled elitist NSGA-II; tournaments of two; a fraction 0.8 of the children from intermediate
+crossover, the others from adaptive-feasible mutation; at most a fraction 0.35 of the population from the first
+front as long as others exist; crowding distance in objective space.
+
+Our reading, where nothing is documented: one child per pair of parents; beyond the first front survivors are
+taken rank by rank, less crowded ones first; a mutant goes in a uniformly random direction, turned away from bounds
+on which it lies, as far as drawn uniformly up to a step and the bounds; "adaptive with respect to the last
+successful or unsuccessful generation" is Rechenberg's rule: the step doubles where more than a fifth of the
+mutants survived, and halves otherwise; room left by the first front is for feasible designs, as long as there are
+any.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import ceil
+from typing import ClassVar
+
+import moocore
+import numpy as np
+from deap.base import Toolbox
+from numpy.typing import NDArray
+
+from .. import checks
+from .constraints import any_feasible, constrained, ideal_with, violations
+from .operators import sample_uniform
+from .population import State
+from .problem import Minimisable, evaluate_checked
+from .selection import crowding_distances
+
+_SUCCESS = 0.2
+"""Share of surviving mutants above which the step grows (I. Rechenberg, "Evolutionsstrategie", 1973)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gamultiobj:
+    """Settings of the controlled NSGA-II; an iteration costs `population` evaluations, and so does the start.
+
+    Parameters
+    ----------
+    population : int
+        Size of the population N, at least 4.
+    crossover_fraction : float
+        Share of the children that come from crossover; the others are mutants.
+    pareto_fraction : float
+        Largest share of the survivors that come from the first front while there are others.
+
+    Raises
+    ------
+    ValueError
+        If a setting is out of range.
+    """
+
+    population: int
+    crossover_fraction: float = 0.8
+    pareto_fraction: float = 0.35
+
+    phases: ClassVar[tuple[str, ...]] = ("sample", "evaluate", "tournament", "mate", "mutate", "select")
+
+    def __post_init__(self) -> None:
+        checks.at_least("population", self.population, 4)
+        checks.within("crossover_fraction", self.crossover_fraction, 0, 1)
+        checks.within("pareto_fraction", self.pareto_fraction, 0, 1)
+
+    def evaluations_per_iteration(self, objectives: int) -> int:  # noqa: ARG002
+        """Return how many designs an iteration evaluates."""
+        return self.population
+
+    def toolbox(self, problem: Minimisable) -> Toolbox:
+        """Return the verbs of the algorithm, with these settings, for `problem`."""
+        lower, upper = (np.asarray(bound, dtype=float) for bound in (problem.lower, problem.upper))
+        toolbox = Toolbox()
+        toolbox.register("sample", sample_uniform, lower=lower, upper=upper)
+        toolbox.register("evaluate", problem.evaluate)
+        toolbox.register("tournament", ranked_tournament)
+        toolbox.register("mate", intermediate_crossover)
+        toolbox.register("mutate", feasible_steps, lower=lower, upper=upper)
+        toolbox.register("select", select_controlled, pareto_fraction=self.pareto_fraction)
+        return toolbox
+
+    def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:
+        """Yield the state after the start and after each iteration, without end."""
+        size, m = self.population, len(problem.objectives)
+        crossed = round(self.crossover_fraction * size)
+        designs = np.array(toolbox.sample(rng, size), dtype=float)
+        values = evaluate_checked(toolbox.evaluate, designs, problem)
+        _, rank, crowding = toolbox.select(constrained(values, m), size)
+        ideal, evaluations, step = ideal_with(np.full(m, np.inf), values, False), size, 1.0
+        yield State.of(designs, values, ideal, evaluations)
+        while True:
+            parents = designs[toolbox.tournament(rng, rank, crowding, 2 * crossed + size - crossed)]
+            pairs, alone = parents[: 2 * crossed], parents[2 * crossed :]
+            children = np.concatenate([toolbox.mate(rng, pairs), toolbox.mutate(rng, alone, step)])
+            born = evaluate_checked(toolbox.evaluate, children, problem)
+            ideal, evaluations = ideal_with(ideal, born, any_feasible(values, m)), evaluations + size
+            designs, values = np.concatenate([designs, children]), np.concatenate([values, born])
+            pool = contenders(values, m, size)
+            kept, rank, crowding = toolbox.select(constrained(values[pool], m), size)
+            kept = pool[kept]
+            survived = np.count_nonzero(kept >= size + crossed) / max(1, size - crossed)
+            step = min(1.0, 2 * step) if survived > _SUCCESS else step / 2
+            designs, values = designs[kept], values[kept]
+            yield State.of(designs, values, ideal, evaluations)
+
+
+def ranked_tournament(
+    rng: np.random.Generator, rank: NDArray[np.int64], crowding: NDArray[np.float64], size: int
+) -> NDArray[np.int64]:
+    """Return `size` parents, winners of tournaments of two drawn from all (n,): lower rank, then less crowded."""
+    a, b = (rng.random((2, size)) * rank.size).astype(np.int64)
+    b_wins = (rank[b] < rank[a]) | ((rank[b] == rank[a]) & (crowding[b] > crowding[a]))
+    return np.where(b_wins, b, a)
+
+
+def intermediate_crossover(rng: np.random.Generator, parents: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return one child (n, d) for each two consecutive parents (2 n, d), anywhere in the box between them."""
+    first, second = parents[::2], parents[1::2]
+    return first + rng.random(first.shape) * (second - first)
+
+
+def feasible_steps(
+    rng: np.random.Generator,
+    designs: NDArray[np.float64],
+    step: float,
+    lower: NDArray[np.float64],
+    upper: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Return mutants (n, d): a step in a random direction, up to `step` widths of the box long and inside it."""
+    direction = rng.normal(size=designs.shape)
+    direction *= (upper - lower) / np.linalg.norm(direction, axis=1, keepdims=True)
+    blocked = ((direction > 0) & (designs >= upper)) | ((direction < 0) & (designs <= lower))
+    direction[blocked] *= -1  # a direction that satisfies the bounds, as documented: off a bound, not against it
+    bound = np.where(direction > 0, upper, lower)
+    room = np.min((bound - designs) / direction, axis=1, initial=step)
+    moved = designs + (rng.random(len(designs)) * room)[:, np.newaxis] * direction
+    return np.clip(moved, lower, upper)
+
+
+def contenders(values: NDArray[np.float64], m: int, size: int) -> NDArray[np.int64]:
+    """Return who of a population may survive, in ascending order: all feasible ones, at least `size` in any case.
+
+    From values (n, m + c). Where fewer are feasible, those of the least violation come with them.
+    """
+    violation = violations(values, m)
+    count = max(size, np.count_nonzero(violation == 0))
+    return np.sort(np.argsort(violation, kind="stable")[:count])
+
+
+def select_controlled(
+    objectives: NDArray[np.float64], size: int, pareto_fraction: float
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
+    """Keep `size` individuals of (n, m), no more than a fraction of them from the first front while others exist.
+
+    Returns
+    -------
+    index : (size,) ndarray
+        Survivors in ascending order.
+    rank : (size,) ndarray
+        Their fronts, from 0.
+    crowding : (size,) ndarray
+        Their crowding distances [-] in whole fronts.
+
+    References
+    ----------
+    K. Deb and T. Goel, "Controlled elitist non-dominated sorting genetic algorithms for better convergence",
+    EMO 2001, for the idea of leaving room for later fronts.
+    """
+    rank = moocore.pareto_rank(objectives).astype(np.int64)
+    crowding, _ = crowding_distances(objectives, rank, np.arange(rank.size))
+    preferred = np.lexsort((-crowding, rank))
+    best = np.count_nonzero(rank == 0)
+    limit = min(best, ceil(pareto_fraction * size))
+    preferred = np.concatenate([preferred[:limit], preferred[best:], preferred[limit:best]])
+    index = np.sort(preferred[:size])
+    return index, rank[index], crowding[index]

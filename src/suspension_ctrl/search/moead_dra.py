@@ -1,0 +1,166 @@
+"""MOEA/D-DRA (Zhang, Liu and Li 2009) as a DEAP toolbox over arrays."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import count
+from typing import ClassVar
+
+import numpy as np
+from deap.base import Toolbox
+from numpy.typing import NDArray
+
+from .. import checks
+from . import decomposition, operators
+from .constraints import ideal_with
+from .population import State
+from .problem import Minimisable, evaluate_checked
+from .sweep import Decomposed, sweep_batch, sweep_sequential
+
+_SWEEPS = {"sequential": sweep_sequential, "batch": sweep_batch}
+
+
+@dataclass(frozen=True, kw_only=True)
+class MoeadDra:
+    """Settings of MOEA/D-DRA; the start costs `population` evaluations, an iteration a fifth of that.
+
+    Parameters
+    ----------
+    population : int
+        Number of subproblems N, at least five times the number of objectives.
+    neighbourhood : float
+        Size T of a neighbourhood as a fraction of N; at least 2 subproblems.
+    neighbour_probability : float
+        Probability delta that mates come from the neighbourhood.
+    replacement_limit : float
+        Number n_r of partners that a child may replace as a fraction of N; at least 1.
+    scale_factor : float
+        Factor F of differential evolution.
+    mutation_probability : float, optional
+        Probability that a variable mutates, 1/d if not given.
+    mutation_eta : float
+        Distribution index of polynomial mutation.
+    tournament : int
+        Number of subproblems of which the one with the highest utility is worked on.
+    utility_period : int
+        Iterations from one update of the utilities to the next.
+    utility_threshold : float
+        Relative progress above which a subproblem's utility is 1.
+    normalise : bool
+        Divide each objective by its span, from the ideal point to the worst in the population at the start of
+        the iteration (of feasible designs, where there are any); False is equation (14) to the letter.
+    objective_scales : (m,) sequence of float, optional
+        Only without normalisation: what each objective is divided by in its place, 1 if not given. On the ride
+        problem ``(1, 1, 1e3)`` takes DTL in kN, as the paper states it.
+    update : {"sequential", "batch"}
+        Let each child see every replacement before it (the definition), or make all children of an iteration
+        from the population at its start and evaluate them in one call.
+
+    Raises
+    ------
+    ValueError
+        If a setting is out of range.
+    """
+
+    population: int
+    neighbourhood: float = 0.1
+    neighbour_probability: float = 0.9
+    replacement_limit: float = 0.01
+    scale_factor: float = 0.5
+    mutation_probability: float | None = None
+    mutation_eta: float = 20.0
+    tournament: int = 10
+    utility_period: int = 50
+    utility_threshold: float = 0.001
+    normalise: bool = True
+    objective_scales: tuple[float, ...] | None = None
+    update: str = "sequential"
+
+    phases: ClassVar[tuple[str, ...]] = (
+        "sample", "evaluate", "choose_subproblems", "sweep", "update_utility",
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        checks.at_least("population", self.population, 4)
+        checks.positive("scale_factor", self.scale_factor)
+        checks.positive("mutation_eta", self.mutation_eta)
+        checks.positive("utility_threshold", self.utility_threshold)
+        for name in ("neighbourhood", "neighbour_probability", "replacement_limit"):
+            checks.within(name, getattr(self, name), 0, 1)
+        if self.mutation_probability is not None:
+            checks.within("mutation_probability", self.mutation_probability, 0, 1)
+        checks.at_least("tournament", self.tournament, 1)
+        checks.at_least("utility_period", self.utility_period, 1)
+        checks.one_of("normalise", self.normalise, (True, False))
+        if self.objective_scales is not None:
+            for scale in np.ravel(self.objective_scales):
+                checks.positive("objective_scales", scale)
+            if self.normalise:
+                raise ValueError(f"objective_scales must be None with normalise, got {self.objective_scales!r}")
+        checks.one_of("update", self.update, _SWEEPS)
+
+    def evaluations_per_iteration(self, objectives: int) -> int:
+        """Return how many designs an iteration evaluates; ValueError if the corners alone would be more."""
+        if self.population < 5 * objectives:
+            raise ValueError(
+                f"population must be >= {5 * objectives} for {objectives} objectives, since a fifth of it "
+                f"holds every corner subproblem, got {self.population}"
+            )
+        return self.population // 5
+
+    def toolbox(self, problem: Minimisable) -> Toolbox:
+        """Return the verbs of the algorithm, with these settings, for `problem`."""
+        lower, upper = (np.asarray(bound, dtype=float) for bound in (problem.lower, problem.upper))
+        probability = 1 / lower.size if self.mutation_probability is None else self.mutation_probability
+        limit = max(1, int(self.replacement_limit * self.population))
+        toolbox = Toolbox()
+        toolbox.register("sample", operators.sample_uniform, lower=lower, upper=upper)
+        toolbox.register("evaluate", problem.evaluate)
+        toolbox.register("choose_subproblems", decomposition.choose_subproblems, tournament=self.tournament)
+        toolbox.register("mating_range", decomposition.mating_range, probability=float(self.neighbour_probability))
+        toolbox.register("reproduce", operators.differential_child, scale=float(self.scale_factor))
+        toolbox.register("repair", operators.redraw_outside, lower=lower, upper=upper)
+        toolbox.register(
+            "mutate", operators.mutate_design,
+            lower=lower, upper=upper, eta=float(self.mutation_eta), probability=float(probability),
+        )  # fmt: skip
+        toolbox.register("update", decomposition.replace_worse, limit=limit)
+        toolbox.register("sweep", _SWEEPS[self.update])
+        toolbox.register("update_utility", decomposition.updated_utility, threshold=float(self.utility_threshold))
+        return toolbox
+
+    def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:
+        """Yield the state after the start and after each iteration, without end (Figure 4 of the paper)."""
+        size, m = self.population, len(problem.objectives)
+        vectors = decomposition.weight_vectors(size, m)
+        corners = decomposition.corner_subproblems(vectors)
+        weights = np.where(vectors == 0, decomposition.ZERO_WEIGHT, vectors) / self._scales(m)
+        designs = np.array(toolbox.sample(rng, size), dtype=float)
+        values = evaluate_checked(toolbox.evaluate, designs, problem)
+        neighbours = decomposition.neighbourhoods(size, m, max(2, int(self.neighbourhood * size)))
+        ideal = ideal_with(np.full(m, np.inf), values, False)
+        population = Decomposed(designs, values, ideal, weights, neighbours)
+        evaluations = size
+        yield population.state(evaluations)
+        utility, before = np.ones(size), values.copy()
+        for iteration in count(1):
+            if self.normalise:
+                population = population._replace(weights=weights / population.span())
+            chosen = toolbox.choose_subproblems(rng, utility, corners, self.evaluations_per_iteration(m))
+            toolbox.sweep(rng, chosen, population, toolbox, problem)
+            if iteration % self.utility_period == 0:
+                utility = toolbox.update_utility(
+                    utility, before, population.values, population.weights, population.ideal
+                )
+                before = population.values.copy()
+            evaluations += chosen.size
+            yield population.state(evaluations)
+
+    def _scales(self, objectives: int) -> NDArray[np.float64]:
+        scales = (
+            np.ones(objectives) if self.objective_scales is None else np.ravel(self.objective_scales).astype(float)
+        )
+        if scales.size != objectives:
+            raise ValueError(
+                f"objective_scales must be {objectives} numbers, one per objective, got {self.objective_scales!r}"
+            )
+        return scales

@@ -1,0 +1,109 @@
+"""NSGA-II (Deb et al. 2002) as a DEAP toolbox over arrays."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from deap.base import Toolbox
+
+from .. import checks
+from .constraints import any_feasible, constrained, ideal_with
+from .deap_adapter import select_with_deap
+from .operators import crowded_tournament, polynomial_mutation, sample_uniform, simulated_binary_crossover
+from .population import State
+from .problem import Minimisable, evaluate_checked
+from .selection import select_survivors
+
+_SELECTIONS = {
+    "array": (select_survivors, {}),
+    "deap-standard": (select_with_deap, {"nd": "standard"}),
+    "deap-log": (select_with_deap, {"nd": "log"}),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Nsga2:
+    """Settings of NSGA-II; an iteration costs `population` evaluations, and so does the start.
+
+    Parameters
+    ----------
+    population : int
+        Size of the population N, at least 4.
+    crossover_probability : float
+        Probability that two parents mate.
+    crossover_eta : float
+        Distribution index of simulated binary crossover.
+    mutation_probability : float, optional
+        Probability that a variable mutates, 1/d if not given.
+    mutation_eta : float
+        Distribution index of polynomial mutation.
+    selection : {"array", "deap-standard", "deap-log"}
+        Survivor selection: the array form, or DEAP's ``selNSGA2`` with its sorting of order m n^2 or its
+        faster one. "array" and "deap-standard" keep the same survivors.
+
+    Raises
+    ------
+    ValueError
+        If a setting is out of range.
+    """
+
+    population: int
+    crossover_probability: float = 0.9
+    crossover_eta: float = 20.0
+    mutation_probability: float | None = None
+    mutation_eta: float = 20.0
+    selection: str = "array"
+
+    phases: ClassVar[tuple[str, ...]] = ("sample", "evaluate", "tournament", "mate", "mutate", "select")
+
+    def __post_init__(self) -> None:
+        checks.at_least("population", self.population, 4)
+        checks.within("crossover_probability", self.crossover_probability, 0, 1)
+        checks.positive("crossover_eta", self.crossover_eta)
+        if self.mutation_probability is not None:
+            checks.within("mutation_probability", self.mutation_probability, 0, 1)
+        checks.positive("mutation_eta", self.mutation_eta)
+        checks.one_of("selection", self.selection, _SELECTIONS)
+
+    def evaluations_per_iteration(self, objectives: int) -> int:  # noqa: ARG002
+        """Return how many designs an iteration evaluates."""
+        return self.population
+
+    def toolbox(self, problem: Minimisable) -> Toolbox:
+        """Return the verbs of the algorithm, with these settings, for `problem`."""
+        lower, upper = (np.asarray(bound, dtype=float) for bound in (problem.lower, problem.upper))
+        probability = 1 / lower.size if self.mutation_probability is None else self.mutation_probability
+        select, sorting = _SELECTIONS[self.selection]
+        toolbox = Toolbox()
+        toolbox.register("sample", sample_uniform, lower=lower, upper=upper)
+        toolbox.register("evaluate", problem.evaluate)
+        toolbox.register("tournament", crowded_tournament)
+        toolbox.register(
+            "mate", simulated_binary_crossover,
+            lower=lower, upper=upper, eta=self.crossover_eta, probability=self.crossover_probability,
+        )  # fmt: skip
+        toolbox.register(
+            "mutate", polynomial_mutation,
+            lower=lower, upper=upper, eta=self.mutation_eta, probability=probability,
+        )  # fmt: skip
+        toolbox.register("select", select, **sorting)
+        return toolbox
+
+    def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:
+        """Yield the state after the start and after each iteration, without end (Figure 3 of the paper)."""
+        size, m = self.population, len(problem.objectives)
+        designs = np.array(toolbox.sample(rng, size), dtype=float)
+        values = evaluate_checked(toolbox.evaluate, designs, problem)
+        kept, crowding = toolbox.select(constrained(values, m), size)
+        ideal, evaluations = ideal_with(np.full(m, np.inf), values, False), len(designs)
+        yield State.of(designs, values, ideal, evaluations)
+        while True:
+            parents = toolbox.tournament(rng, constrained(values, m), crowding, size)
+            children = toolbox.mutate(rng, toolbox.mate(rng, designs.take(parents, axis=0)))
+            born = evaluate_checked(toolbox.evaluate, children, problem)
+            ideal, evaluations = ideal_with(ideal, born, any_feasible(values, m)), evaluations + len(children)
+            designs, values = np.concatenate([designs, children]), np.concatenate([values, born])
+            kept, crowding = toolbox.select(constrained(values, m), size)
+            designs, values = designs.take(kept, axis=0), values.take(kept, axis=0)
+            yield State.of(designs, values, ideal, evaluations)

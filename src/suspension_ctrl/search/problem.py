@@ -1,0 +1,142 @@
+"""What the optimisers work on: objectives to be minimised over a box. They know no cars."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+import numpy as np
+from numba.core.registry import CPUDispatcher
+from numpy.typing import ArrayLike, NDArray
+
+from .. import checks
+
+Kernel = tuple[Callable[..., NDArray[np.float64]], tuple[Any, ...]]
+"""A numba-compiled function of one design (d,) to its objectives and constraints (m + c,), and its arguments."""
+
+
+class Minimisable(Protocol):
+    """The part of a problem that the optimisers use; `Problem` and `RideProblem` both have it."""
+
+    @property
+    def lower(self) -> Sequence[float]:
+        """Lower bounds of the variables (d,)."""
+
+    @property
+    def upper(self) -> Sequence[float]:
+        """Upper bounds of the variables (d,)."""
+
+    @property
+    def objectives(self) -> Sequence[str]:
+        """Names of the objectives (m,)."""
+
+    @property
+    def constraints(self) -> Sequence[str]:
+        """Names of the constraints (c,)."""
+
+    @property
+    def kernel(self) -> Kernel | None:
+        """Objectives and constraints of one design as a compiled function, if there is one."""
+
+    @property
+    def evaluate(self) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+        """Function from designs (n, d) to objectives and constraints (n, m + c)."""
+
+
+class Described(Minimisable, Protocol):
+    """A problem whose variables and units have names, so that tables can have headers."""
+
+    @property
+    def variables(self) -> Sequence[str]:
+        """Names of the variables (d,)."""
+
+    @property
+    def units(self) -> Mapping[str, str]:
+        """Unit of a variable or an objective by name."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Problem:
+    """Two or more objectives to be minimised over a box of real variables.
+
+    Parameters
+    ----------
+    evaluate : callable
+        From designs (n, d) to objectives (n, m), row by row; with constraints to (n, m + c).
+    lower, upper : (d,) sequence of float
+        Bounds of the variables.
+    objectives : (m,) sequence of str
+        Names of the objectives, m >= 2.
+    constraints : (c,) sequence of str, optional
+        Names of the constraints. After the objectives `evaluate` and `kernel` return a value g for each, which is
+        met where g <= 0. Violations are summed: divide each g by what it is measured against, for example
+        ``temperature / limit - 1``.
+    variables : (d,) sequence of str, optional
+        Names of the variables, ``x1 .. xd`` if not given.
+    units : mapping, optional
+        Unit of a variable or an objective by name.
+    kernel : (callable, tuple), optional
+        The objectives and constraints of a single design as a function compiled by numba, and its further
+        arguments; optimisers that go design by design then need not leave compiled code.
+
+    Raises
+    ------
+    ValueError
+        If the bounds are not finite or not lower < upper, the names do not fit, or the kernel is not compiled.
+    """
+
+    evaluate: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+    lower: Sequence[float]
+    upper: Sequence[float]
+    objectives: Sequence[str]
+    constraints: Sequence[str] = ()
+    variables: Sequence[str] = ()
+    units: Mapping[str, str] = field(default_factory=dict)
+    kernel: Kernel | None = None
+
+    def __post_init__(self) -> None:
+        checks.ordered("lower", "upper", self.lower, self.upper)
+        if isinstance(self.objectives, str) or len(set(self.objectives)) < max(2, len(self.objectives)):
+            raise ValueError(f"objectives must be 2 or more different names, got {self.objectives!r}")
+        outputs = [*self.objectives, *self.constraints]
+        if isinstance(self.constraints, str) or len(set(outputs)) < len(outputs):
+            raise ValueError(f"constraints must be names different from all others, got {self.constraints!r}")
+        names = tuple(self.variables) or tuple(f"x{i + 1}" for i in range(len(self.lower)))
+        if isinstance(self.variables, str) or not len(set(names)) == len(names) == len(self.lower):
+            raise ValueError(f"variables must be {len(self.lower)} different names, got {self.variables!r}")
+        object.__setattr__(self, "variables", names)
+        if self.kernel is not None and not _is_kernel(self.kernel):
+            raise ValueError(f"kernel must be a function compiled by numba and a tuple, got {self.kernel!r}")
+
+
+def _is_kernel(kernel: object) -> bool:
+    match kernel:
+        case (CPUDispatcher(), tuple()):
+            return True
+    return False
+
+
+def evaluate_checked(
+    evaluate: Callable[[NDArray[np.float64]], ArrayLike], designs: NDArray[np.float64], problem: Minimisable
+) -> NDArray[np.float64]:
+    """Return the values (n, m + c) of `designs` (n, d): the problem's objectives, then its constraints.
+
+    The evaluation works on a copy and its answer is copied: it may spoil the one and reuse the other.
+
+    Raises
+    ------
+    ValueError
+        If it answers with another shape, or a value that is not finite.
+    """
+    values = np.array(evaluate(designs.copy()), dtype=float, order="C")
+    expected = (designs.shape[0], len(problem.objectives) + len(problem.constraints))
+    if values.shape != expected:
+        raise ValueError(f"evaluate must return shape {expected} for designs {designs.shape}, got {values.shape}")
+    finite = np.isfinite(values)
+    if not finite.all():
+        first = int(finite.all(axis=1).argmin())
+        what = "objectives and constraints" if problem.constraints else "objectives"
+        raise ValueError(
+            f"evaluate must return finite {what}, got {values[first].tolist()} "
+            f"for design {designs[first].tolist()}"
+        )
+    return values

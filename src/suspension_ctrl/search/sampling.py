@@ -1,0 +1,98 @@
+"""Searches that do not learn: random and Sobol samples of the box, the baselines of any other search."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from deap.base import Toolbox
+from numpy.typing import NDArray
+
+from .. import checks
+from .constraints import any_feasible, constrained, ideal_with
+from .indicators import non_dominated
+from .population import State
+from .problem import Minimisable, evaluate_checked
+
+
+def random_points(rng: np.random.Generator, size: int, variables: int) -> Iterator[NDArray[np.float64]]:
+    """Yield samples (size, variables) of independent points in the unit cube, without end."""
+    while True:
+        yield rng.random((size, variables))
+
+
+def sobol_points(rng: np.random.Generator, size: int, variables: int) -> Iterator[NDArray[np.float64]]:
+    """Yield consecutive parts (size, variables) of one scrambled Sobol sequence in the unit cube, without end."""
+    from scipy.stats import qmc  # half a second: not at import of the package
+
+    sequence = qmc.Sobol(variables, rng=rng)
+    block = 1 << (size - 1).bit_length()  # the sequence is balanced in blocks of powers of two
+    points = np.empty((0, variables))
+    while True:
+        if len(points) < size:
+            points = np.concatenate([points, sequence.random(block)])
+        yield points[:size]
+        points = points[size:]
+
+
+_POINTS: dict[str, Callable[..., Iterator[NDArray[np.float64]]]] = {
+    "random": random_points,
+    "sobol": sobol_points,
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sampling:
+    """Settings of a sample; an iteration costs `population` evaluations, and so does the start.
+
+    Its population are the non-dominated designs of all it has evaluated, however many; while none is feasible,
+    those of the least violation.
+
+    Parameters
+    ----------
+    population : int
+        Designs in each iteration, at least 4.
+    points : {"random", "sobol"}
+        Independent points, or a scrambled Sobol sequence.
+
+    Raises
+    ------
+    ValueError
+        If a setting is out of range.
+    """
+
+    population: int
+    points: str = "sobol"
+
+    phases: ClassVar[tuple[str, ...]] = ("evaluate", "filter")
+
+    def __post_init__(self) -> None:
+        checks.at_least("population", self.population, 4)
+        checks.one_of("points", self.points, _POINTS)
+
+    def evaluations_per_iteration(self, objectives: int) -> int:  # noqa: ARG002
+        """Return how many designs an iteration evaluates."""
+        return self.population
+
+    def toolbox(self, problem: Minimisable) -> Toolbox:
+        """Return the verbs of the sample, with these settings, for `problem`."""
+        toolbox = Toolbox()
+        toolbox.register("points", _POINTS[self.points], variables=len(problem.lower))
+        toolbox.register("evaluate", problem.evaluate)
+        toolbox.register("filter", non_dominated)
+        return toolbox
+
+    def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:
+        """Yield the state after the start and after each iteration, without end."""
+        lower, upper = (np.asarray(bound, dtype=float) for bound in (problem.lower, problem.upper))
+        m, c = len(problem.objectives), len(problem.constraints)
+        kept, values = np.empty((0, lower.size)), np.empty((0, m + c))
+        ideal, evaluations = np.full(m, np.inf), 0
+        for unit in toolbox.points(rng, self.population):
+            designs = lower + (upper - lower) * unit
+            found = evaluate_checked(toolbox.evaluate, designs, problem)
+            ideal, evaluations = ideal_with(ideal, found, any_feasible(values, m)), evaluations + len(designs)
+            kept, values = np.concatenate([kept, designs]), np.concatenate([values, found])
+            best = toolbox.filter(constrained(values, m))
+            kept, values = kept[best], values[best]
+            yield State.of(kept, values, ideal, evaluations)

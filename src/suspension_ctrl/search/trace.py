@@ -1,0 +1,133 @@
+"""What a search has seen: its populations along the way and every design that it evaluated."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from .constraints import violations
+from .driver import Optimiser
+from .population import State
+from .problem import Kernel, Minimisable
+
+
+@dataclass(frozen=True)
+class Trace:
+    """A search of which everything was kept.
+
+    Parameters
+    ----------
+    states : dict of int to State
+        By budget of evaluations, the state after the last iteration within it.
+    designs : (n, d) ndarray
+        All designs evaluated, in order.
+    objectives : (n, m) ndarray
+        Their objectives.
+    constraints : (n, c) ndarray
+        Values g of their constraints, met where g <= 0.
+    """
+
+    states: dict[int, State]
+    designs: NDArray[np.float64]
+    objectives: NDArray[np.float64]
+    constraints: NDArray[np.float64]
+
+    @cached_property
+    def feasible(self) -> NDArray[np.bool_]:
+        """Which of the designs meet all constraints (n,)."""
+        return violations(self.constraints, 0) == 0
+
+
+def trace(problem: Minimisable, optimiser: Optimiser, budgets: Iterable[int], seed: int) -> Trace:
+    """Carry out the search that `minimise` makes from this seed and keep what it sees; nothing is timed.
+
+    Parameters
+    ----------
+    problem : Problem or RideProblem
+        What to minimise.
+    optimiser : Optimiser
+        The algorithm with its settings.
+    budgets : iterable of int
+        Evaluations at which the population is kept, none less than the start; the search ends at the largest.
+    seed : int
+        Seed of every random draw.
+
+    Raises
+    ------
+    ValueError
+        If a budget does not cover the start.
+    """
+    ordered = sorted(set(budgets))
+    per_iteration = optimiser.evaluations_per_iteration(len(problem.objectives))
+    if not ordered or ordered[0] < optimiser.population:
+        raise ValueError(f"budgets must be >= {optimiser.population} evaluations, the start, got {ordered}")
+    recorded = Recorded(problem, ordered[-1])
+    states: dict[int, State] = {}
+    search = optimiser.search(recorded, optimiser.toolbox(recorded), np.random.default_rng(seed))
+    for state in search:
+        reached = [b for b in ordered if state.evaluations <= b < state.evaluations + per_iteration]
+        states |= dict.fromkeys(reached, state)
+        if ordered[-1] in states:
+            break
+    return Trace(states, *recorded.seen())
+
+
+class Recorded:
+    """A problem that keeps what its evaluation and its kernel return, in order.
+
+    Parameters
+    ----------
+    problem : Problem or RideProblem
+        The problem itself.
+    capacity : int
+        Most designs to be kept.
+    """
+
+    def __init__(self, problem: Minimisable, capacity: int) -> None:
+        self.lower, self.upper = problem.lower, problem.upper
+        self.objectives, self.constraints = problem.objectives, problem.constraints
+        self._evaluate = problem.evaluate
+        self._designs = np.empty((capacity, len(problem.lower)))
+        self._values = np.empty((capacity, len(problem.objectives) + len(problem.constraints)))
+        self._count = np.zeros(1, dtype=np.int64)
+        self.kernel: Kernel | None = None
+        if problem.kernel is not None:
+            # The function stands last: numba warns of tuples that begin with one.
+            function, arguments = problem.kernel
+            self.kernel = (kept_kernel, (self._designs, self._values, self._count, arguments, function))
+
+    def evaluate(self, designs: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the problem's values (n, m + c) of designs (n, d), and keep both."""
+        start = int(self._count[0])
+        rows = slice(start, start + len(designs))
+        self._designs[rows] = designs
+        self._values[rows] = values = self._evaluate(designs)
+        self._count[0] = rows.stop
+        return values
+
+    def seen(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Return designs (n, d), their objectives (n, m) and constraints (n, c) kept so far."""
+        count, m = self._count[0], len(self.objectives)
+        values = self._values[:count]
+        return self._designs[:count], np.ascontiguousarray(values[:, :m]), np.ascontiguousarray(values[:, m:])
+
+
+@njit  # not cached on disk: numba cannot store the types of functions passed as arguments
+def kept_kernel(
+    design: NDArray[np.float64],
+    designs: NDArray[np.float64],
+    values: NDArray[np.float64],
+    count: NDArray[np.int64],
+    arguments: tuple[Any, ...],
+    kernel: Callable[..., NDArray[np.float64]],
+) -> NDArray[np.float64]:
+    """Return the kernel's values (m + c,) of a design (d,); both go into the next row of what is kept."""
+    value = kernel(design, *arguments)
+    designs[count[0]] = design
+    values[count[0]] = value
+    count[0] += 1
+    return value

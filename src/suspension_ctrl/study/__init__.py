@@ -1,0 +1,1 @@
+"""Comparisons of any searches on any problems: timed runs, quality over seeds, statistics."""

@@ -1,0 +1,186 @@
+"""Figures of a comparison over many seeds: DataFrame and Axes in, nothing is saved here."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import moocore
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+from numpy.typing import NDArray
+
+LABELS = {
+    "relative_hypervolume": "hypervolume / reference [-]",
+    "igd_plus": "IGD+ [-]",
+    "epsilon": "additive epsilon [-]",
+    "spread": "generalised spread [-]",
+    "evaluations": "evaluations [-]",
+    "seconds": "time [s]",
+}
+# Okabe and Ito, and grey: told apart by colour-blind readers.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#666666")
+STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (1, 1)), (0, (3, 1, 1, 1)))
+
+
+def anytime(
+    ax: Axes, quality: pd.DataFrame, over: str = "evaluations", value: str = "relative_hypervolume"
+) -> None:
+    """Draw the median of a value with its interquartile band, a line per algorithm.
+
+    Parameters
+    ----------
+    ax : Axes
+    quality : DataFrame
+        Rows of one population and set, from `lenses.with_seconds`.
+    over : {"evaluations", "seconds"}
+        What the horizontal axis shows.
+    value : str
+        An indicator.
+    """
+    by_algorithm = quality.groupby("algorithm", sort=False)
+    for colour, style, (algorithm, part) in zip(COLOURS, STYLES, by_algorithm, strict=False):
+        low, middle, high = (part.groupby(over)[value].quantile(q) for q in (0.25, 0.5, 0.75))
+        ax.plot(middle.index, middle, color=colour, ls=style, lw=1.4, label=algorithm)
+        ax.fill_between(middle.index, low, high, color=colour, alpha=0.2, lw=0)
+    ax.set(xscale="log", xlabel=LABELS[over], ylabel=LABELS[value])
+    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    ax.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    ax.xaxis.set_minor_formatter(NullFormatter())
+    ax.grid(which="both", alpha=0.25)
+
+
+def boxes(ax: Axes, runs: pd.DataFrame, value: str) -> None:
+    """Draw a box per algorithm of a value over the runs: median, quartiles, and what lies beyond 1.5 ranges.
+
+    Values that are not finite, those of runs without a feasible design, are left out.
+    """
+    groups = list(runs.groupby("algorithm", sort=False))
+    box = ax.boxplot(
+        [part[value][np.isfinite(part[value])] for _, part in groups],
+        tick_labels=[str(name) for name, _ in groups],
+        patch_artist=True,
+        medianprops={"color": "black"},
+        flierprops={"markersize": 3},
+    )
+    for colour, patch in zip(COLOURS, box["boxes"], strict=False):
+        patch.set(facecolor=colour, alpha=0.5)
+    ax.set_ylabel(LABELS[value])
+    ax.tick_params(axis="x", rotation=25)
+    ax.grid(axis="y", alpha=0.25)
+
+
+def attainment_differences(
+    ax: Axes, first: pd.DataFrame, second: pd.DataFrame, objectives: tuple[str, str]
+) -> Any:
+    """Draw where the runs of one algorithm attain more often than those of another, in two objectives.
+
+    Parameters
+    ----------
+    ax : Axes
+    first, second : DataFrame
+        Final populations of both, feasible designs, with a column ``seed``; seeds that both have are shown.
+    objectives : (str, str)
+        The columns for the horizontal and the vertical axis.
+
+    Returns
+    -------
+    Colormappable
+        For a colour bar: share of the runs of the first that attain a point, less that of the second.
+
+    References
+    ----------
+    V. Grunert da Fonseca, C. M. Fonseca, A. O. Hall, "Inferential performance assessment of stochastic optimisers
+    and the attainment function", EMO 2001; computed by moocore.
+    """
+    seeds = sorted(set(first.seed) & set(second.seed))  # moocore takes both sides to have as many runs
+    sides = [_fronts(side, seeds, objectives) for side in (first, second)]
+    found = moocore.eafdiff(*sides, rectangles=True)
+    every = np.concatenate(sides)[:, :2]
+    low, high = every.min(axis=0), every.max(axis=0)
+    x0, y0, x1, y1 = (np.clip(found[:, c], low[c % 2], high[c % 2]) for c in range(4))
+    corners = np.stack([np.stack(pair, axis=-1) for pair in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))], axis=1)
+    patches = PolyCollection(
+        list(corners), array=found[:, 4] / len(seeds), cmap="PuOr", clim=(-1, 1), lw=0, rasterized=True
+    )
+    ax.add_collection(patches)
+    margin = 0.02 * (high - low)
+    ax.set(xlim=(low[0] - margin[0], high[0] + margin[0]), ylim=(low[1] - margin[1], high[1] + margin[1]))
+    ax.set(xlabel=objectives[0], ylabel=objectives[1])
+    return patches
+
+
+def _fronts(populations: pd.DataFrame, seeds: list[int], objectives: tuple[str, str]) -> NDArray[np.float64]:
+    """Objectives and number of the run, from 1, of what is not dominated within its run in these two alone."""
+    fronts = []
+    for run, seed in enumerate(seeds, start=1):
+        points = populations.loc[populations.seed == seed, list(objectives)].to_numpy(dtype=float)
+        best = points[moocore.is_nondominated(points)]
+        fronts.append(np.column_stack([best, np.full(len(best), float(run))]))
+    return np.concatenate(fronts)
+
+
+def panels(count: int, columns: int = 3, width: float = 4.2, height: float = 3.4) -> tuple[Figure, list[Axes]]:
+    """Return a figure with `count` panels, `columns` in a row, and their Axes."""
+    rows = -(-count // columns)
+    figure = Figure(figsize=(width * columns, height * rows + 0.5), layout="constrained")
+    axes = list(figure.subplots(rows, columns, squeeze=False).flat)
+    for ax in axes[count:]:
+        ax.remove()
+    return figure, axes[:count]
+
+
+def final_populations(
+    populations: pd.DataFrame, across: str = "SWS [m]", up: Sequence[str] = ("ACC [m/s^2]", "DTL [N]")
+) -> Figure:
+    """Draw Figure 5: the final populations by their objectives, a panel per configuration.
+
+    Parameters
+    ----------
+    populations : DataFrame
+        From `experiments.final_populations`.
+    across : str
+        Column of the objective on the horizontal axis.
+    up : sequence of str
+        Columns of the others, one above another.
+    """
+    panels = list(populations.groupby(["population", "iterations"]))
+    columns = min(2, len(panels))
+    rows = -(-len(panels) // columns)
+    figure = Figure(figsize=(5.0 * columns, 2.2 * len(up) * rows + 0.4), layout="constrained")
+    places = figure.subfigures(rows, columns, squeeze=False).flat
+    for place, ((population, iterations), part) in zip(places, panels, strict=False):
+        axes = place.subplots(len(up), 1, sharex=True, squeeze=False)[:, 0]
+        for ax, objective in zip(axes, up, strict=True):
+            final_population_panel(ax, part, across, objective)
+        axes[-1].set_xlabel(_shown(across)[0])
+        axes[0].set_title(f"N = {population}, {iterations} iterations", fontsize=10)
+    handles, labels = axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=len(labels), markerscale=2, frameon=False)
+    return figure
+
+
+def final_population_panel(ax: Axes, populations: pd.DataFrame, across: str, up: str) -> None:
+    """Draw one objective of the populations of one configuration over another, by one or two algorithms."""
+    # Rings first, then small marks over them, so that neither population hides the other.
+    marks: list[dict[str, Any]] = [
+        {"marker": "o", "s": 22, "facecolors": "none", "linewidths": 0.5},
+        {"marker": "o", "s": 4, "linewidths": 0},
+    ]
+    groups = list(populations.groupby("algorithm", sort=False))
+    if len(groups) > len(marks):
+        raise ValueError(f"populations must be of one or two algorithms, got {[name for name, _ in groups]}")
+    (_, width), (label, height) = _shown(across), _shown(up)
+    for colour, mark, (algorithm, part) in zip(COLOURS, marks, groups, strict=False):
+        style: dict[str, Any] = {"edgecolors": colour} if "facecolors" in mark else {"color": colour}
+        ax.scatter(part[across] * width, part[up] * height, label=algorithm, **mark, **style)
+    ax.set_ylabel(label)
+
+
+def _shown(header: str) -> tuple[str, float]:
+    """Return what a column's header is as the label of an axis, and what its values are multiplied with."""
+    if header.endswith("[N]"):
+        return header.replace("[N]", "[kN]"), 1e-3
+    return header.replace("^2", "²"), 1.0

@@ -1,0 +1,198 @@
+"""Is a difference real, and how large: rank tests, effect sizes and intervals over repeated runs."""
+
+from collections.abc import Hashable, Mapping, Sequence
+from itertools import combinations, product
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import ArrayLike, NDArray
+from scipy import stats
+from statsmodels.stats.multitest import multipletests
+
+SIGNIFICANCE = 0.05
+CONFIDENCE = 0.95
+RESAMPLES = 9999
+
+
+def quartiles(table: pd.DataFrame, by: Sequence[str], values: Sequence[str]) -> pd.DataFrame:
+    """Return the number of runs, and median and quartiles of each of the values, by group.
+
+    Parameters
+    ----------
+    table : DataFrame
+        One row per run.
+    by : sequence of str
+        Columns that make a group.
+    values : sequence of str
+        Columns of which the median is taken.
+
+    Returns
+    -------
+    DataFrame
+        A row per group in order of appearance: `by`, runs, then ``<value>``, ``<value> q1``, ``<value> q3``.
+    """
+    groups = table.groupby(list(by), sort=False)
+    columns: dict[str, Any] = {"runs": groups.size()}
+    for value in values:
+        columns[value] = groups[value].median()
+        for name, q in (("q1", 0.25), ("q3", 0.75)):
+            higher = groups[value].quantile(q, interpolation="higher")  # between two infinite ones nothing else
+            columns[f"{value} {name}"] = groups[value].quantile(q).where(np.isfinite(higher), higher)
+    return pd.DataFrame(columns).reset_index()
+
+
+def a12(first: ArrayLike, second: ArrayLike) -> float:
+    """Return the chance that a value of the first sample exceeds one of the second, ties counting half [-].
+
+    References
+    ----------
+    A. Vargha and H. D. Delaney, "A critique and improvement of the CL common language effect size statistics of
+    McGraw and Wong", Journal of Educational and Behavioral Statistics 25(2), 2000.
+    """
+    first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
+    return float(stats.mannwhitneyu(first, second, method="asymptotic").statistic / (first.size * second.size))
+
+
+def size_in_words(effect: float) -> str:
+    """Return what Vargha and Delaney call an effect A12: negligible, small (0.56), medium (0.64), large (0.71)."""
+    distance = abs(effect - 0.5)
+    for word, least in (("large", 0.21), ("medium", 0.14), ("small", 0.06)):
+        if distance >= least - 1e-12:  # 0.71 - 0.5 is a little less than 0.21 in binary
+            return word
+    return "negligible"
+
+
+def holm(p_values: ArrayLike) -> NDArray[np.float64]:
+    """Return p-values (n,) adjusted by Holm for all n tests being made at once; NaN where there is none."""
+    p = np.asarray(p_values, dtype=float)
+    adjusted = np.full(p.shape, np.nan)
+    known = ~np.isnan(p)
+    if known.any():
+        adjusted[known] = multipletests(p[known], alpha=SIGNIFICANCE, method="holm")[1]
+    return adjusted
+
+
+def ratio_of_medians(first: ArrayLike, second: ArrayLike, seed: int = 0) -> tuple[float, float, float]:
+    """Return the ratio of the first sample's median to the second's and its 95 % bootstrap interval.
+
+    All NaN where the second sample has values that are not positive or either has infinite ones, the interval
+    where a sample has one value.
+    """
+    first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
+
+    def ratio(x: NDArray[np.float64], y: NDArray[np.float64], axis: int = -1) -> NDArray[np.float64]:
+        return np.median(x, axis=axis) / np.median(y, axis=axis)
+
+    if not ((second > 0).all() and np.isfinite([*first, *second]).all()):
+        return np.nan, np.nan, np.nan
+    if min(first.size, second.size) < 2:
+        value = float(ratio(first, second))
+        return value, np.nan, np.nan
+    interval = stats.bootstrap(
+        (first, second),
+        ratio,
+        n_resamples=RESAMPLES,
+        confidence_level=CONFIDENCE,
+        method="percentile",  # quantiles have no jackknife, which other methods use
+        rng=np.random.default_rng(seed),
+    ).confidence_interval
+    return float(ratio(first, second)), float(interval.low), float(interval.high)
+
+
+def pairwise(
+    table: pd.DataFrame, by: Sequence[str], values: Sequence[str], algorithms: Sequence[str]
+) -> pd.DataFrame:
+    """Compare every two algorithms in each of the values, group by group.
+
+    Parameters
+    ----------
+    table : DataFrame
+        One row per run, with a column ``algorithm``.
+    by : sequence of str
+        Columns that make a group.
+    values : sequence of str
+        Columns that are compared.
+    algorithms : sequence of str
+        The algorithms, in the order in which they stand in pairs.
+
+    Returns
+    -------
+    DataFrame
+        A row per value, group and pair: value, `by`, first, second, both medians, ratio of the medians with its
+        bootstrap interval (ratio, low, high), p of the two-sided Mann-Whitney test, p_holm adjusted for all
+        tests of the table, a12 of the first over the second and its size in words.
+    """
+    rows: list[dict[str, Any]] = []
+    for value, (key, group) in product(values, list(table.groupby(list(by), sort=False))):
+        samples = {name: group.loc[group.algorithm == name, value].dropna() for name in algorithms}
+        for first, second in combinations(samples, 2):
+            if samples[first].size and samples[second].size:
+                pair = {"value": value, **dict(zip(by, key, strict=True)), "first": first, "second": second}
+                rows.append(pair | _compared(samples[first], samples[second]))
+    compared = pd.DataFrame(rows)
+    return compared.assign(p_holm=holm(compared["p"])) if len(compared) else compared
+
+
+def _compared(first: "pd.Series[float]", second: "pd.Series[float]") -> dict[str, Any]:
+    ratio, low, high = ratio_of_medians(first, second)
+    effect = a12(first, second)
+    alike = np.unique(np.concatenate([first, second])).size == 1  # a rank test of equal values has nothing to rank
+    return {
+        "median_first": first.median(),
+        "median_second": second.median(),
+        "ratio": ratio,
+        "ratio_low": low,
+        "ratio_high": high,
+        "p": 1.0 if alike else float(stats.mannwhitneyu(first, second).pvalue),
+        "a12": effect,
+        "size": size_in_words(effect),
+    }
+
+
+def verdict(compared: pd.DataFrame, first: str, second: str, value: str) -> str:
+    """Return a paragraph on two algorithms: who is ahead at which configurations under each lens.
+
+    Parameters
+    ----------
+    compared : DataFrame
+        From `statistics.pairwise`: rows of one value of which more is better, by lens, population, iterations.
+    first, second : str
+        The algorithms, in the order in which the table has them.
+    value : str
+        What is compared, in words.
+
+    Notes
+    -----
+    An algorithm is ahead where Holm's p-value is below 0.05 and the effect is not negligible; otherwise there is
+    no difference.
+    """
+    pairs = compared[(compared["first"] == first) & (compared["second"] == second)]
+    if pairs.empty:
+        return f"There are no runs of both {first} and {second} to compare."
+    sentences = [_sentence(str(lens), part, first, second) for lens, part in pairs.groupby("lens", sort=False)]
+    return f"{value}, {first} against {second}. " + " ".join(sentences)
+
+
+def _sentence(lens: str, pairs: pd.DataFrame, first: str, second: str) -> str:
+    outcomes: dict[str, list[str]] = {}
+    for pair in pairs.to_dict("records"):
+        where = f"N = {pair['population']} and {pair['iterations']} iterations ({_numbers(pair)})"
+        outcomes.setdefault(_outcome(pair, first, second), []).append(where)
+    return f"At {lens} " + "; ".join(f"{who} for {_listed(where)}" for who, where in outcomes.items()) + "."
+
+
+def _outcome(pair: Mapping[Hashable, Any], first: str, second: str) -> str:
+    if pair["p_holm"] >= SIGNIFICANCE or pair["size"] == "negligible":
+        return "there is no difference that the runs can show"
+    return f"{first if pair['a12'] > 0.5 else second} is ahead"
+
+
+def _numbers(pair: Mapping[Hashable, Any]) -> str:
+    medians = f"medians {pair['median_first']:.4f} and {pair['median_second']:.4f}"
+    p = "p < 0.001" if pair["p_holm"] < 0.001 else f"p = {pair['p_holm']:.3f}"
+    return f"{medians}, {p}, A12 = {pair['a12']:.2f}, {pair['size']}"
+
+
+def _listed(parts: Sequence[str]) -> str:
+    return parts[0] if len(parts) == 1 else ", ".join(parts[:-1]) + " and " + parts[-1]

@@ -1,0 +1,176 @@
+"""The reference front of a problem: a grid refined until its hypervolume stands still, kept on disk."""
+
+import hashlib
+import json
+import os
+from collections.abc import Sequence
+from contextlib import suppress
+from importlib.metadata import version
+from pathlib import Path
+from typing import NamedTuple
+from zipfile import BadZipFile
+
+import numpy as np
+from numpy.typing import NDArray
+from platformdirs import user_cache_path
+
+from .. import checks
+from .. import tables as files
+from ..search.constraints import feasible_objectives
+from ..search.indicators import ReferenceFront, non_dominated
+from ..search.problem import Minimisable
+
+TOLERANCE = 1e-4
+CACHE = "SUSPENSION_CTRL_CACHE"
+"""Variable of the environment that names the folder of kept fronts in place of the user's cache."""
+
+_FIRST = 100  # values per variable of the coarsest grid
+_MOST = 20_000_000  # designs of the finest grid
+_CHUNK = 500_000  # designs at a time
+_PACKAGES = ("suspension-ctrl", "moocore", "numpy", "scipy", "control")
+
+
+class Refined(NamedTuple):
+    """A reference front and what it was made from.
+
+    Parameters
+    ----------
+    front : ReferenceFront
+    points : int
+        Values per variable of the finest grid.
+    change : float
+        Relative change of the hypervolume from half as many values.
+    second : float
+        Relative difference from the hypervolume of a second grid, with a factor sqrt(2) fewer values, which
+        shares only the corners with the first.
+    """
+
+    front: ReferenceFront
+    points: int
+    change: float
+    second: float
+
+
+def refined(problem: Minimisable, tolerance: float = TOLERANCE) -> Refined:
+    """Return the front of a grid fine enough that neither half as many values nor a second grid changes it.
+
+    Parameters
+    ----------
+    problem : Problem or RideProblem
+        The problem, of few variables.
+    tolerance : float
+        Largest relative change of the hypervolume.
+
+    Raises
+    ------
+    ValueError
+        If that would take more than 20 million designs, also where none of them is feasible.
+    """
+    checks.positive("tolerance", tolerance)
+    variables = len(problem.lower)
+    points, before = _FIRST, None
+    while points**variables <= _MOST:
+        objectives = grid_front(problem, points)
+        if len(objectives) and np.ptp(objectives, axis=0).all():  # otherwise there is nothing to scale by
+            front = ReferenceFront.of(objectives)
+            change = np.inf if before is None else 1 - front.relative_hypervolume(before)
+            if abs(change) <= tolerance:
+                second = 1 - front.relative_hypervolume(grid_front(problem, round(points / np.sqrt(2))))
+                if abs(second) <= tolerance:
+                    return Refined(front, points, change, second)
+            before = objectives
+        points *= 2
+    none = " (no front of feasible designs found)" if problem.constraints and before is None else ""
+    raise ValueError(
+        f"problem must have a front that a grid of {_MOST} designs settles to {tolerance:g}, got one of "
+        f"{variables} variables that does not{none}; give a reference front"
+    )
+
+
+def grid_front(problem: Minimisable, points: int) -> NDArray[np.float64]:
+    """Return the non-dominated objectives (n, m) on a regular grid with `points` values in each variable.
+
+    Those of feasible designs only; there may be none.
+    """
+    checks.at_least("points", points, 2)
+    axes = [np.linspace(a, b, points) for a, b in zip(problem.lower, problem.upper, strict=True)]
+    m = len(problem.objectives)
+    front = np.empty((0, m))
+    total = points ** len(axes)
+    for start in range(0, total, _CHUNK):
+        places = np.unravel_index(np.arange(start, min(start + _CHUNK, total)), [points] * len(axes))
+        designs = np.stack([axis[place] for axis, place in zip(axes, places, strict=True)], axis=-1)
+        merged = np.concatenate([front, _best(feasible_objectives(problem.evaluate(designs), m))])
+        front = _best(merged)
+    return front
+
+
+def _best(objectives: NDArray[np.float64]) -> NDArray[np.float64]:
+    return objectives[non_dominated(objectives)]
+
+
+def best_known(found: Sequence[NDArray[np.float64]]) -> ReferenceFront:
+    """Return the front of the best of several sets of feasible objectives (n, m).
+
+    Raises
+    ------
+    ValueError
+        If all sets are empty, or the best designs are all alike in an objective, so that nothing scales it.
+    """
+    merged = np.concatenate(found)
+    if len(merged) == 0:
+        raise ValueError("constraints must leave a feasible design, got none in any run")
+    best = _best(merged)
+    if not np.ptp(best, axis=0).all():
+        raise ValueError(
+            f"the best designs of all runs must differ in every objective, got {len(best)} that do not"
+        )
+    return ReferenceFront.of(best)
+
+
+def digest(front: ReferenceFront) -> str:
+    """Return a digest of a front."""
+    return hashlib.sha256(front.objectives.tobytes() + np.float64(front.volume).tobytes()).hexdigest()[:32]
+
+
+def cached(problem: Minimisable, tolerance: float = TOLERANCE) -> Refined:
+    """Return `refined` from disk, where it has been made before for the same problem by the same versions."""
+    folder = Path(os.environ.get(CACHE) or user_cache_path("suspension_ctrl"))
+    path = folder / f"front-{key(problem, tolerance)}.npz"
+    with suppress(OSError, ValueError, KeyError, EOFError, BadZipFile):  # absent or spoilt: made anew
+        return _read(path)
+    found = refined(problem, tolerance)
+    content = {**vars(found.front), **found._asdict()}
+    del content["front"]
+    with suppress(OSError):  # a cache that cannot be written is no reason to stop
+        folder.mkdir(parents=True, exist_ok=True)
+        files.write_whole(path, lambda temporary: np.savez(temporary, **content))
+    return found
+
+
+def _read(path: Path) -> Refined:
+    with path.open("rb") as file, np.load(file) as kept:
+        arrays = {name: kept[name] for name in ("objectives", "ideal", "nadir")}
+        front = ReferenceFront(**arrays, volume=float(kept["volume"]))
+        return Refined(front, int(kept["points"]), float(kept["change"]), float(kept["second"]))
+
+
+def key(problem: Minimisable, tolerance: float) -> str:
+    """Return a digest of all that the front depends on: versions, bounds, tolerance, and sample values.
+
+    The objectives and constraints of some designs stand for the whole function: any parameter or line of code
+    that changes them makes another key.
+    """
+    rng = np.random.default_rng(0)
+    lower, upper = (np.asarray(bound, dtype=float) for bound in (problem.lower, problem.upper))
+    probes = problem.evaluate(lower + (upper - lower) * rng.random((64, lower.size)))
+    settings = {
+        "versions": {name: version(name) for name in _PACKAGES},
+        "objectives": list(problem.objectives),
+        "bounds": [lower.tolist(), upper.tolist()],
+        "grid": [tolerance, _FIRST, _MOST],
+        "front": [ReferenceFront.SAMPLE, ReferenceFront.HYPERVOLUME_REFERENCE],
+    }
+    if problem.constraints:  # not otherwise: fronts kept so far keep their names
+        settings["constraints"] = list(problem.constraints)
+    return hashlib.sha256(json.dumps(settings, sort_keys=True).encode() + probes.tobytes()).hexdigest()[:32]

@@ -1,0 +1,246 @@
+"""Quality of algorithms on problems over seeds and budgets: one tidy table, of runs made in any order anywhere."""
+
+import re
+from collections.abc import Iterator, Mapping, MutableMapping, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from .. import checks
+from ..search.driver import Optimiser
+from ..search.indicators import ReferenceFront, evenly_spread, non_dominated
+from ..search.problem import Minimisable
+from ..search.trace import Trace, trace
+from .store import VIOLATION, Record
+from .workers import outcome, outcomes
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+
+POPULATION, ARCHIVE, CUT_ARCHIVE = "population", "archive", "archive of N"
+"""What is judged: the population, all non-dominated designs evaluated, and N of those, spread evenly.
+
+Of each the feasible designs; a set may be empty.
+"""
+
+INDICATORS = ("relative_hypervolume", "igd_plus", "epsilon", "spread")
+
+
+@dataclass(frozen=True)
+class StudyRun:
+    """One run of a study.
+
+    Parameters
+    ----------
+    problem, algorithm : str
+        Their names in the study.
+    population : int
+        Size of the algorithm's population.
+    seed : int
+    """
+
+    problem: str
+    algorithm: str
+    population: int
+    seed: int
+
+    @property
+    def name(self) -> str:
+        """A name for this run, fit for a file."""
+        return f"{self.problem}_{self.algorithm}_n{self.population}_s{self.seed}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Study:
+    """Searches of every algorithm on every problem from every seed, judged at every budget.
+
+    Parameters
+    ----------
+    problems : mapping of str to Problem or RideProblem
+        By name.
+    algorithms : mapping of str to Optimiser
+        By name, e.g. ``{"nsga2": Nsga2(population=100)}``.
+    seeds : sequence of int
+        Each algorithm is run once from each.
+    budgets : sequence of int
+        Evaluations at which a run is judged, by its state after the last iteration within the budget.
+    references : mapping of str to ReferenceFront, optional
+        By name of a problem. Without one, the non-dominated feasible designs of the first seed's runs of all
+        algorithms are the reference, for which these runs are made once more, here.
+
+    Raises
+    ------
+    ValueError
+        If a part of it is empty, seeds or names of runs repeat, names hold other than letters, digits and
+        ``._+-``, a budget does not cover the start, or a name of a reference is not one of a problem.
+    """
+
+    problems: Mapping[str, Minimisable]
+    algorithms: Mapping[str, Optimiser]
+    seeds: Sequence[int]
+    budgets: Sequence[int]
+    references: Mapping[str, ReferenceFront] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for name in ("problems", "algorithms", "seeds", "budgets"):
+            if len(getattr(self, name)) == 0:
+                raise ValueError(f"{name} must be one or more, got {getattr(self, name)!r}")
+        for seed in self.seeds:
+            checks.at_least("seeds", seed, 0)
+        if len(set(self.seeds)) < len(self.seeds):
+            raise ValueError(f"seeds must be different, got {list(self.seeds)}")
+        for budget in self.budgets:
+            checks.at_least("budgets", budget, max(o.population for o in self.algorithms.values()))
+        for name in (*self.problems, *self.algorithms):
+            if not re.fullmatch(r"[\w.+-]+", name):
+                raise ValueError(f"names must be of letters, digits and ._+-, got {name!r}")
+        if len({run.name for run in self.runs()}) < len(self.runs()):
+            raise ValueError(
+                f"names must not give two runs the same name, got {[*self.problems, *self.algorithms]}"
+            )
+        for name in self.references:
+            checks.one_of("references", name, list(self.problems))
+
+    def runs(self) -> list[StudyRun]:
+        """Return the runs, algorithms taking turns within a seed."""
+        return [
+            StudyRun(problem, algorithm, optimiser.population, seed)
+            for problem, seed, (algorithm, optimiser) in product(
+                self.problems, self.seeds, self.algorithms.items()
+            )
+        ]
+
+    def run(self, client: "Client | None" = None) -> pd.DataFrame:
+        """Make all runs, here or on the workers of a Dask client, and return `table`."""
+        store: dict[str, Record] = {}
+        errors = {run.name: error for run, error in self.carry_out(store, client) if error}
+        return self.table(store, errors)
+
+    def carry_out(
+        self, store: MutableMapping[str, Record], client: "Client | None" = None
+    ) -> Iterator[tuple[StudyRun, str]]:
+        """Make the runs that `store` does not hold, put each in it when done, and hand out which, with its error.
+
+        The error is empty where there was none. With a client the runs come in whatever order they end; what
+        they give does not depend on it.
+        """
+        missing = [run for run in self.runs() if run.name not in store]
+        references: dict[str, ReferenceFront] = {}
+        for problem in {run.problem for run in missing}:
+            reference, error = outcome(self.reference, (problem,))
+            if reference is None:
+                yield from ((run, error) for run in missing if run.problem == problem)
+            else:
+                references[problem] = reference
+        missing = [run for run in missing if run.problem in references]
+        work = {
+            run.name: (
+                self.problems[run.problem],
+                self.algorithms[run.algorithm],
+                tuple(self.budgets),
+                run.seed,
+                references[run.problem],
+            )
+            for run in missing
+        }
+        by_name = {run.name: run for run in missing}
+        for name, record, error in outcomes(judged_run, work, client):
+            if record is not None:
+                store[name] = record
+            yield by_name[name], error
+
+    def reference(self, problem: str) -> ReferenceFront:
+        """Return the front that measures the runs on a problem.
+
+        Raises
+        ------
+        ValueError
+            If it is to be made of the first seed's runs and none of them has found a feasible design.
+        """
+        if problem in self.references:
+            return self.references[problem]
+        seen = [
+            trace(self.problems[problem], optimiser, [max(self.budgets)], self.seeds[0])
+            for optimiser in self.algorithms.values()
+        ]
+        objectives = np.concatenate([one.objectives[one.feasible] for one in seen])
+        if len(objectives) == 0:
+            raise ValueError(
+                f"references must hold {problem!r}, of which the runs from seed {self.seeds[0]} found no feasible "
+                f"design, got {list(self.references)}"
+            )
+        return ReferenceFront.of(objectives[non_dominated(objectives)])
+
+    def table(self, store: Mapping[str, Record], errors: Mapping[str, str] | None = None) -> pd.DataFrame:
+        """Return one row per run, budget and set; a run that raised has one row, with its error.
+
+        Columns: problem, algorithm, population, seed, budget, evaluations, set (`POPULATION`, `ARCHIVE` or
+        `CUT_ARCHIVE`), size of the set, relative_hypervolume, igd_plus, epsilon, spread, error.
+        """
+        parts = []
+        for run in self.runs():
+            key: dict[str, Any] = {
+                "problem": run.problem,
+                "algorithm": run.algorithm,
+                "population": run.population,
+                "seed": run.seed,
+            }
+            if run.name in store:
+                parts.append(store[run.name].course.assign(**key, error=""))
+            elif errors and run.name in errors:
+                parts.append(pd.DataFrame([{**key, "error": errors[run.name]}]))
+        columns = ["problem", "algorithm", "population", "seed", "budget", "evaluations", "set", "size"]
+        return pd.concat(parts, ignore_index=True).reindex(columns=[*columns, *INDICATORS, "seconds", "error"])
+
+
+def judged_run(
+    problem: Minimisable,
+    optimiser: Optimiser,
+    budgets: Sequence[int],
+    seed: int,
+    reference: ReferenceFront,
+) -> Record:
+    """Make one run and return its `Record`; this is what is sent to a worker."""
+    start = perf_counter()
+    seen = trace(problem, optimiser, budgets, seed)
+    seconds = perf_counter() - start
+    rows = [
+        row for budget in sorted(set(budgets)) for row in _judged(seen, budget, optimiser.population, reference)
+    ]
+    last = seen.states[max(budgets)]
+    kept = evenly_spread(last.objectives, optimiser.population)
+    final = pd.DataFrame(last.objectives[kept], columns=list(problem.objectives))
+    if problem.constraints:
+        final[VIOLATION] = last.violation[kept]
+    return Record(pd.DataFrame(rows).assign(seconds=seconds), final)
+
+
+def _judged(seen: Trace, budget: int, population: int, reference: ReferenceFront) -> Iterator[dict[str, Any]]:
+    state = seen.states[budget]
+    archive = _best(seen.objectives[: state.evaluations], seen.feasible[: state.evaluations])
+    best = _best(state.objectives, state.violation == 0)
+    sets = {POPULATION: cut(best, population), ARCHIVE: archive, CUT_ARCHIVE: cut(archive, population)}
+    for name, objectives in sets.items():
+        yield {
+            "budget": budget,
+            "evaluations": state.evaluations,
+            "set": name,
+            "size": len(objectives),
+            **{indicator: getattr(reference, indicator)(objectives) for indicator in INDICATORS},
+        }
+
+
+def _best(objectives: NDArray[np.float64], feasible: NDArray[np.bool_]) -> NDArray[np.float64]:
+    candidates = objectives[feasible]
+    return candidates[non_dominated(candidates)]
+
+
+def cut(objectives: NDArray[np.float64], population: int) -> NDArray[np.float64]:
+    """Return as many of the objectives (n, m) as a population holds, spread evenly."""
+    return objectives[evenly_spread(objectives, population)]

@@ -1,0 +1,174 @@
+"""Work spread over processes and machines by Dask, or done here: the same results in any order."""
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeVar
+from uuid import uuid4
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import checks
+from ..search.problem import Described, Problem
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tls:
+    """Files for encrypted connections to a scheduler at ``tls://``.
+
+    Parameters
+    ----------
+    ca_file, cert, key : str
+        Paths of the authority's certificate, and of one's own certificate and key, in PEM format.
+    """
+
+    ca_file: str
+    cert: str
+    key: str
+
+
+@contextmanager
+def local_cluster(jobs: int) -> Iterator["Client"]:
+    """Start a cluster of `jobs` processes of one thread each on this machine, reachable from it alone."""
+    checks.at_least("jobs", jobs, 1)
+    from distributed import Client, LocalCluster  # over a second: only where it is used
+
+    with (
+        LocalCluster(
+            n_workers=jobs,
+            threads_per_worker=1,
+            host="127.0.0.1",
+            dashboard_address="127.0.0.1:0",  # its server for metrics is started in any case
+            worker_dashboard_address="127.0.0.1:0",
+            memory_limit=0,
+            silence_logs="CRITICAL",
+        ) as cluster,
+        Client(cluster, set_as_default=False) as client,
+    ):
+        yield client
+
+
+def check_address(address: str, tls: Tls | None) -> None:
+    """Raise ValueError unless the address begins with ``tcp://``, or with ``tls://`` where `tls` is given."""
+    wanted = "tls://" if tls else "tcp://"
+    if not address.startswith(wanted):
+        raise ValueError(f"scheduler must be {wanted}host:port, got {address!r}")
+
+
+@contextmanager
+def scheduler_at(address: str, tls: Tls | None = None, timeout: float = 10.0) -> Iterator["Client"]:
+    """Connect to a running scheduler.
+
+    Parameters
+    ----------
+    address : str
+        For example ``tcp://host:8786``, or ``tls://host:8786`` with `tls`.
+    tls : Tls, optional
+        Files for an encrypted connection.
+    timeout : float
+        Seconds after which to give up.
+
+    Raises
+    ------
+    ValueError
+        If the address has another form, no scheduler answers there, or it has no worker.
+    """
+    from distributed import Client
+    from distributed.security import Security
+
+    check_address(address, tls)
+    security = None
+    if tls:
+        security = Security(
+            tls_ca_file=tls.ca_file, tls_client_cert=tls.cert, tls_client_key=tls.key, require_encryption=True
+        )
+    try:
+        client = Client(address, security=security, timeout=timeout, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise ValueError(f"scheduler must be one that answers, got {address!r}: {error}") from error
+    with client:
+        try:
+            client.wait_for_workers(1, timeout=timeout)
+        except TimeoutError:
+            raise ValueError(f"scheduler must have a worker, got {address!r} without one") from None
+        yield client
+
+
+def outcomes(
+    function: Callable[..., T], arguments: Mapping[str, tuple[Any, ...]], client: "Client | None" = None
+) -> Iterator[tuple[str, T | None, str]]:
+    """Call the function with each of the arguments and hand out name, result and error of each as it ends.
+
+    A call that raises has no result and its error in one line, otherwise the error is empty. On a cluster a
+    call whose worker dies is repeated on another one; only where it takes four workers with it is that its
+    error. A scheduler that is lost raises ConnectionError.
+    """
+    if client is None:
+        for name, values in arguments.items():
+            yield name, *outcome(function, values)
+        return
+    from distributed import as_completed
+
+    futures = {
+        client.submit(outcome, function, values, key=f"{name}-{uuid4()}", pure=False): name
+        for name, values in arguments.items()
+    }
+    for future in as_completed(futures, loop=client.loop):
+        name = futures.pop(future)
+        if future.status == "error":
+            yield name, None, _line(future.exception())
+        elif future.status != "finished":
+            raise ConnectionError(f"scheduler lost: {future.status} {name}; what was finished is kept")
+        else:
+            yield name, *future.result()
+        future.release()
+
+
+def outcome(function: Callable[..., T], arguments: tuple[Any, ...]) -> tuple[T | None, str]:
+    """Call the function and return its result, or None and what it raised in one line."""
+    try:
+        return function(*arguments), ""
+    except Exception as error:  # whatever an evaluation raises, the other runs go on
+        return None, _line(error)
+
+
+def _line(error: BaseException) -> str:
+    return " ".join(f"{type(error).__name__}: {error}".split())
+
+
+def distributed(problem: Described, client: "Client", chunk: int = 16) -> Problem:
+    """Return the problem with its evaluation spread over a cluster, for one that takes long for each design.
+
+    It has no kernel: MOEA/D-DRA should then make its children in batches (``update="batch"``).
+
+    Parameters
+    ----------
+    problem : Problem or RideProblem
+        What is evaluated.
+    client : distributed.Client
+        A client of the cluster.
+    chunk : int
+        Designs evaluated together by one worker.
+    """
+    checks.at_least("chunk", chunk, 1)
+
+    def evaluate(designs: NDArray[np.float64]) -> NDArray[np.float64]:
+        parts = [designs[start : start + chunk] for start in range(0, len(designs), chunk)]
+        return np.concatenate(client.gather(client.map(problem.evaluate, parts, pure=False)))
+
+    return Problem(
+        evaluate=evaluate,
+        lower=problem.lower,
+        upper=problem.upper,
+        objectives=problem.objectives,
+        constraints=problem.constraints,
+        variables=problem.variables,
+        units=problem.units,
+    )

@@ -1,0 +1,186 @@
+"""Statics and roll of a vehicle on its struts: static tyre loads, roll gradient, load transfer, roll damping.
+
+In steady cornering the body leans by a moment m h a_y about the roll axis, which lies h below its centre of
+gravity, and its weight leans with it. What springs, bars and tyres carry of that moment is the elastic part of the
+lateral load transfer; forces through the roll centres and at the wheels carry the rest (W. F. Milliken and
+D. L. Milliken, "Race Car Vehicle Dynamics", SAE 1995, chapter 18).
+"""
+
+from dataclasses import dataclass, fields
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import checks
+from .assembly import GRAVITY, Assembly
+
+Real = NDArray[np.float64]
+
+_TOPPLED = 180.0
+"""Roll gradient of a body that nothing holds up [deg/g]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RollGeometry:
+    """Heights that matter in cornering.
+
+    Parameters
+    ----------
+    roll_arm : float
+        Height of the body's centre of gravity above the roll axis [m]; what sits in it is taken to be as high.
+    front_roll_centre, rear_roll_centre : float
+        Height of the roll centres above the ground [m].
+    wheel_centre : float
+        Height of the centres of the wheels above the ground [m].
+
+    Raises
+    ------
+    ValueError
+        If the arm or the height of the wheels is not above zero, or a roll centre not from -10 to 10 m.
+    """
+
+    roll_arm: float
+    front_roll_centre: float
+    rear_roll_centre: float
+    wheel_centre: float
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if field.name.endswith("roll_centre"):
+                checks.within(field.name, value, -10, 10)
+            else:
+                checks.positive(field.name, value, "m")
+
+
+class Mechanics(NamedTuple):
+    """Matrices of a vehicle with n coordinates and v coefficients of struts.
+
+    Parameters
+    ----------
+    coordinates : list of str
+    mass : (n, n) ndarray
+    stiffness, damping : (n, n) ndarray
+        Of tyres and supports.
+    by_stiffness, by_damping : (v, n, n) ndarray
+        Of the struts, for coefficients of 1.
+    weights : (n,) ndarray
+        Mass that weighs on each coordinate: kg, or kg m where it turns the body.
+    tyre_loads : (t, n) ndarray
+        Tension of each tyre by coordinate.
+    tyres : list of str
+        Their names.
+    contacts : (t, 2) ndarray
+        Where they touch the ground [m].
+    sprung_mass : float
+        Mass of all but the wheels [kg].
+    """
+
+    coordinates: list[str]
+    mass: Real
+    stiffness: Real
+    damping: Real
+    by_stiffness: Real
+    by_damping: Real
+    weights: Real
+    tyre_loads: Real
+    tyres: list[str]
+    contacts: Real
+    sprung_mass: float
+
+    @classmethod
+    def of(cls, assembly: Assembly) -> "Mechanics":
+        """Take them from a vehicle."""
+        links = [*assembly.tyres, *assembly.supports]
+        e, _ = assembly.elongations(links)
+        p, _ = assembly.elongations(assembly.struts)
+        k, c = (np.array([getattr(link, name) for link in links]) for name in ("stiffness", "damping"))
+        by_stiffness, by_damping = (
+            np.array([p.T @ (q.gain * (q.order == order)) @ p for q in assembly.parameters]) for order in (0, 1)
+        )
+        coordinates = assembly.coordinates
+        return cls(
+            coordinates,
+            assembly.mass_matrix(),
+            e.T @ (k[:, None] * e),
+            e.T @ (c[:, None] * e),
+            by_stiffness,
+            by_damping,
+            assembly.weights(),
+            (k[:, None] * e)[: len(assembly.tyres)],
+            [tyre.name for tyre in assembly.tyres],
+            np.array([assembly.contacts[str(tyre.lower)] for tyre in assembly.tyres]),
+            assembly.sprung_mass(),
+        )
+
+    def stiffness_of(self, coefficients: Real) -> Real:
+        """Return the stiffness matrices (p, n, n) of designs with these coefficients (p, v)."""
+        return self.stiffness + np.tensordot(coefficients, self.by_stiffness, axes=1)
+
+    def static_loads(self, coefficients: Real) -> Real:
+        """Return the load (p, t) of each tyre on level ground [N]."""
+        displacement = np.linalg.solve(self.stiffness_of(coefficients), -GRAVITY * self.weights[:, None])
+        loads: Real = -(self.tyre_loads @ displacement)[..., 0]
+        return loads
+
+    def roll_gradient(self, coefficients: Real, geometry: RollGeometry) -> Real:
+        """Return the angle (p,) by which the body leans in a steady curve [deg/g], 180 at most.
+
+        180 is also where the body topples: where struts and tyres do not hold its weight against leaning further.
+        """
+        lean = np.degrees(self._lean(coefficients, geometry)[:, self.coordinates.index("roll")])
+        topples = np.linalg.eigvalsh(self._leaning(coefficients, geometry))[:, 0] <= 0
+        return np.where(topples, _TOPPLED, np.minimum(lean, _TOPPLED))
+
+    def front_load_transfer(self, coefficients: Real, geometry: RollGeometry) -> Real:
+        """Return the share (p,) of the lateral load transfer that the front axle carries [-].
+
+        It says nothing of a design that topples, see `roll_gradient`.
+        """
+        loads = (self.tyre_loads @ self._lean(coefficients, geometry)[..., None])[..., 0]
+        front, rear = (loads[:, self.tyres.index(f"{axle}_left")] for axle in ("front", "rear"))
+        return front / (front + rear)
+
+    def roll_damping(self, coefficients: Real) -> Real:
+        """Return the damping ratio (p,) of the mode with most of its kinetic energy in roll, 1 if it creeps."""
+        n = len(self.coordinates)
+        k = self.stiffness_of(coefficients)
+        c = self.damping + np.tensordot(coefficients, self.by_damping, axes=1)
+        inverse = np.linalg.inv(self.mass)
+        a = np.zeros((len(coefficients), 2 * n, 2 * n))
+        a[:, :n, n:], a[:, n:, :n], a[:, n:, n:] = np.eye(n), -inverse @ k, -inverse @ c
+        poles, vectors = np.linalg.eig(a)
+        energy = np.diag(self.mass)[:, None] * np.abs(vectors[:, n:]) ** 2
+        share = energy[:, self.coordinates.index("roll")] / energy.sum(axis=1)
+        pole = np.take_along_axis(poles, share.argmax(axis=1)[:, None], axis=1)[:, 0]
+        ratio: Real = -pole.real / np.abs(pole)
+        return ratio
+
+    def _lean(self, coefficients: Real, geometry: RollGeometry) -> Real:
+        """Return the displacement of each coordinate (p, n) at 1 g to the left.
+
+        The body is turned by its weight at the roll arm; what goes through the roll centres and acts at the
+        wheels themselves turns the axles, whose tyres carry it.
+        """
+        load = np.zeros((len(coefficients), len(self.coordinates)))
+        load[:, self.coordinates.index("roll")] = self.sprung_mass * GRAVITY * geometry.roll_arm
+        static = self.static_loads(coefficients)
+        for axle, centre in (("front", geometry.front_roll_centre), ("rear", geometry.rear_roll_centre)):
+            left, right = (self.tyres.index(f"{axle}_{side}") for side in ("left", "right"))
+            wheels = 2 * self.weights[self.coordinates.index(f"{axle}_left_wheel")] * GRAVITY
+            body = static[:, left] + static[:, right] - wheels
+            force = (body * centre + wheels * geometry.wheel_centre) / (
+                self.contacts[left] - self.contacts[right]
+            )[1]
+            load[:, self.coordinates.index(f"{axle}_left_wheel")] = force
+            load[:, self.coordinates.index(f"{axle}_right_wheel")] = -force
+        leaning = self._leaning(coefficients, geometry)
+        return np.asarray(np.linalg.solve(leaning, load[..., None])[..., 0], dtype=float)
+
+    def _leaning(self, coefficients: Real, geometry: RollGeometry) -> Real:
+        """Return the stiffness matrices (p, n, n) less what the leaning weight takes from roll."""
+        stiffness = self.stiffness_of(coefficients)
+        roll = self.coordinates.index("roll")
+        stiffness[:, roll, roll] -= self.sprung_mass * GRAVITY * geometry.roll_arm
+        return stiffness

@@ -1,0 +1,94 @@
+"""What is reported of a campaign in which runs raise: the others, and which raised."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from suspension_ctrl import Problem
+from suspension_ctrl.commands import campaign as campaigns
+from suspension_ctrl.commands import reports
+from suspension_ctrl.paper import experiment as paper
+from suspension_ctrl.search.indicators import ReferenceFront
+from suspension_ctrl.study import timing as experiments
+from suspension_ctrl.study.reference import grid_front
+from suspension_ctrl.study.store import FolderStore
+
+
+def campaign(raises) -> campaigns.Campaign:
+    ride = paper.ride_problem()
+
+    def evaluate(designs: np.ndarray) -> np.ndarray:
+        if raises(designs):
+            raise RuntimeError("no such strut")
+        return ride.evaluate(designs)
+
+    problem = Problem(
+        evaluate=evaluate, lower=ride.lower, upper=ride.upper, objectives=ride.objectives,
+        variables=ride.variables, units=ride.units,
+    )  # fmt: skip
+    reference = ReferenceFront.of(grid_front(ride, 40))
+    return campaigns.Campaign(problem, ["nsga2", "sobol"], [20], [2], range(8), reference)
+
+
+def clock() -> pd.DataFrame:
+    """Seconds as if timed, a thousandth per evaluation."""
+    rows = [(name, 20, e, e / 1000) for name in ("nsga2", "sobol") for e in (20, 60)]
+    return pd.DataFrame(rows, columns=["algorithm", "population", "evaluations", "seconds"])
+
+
+def reported(one: campaigns.Campaign, folder) -> pd.DataFrame:
+    store = FolderStore(folder / "quality", {})
+    table = campaigns.carry_out(one, store, campaigns.Workers())
+    reports.report(one, table, store, clock(), 0.9, folder)
+    return table
+
+
+def test_runs_that_raise_leave_the_others_in_tables_and_figures(tmp_path):
+    """The first run of the first algorithm is among those that raise."""
+    first = np.random.default_rng(0).random((20, 2))[0, 0]
+    ride = paper.ride_problem()
+    limit = ride.lower[0] + (ride.upper[0] - ride.lower[0]) * first
+    table = reported(campaign(lambda x: x[0, 0] >= limit - 1e-6), tmp_path)
+    rows = reports.last_rows(table)
+    assert len(rows) == 16
+    raised = rows[rows.error != ""]
+    assert ("nsga2", 0) in set(zip(raised.algorithm, raised.seed, strict=True))
+    assert 0 < len(raised) < 16
+    assert set(raised.error) == {"RuntimeError: no such strut"}
+    differences = pd.read_csv(tmp_path / "differences.csv")
+    assert set(differences["first"]) == {"nsga2"}
+    assert "nsga2 against sobol. At equal iterations" in (tmp_path / "verdict.md").read_text()
+    assert (tmp_path / "attainment_n20.png").exists()
+
+
+def test_an_algorithm_without_any_run_is_left_out(tmp_path, monkeypatch):
+    one = campaign(lambda x: False)
+    monkeypatch.setitem(experiments.ALGORITHMS, "nsga2", lambda population: Broken(population))
+    table = reported(one, tmp_path)
+    assert set(table[table.error != ""].algorithm) == {"nsga2"}
+    assert set(pd.read_csv(tmp_path / "equal.csv").algorithm) == {"sobol"}
+    assert not (tmp_path / "attainment_n20.png").exists()
+
+
+class Broken:
+    def __init__(self, population):
+        self.population = population
+
+    def evaluations_per_iteration(self, objectives):
+        return self.population
+
+    def toolbox(self, problem):
+        raise RuntimeError("out of order")
+
+
+def test_a_campaign_in_which_all_raise_says_only_that(tmp_path):
+    table = reported(campaign(lambda x: True), tmp_path)
+    assert (table.error == "RuntimeError: no such strut").all()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["quality"]
+
+
+def test_budgets_hold_every_state_that_is_compared():
+    one = campaign(lambda x: False)
+    assert one.budgets(20) == [20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 60]
+    with pytest.raises(ValueError, match=r"^jobs must stand without scheduler, got 2 and 'tcp://h:1'$"):
+        campaigns.Workers(2, "tcp://h:1")

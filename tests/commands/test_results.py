@@ -1,0 +1,69 @@
+import os
+import sys
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from suspension_ctrl import tables as files
+from suspension_ctrl.commands import results
+
+
+def test_a_file_appears_whole_or_not_at_all(tmp_path):
+    target = tmp_path / "table.csv"
+    target.write_text("before")
+
+    def fails_halfway(temporary):
+        temporary.write_text("half")
+        raise OSError(28, "No space left on device")
+
+    with pytest.raises(OSError, match="No space left"):
+        files.write_whole(target, fails_halfway)
+    assert target.read_text() == "before"
+    assert os.listdir(tmp_path) == ["table.csv"]
+    files.write_csv(target, pd.DataFrame({"a [m]": [1.5]}))
+    assert target.read_text() == "a [m]\n1.5\n"
+    assert os.listdir(tmp_path) == ["table.csv"]
+
+
+def test_new_folders_are_made_and_empty_ones_taken(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert results.results_folder(tmp_path / "a" / "b").is_dir()
+    (tmp_path / "empty").mkdir()
+    assert results.results_folder(tmp_path / "empty") == tmp_path / "empty"
+    names = {results.results_folder(None) for _ in range(3)}  # within one second
+    assert len(names) == 3
+    assert all(path.parent.name == "results" for path in names)
+
+
+def test_folders_that_cannot_serve_are_named(tmp_path):
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "mine.txt").write_text("kept")
+    with pytest.raises(
+        ValueError, match=r"^out must be a folder that is absent or empty, got '.*full', which is not"
+    ):
+        results.results_folder(tmp_path / "full")
+    with pytest.raises(
+        ValueError, match=r"^out must be a folder that can be written, got '.*mine.txt.*': Not a dir"
+    ):
+        results.results_folder(tmp_path / "full" / "mine.txt" / "deeper")
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="/proc is Linux's")
+def test_folders_that_cannot_be_written_are_named():
+    """No one may create a folder in /proc, not even root."""
+    from pathlib import Path
+
+    with pytest.raises(ValueError, match=r"^out must be a folder that can be written, got '/proc/results'"):
+        results.results_folder(Path("/proc/results"))
+
+
+def test_tables_are_written_as_csv_markdown_and_latex(tmp_path):
+    frame = pd.DataFrame({"algorithm": ["a_b"], "time [s]": [0.123456789], "runs": [31], "HV [%]": [np.nan]})
+    results.write_table(tmp_path / "table", frame)
+    pd.testing.assert_frame_equal(pd.read_csv(tmp_path / "table.csv"), frame)
+    assert "| a_b         | 0.123457" in (tmp_path / "table.md").read_text()
+    latex = (tmp_path / "table.tex").read_text()
+    assert r"\toprule" in latex
+    assert r"a\_b & 0.123457 & 31" in latex
+    assert r"HV [\%]" in latex

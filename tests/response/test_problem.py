@@ -1,0 +1,197 @@
+"""The batched objectives against second roads: adaptive quadrature, closed forms, the compiled kernel."""
+
+import re
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import quad
+
+from suspension_ctrl import PowerLawRoad, QuarterCar, RideProblem
+from suspension_ctrl.paper import experiment as paper
+from suspension_ctrl.response import weightings
+from suspension_ctrl.response.one_strut import fill_mean_squares
+
+springs, dampers = st.floats(1e3, 30e3), st.floats(1e3, 5e3)
+
+
+@cache
+def problem(**changes) -> RideProblem:
+    return paper.ride_problem(**changes)
+
+
+def by_adaptive_quadrature(p: RideProblem, spring: float, damper: float) -> np.ndarray:
+    """ACC, SWS and DTL by QUADPACK over the response of python-control's closed model."""
+    closed = p.vehicle.closed(spring, damper)
+    weighting = weightings.by_name(p.weighting)
+
+    @cache
+    def densities(f: float) -> np.ndarray:
+        factors = np.array([weighting.factor(np.array([f]))[0], 1.0, 1.0])
+        return np.abs(factors * closed(2j * np.pi * f)[:, 0]) ** 2 * p.road.psd(np.array([f]), p.speed)
+
+    low, high = p.band
+    kinks = [f for f in (1.0, 4.0, 8.0, 12.0, *weighting.breakpoints) if low < f < high]
+    integrals = [
+        quad(lambda f, j=j: densities(f)[j], low, high, points=kinks, epsabs=0, epsrel=1e-11, limit=500)[0]
+        for j in range(3)
+    ]
+    return np.sqrt(integrals)
+
+
+CORNERS = [(k, c) for k in (1e3, 30e3) for c in (1e3, 5e3)]
+
+
+@pytest.mark.parametrize("weighting", ["Wk", "Wb", "Wb-table"])
+@pytest.mark.parametrize("design", CORNERS)
+def test_equals_adaptive_quadrature_at_the_corners_of_the_box(weighting, design):
+    p = problem(weighting=weighting)
+    np.testing.assert_allclose(p.evaluate([design])[0], by_adaptive_quadrature(p, *design), rtol=1e-8)
+
+
+@settings(max_examples=15)
+@given(springs, dampers)
+def test_equals_adaptive_quadrature_in_the_box(spring, damper):
+    p = problem()
+    np.testing.assert_allclose(
+        p.evaluate([[spring, damper]])[0], by_adaptive_quadrature(p, spring, damper), rtol=1e-8
+    )
+
+
+def test_error_is_below_1e_9_over_the_whole_box():
+    """Against five times the nodes, on a grid; the error falls geometrically, so those are exact."""
+    p = problem()
+    grid = np.array([(k, c) for k in np.linspace(1e3, 30e3, 25) for c in np.linspace(1e3, 5e3, 25)])
+    np.testing.assert_allclose(p.evaluate(grid), replace(p, nodes=1280).evaluate(grid), rtol=1e-9)
+
+
+@settings(max_examples=20)
+@given(
+    st.floats(150, 600), st.floats(20, 80), st.floats(1e5, 3e5), st.floats(8e3, 40e3), st.floats(800, 4000),
+    st.floats(5, 40),
+)  # fmt: skip
+def test_white_noise_road_velocity_gives_the_closed_forms(m_s, m_u, k_t, k, c, speed):
+    """A road of exponent 2 is white noise in velocity, two-sided intensity S = 2 pi^2 G V.
+
+    Closed forms by residues (no band limit). The band ends at F, so the integral lacks the tail, which is
+    known from the responses' asymptotes: |H| -> c k_t/(m_s m_u w) for acceleration, k_t for the tyre's load.
+    Relative to these the next term is of order (f_w/F)^2, where f_w is the wheel's natural frequency.
+    """
+    road = PowerLawRoad(roughness=1e-6, exponent=2.0)
+    car = QuarterCar(body_mass=m_s, wheel_mass=m_u, tyre_stiffness=k_t)
+    end = 1000.0
+    p = RideProblem(
+        car, road, speed=speed, weighting=None, band=(0.0, end), nodes=1500,
+        lower=(0.99 * k, 0.99 * c), upper=(1.01 * k, 1.01 * c),
+    )  # fmt: skip
+    s, m = 2 * np.pi**2 * road.roughness * speed, m_s + m_u
+    acceleration = s * (k_t * c + k**2 * m / c) / (2 * m_s**2)
+    travel = s * m / (2 * c)
+    tyre = s * (
+        m**3 * k**2 / (2 * m_s**2 * k_t**2 * c) - m_u * m * k / (m_s * k_t * c) + m_u / (2 * c)
+        + m**2 * c / (2 * m_s**2 * k_t)
+    )  # fmt: skip
+    acceleration_tail = (c * k_t / (m_s * m_u)) ** 2 * 2 * s / (3 * (2 * np.pi) ** 4 * end**3)
+    tyre_tail = s / (2 * np.pi**2 * end)
+    next_term = 4 * (k_t + k) / m_u / (2 * np.pi * end) ** 2 + 4 * (c / m_u / (2 * np.pi * end)) ** 2
+    acc, sws, dtl = p.evaluate([[k, c]])[0]
+    np.testing.assert_allclose(
+        acc**2 + acceleration_tail, acceleration, rtol=1e-8 + next_term * acceleration_tail / acceleration
+    )
+    np.testing.assert_allclose(sws**2, travel, rtol=1e-8 + (k_t / m_u) ** 2 / (2 * np.pi * end) ** 4)
+    np.testing.assert_allclose(dtl**2 / k_t**2 + tyre_tail, tyre, rtol=1e-8 + next_term * tyre_tail / tyre)
+
+
+@given(st.lists(st.tuples(springs, dampers), min_size=1, max_size=40))
+def test_rows_are_independent_and_the_input_is_untouched(designs):
+    p = problem()
+    x = np.array(designs)
+    before = x.copy()
+    together = p.evaluate(x)
+    alone = np.vstack([p.evaluate(row[None]) for row in x])
+    np.testing.assert_array_equal(x, before)
+    np.testing.assert_array_equal(together, alone)
+
+
+@given(springs, dampers)
+def test_the_kernel_gives_the_same_to_the_last_bit(spring, damper):
+    p = problem()
+    function, arguments = p.kernel
+    found = function(np.array([spring, damper]), *arguments)
+    np.testing.assert_array_equal(found, p.evaluate([[spring, damper]])[0])
+
+
+@settings(max_examples=50)
+@given(springs, dampers)
+def test_the_compiled_loop_is_the_plain_one(spring, damper):
+    """The sums over 256 nodes are taken in another order: up to 256 units of rounding, halved by the root."""
+    p = problem()
+    plain, ((loop,), _) = np.empty(3), p.kernel[1]
+    fill_mean_squares.py_func(np.array([spring, damper]), loop, gain=np.empty(256), result=plain)
+    np.testing.assert_allclose(np.sqrt(plain), p.evaluate([[spring, damper]])[0], rtol=128 * np.finfo(float).eps)
+
+
+@given(springs, dampers, st.floats(0.1, 100))
+def test_objectives_scale_with_the_root_of_the_roughness(spring, damper, factor):
+    p = problem()
+    rougher = replace(p, road=replace(p.road, roughness=factor * p.road.roughness))
+    np.testing.assert_allclose(
+        rougher.evaluate([[spring, damper]]), np.sqrt(factor) * p.evaluate([[spring, damper]]), rtol=1e-12
+    )
+
+
+def test_any_layout_of_designs_is_taken():
+    p = problem()
+    x = np.random.default_rng(0).uniform(p.lower, p.upper, (50, 2))
+    expected = p.evaluate(x)
+    assert p.evaluate([p.lower, p.upper]).shape == (2, 3)
+    read_only = x.copy()
+    read_only.flags.writeable = False
+    for same in (np.asfortranarray(x), x.tolist(), np.repeat(x, 2, axis=0)[::2], read_only):
+        np.testing.assert_array_equal(p.evaluate(same), expected)
+    as_array = paper.ride_problem(band=np.array([0.0, 20.0]), lower=np.array(p.lower), upper=list(p.upper))
+    np.testing.assert_array_equal(as_array.evaluate(x), expected)
+    whole = x.round().astype(int)
+    np.testing.assert_array_equal(p.evaluate(whole), p.evaluate(whole.astype(float)))
+    assert p.evaluate(np.empty((0, 2))).shape == (0, 3)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"speed": 0.0}, "speed must be finite and > 0 m/s, got 0.0"),
+        ({"weighting": "Wz"}, "weighting must be one of Wk, Wd, Wf, Wc, We, Wj, Wb, Wk-table, Wb-table, got 'Wz'"),
+        ({"band": (20.0, 0.0)}, "band must be finite with 0 <= lower < upper [Hz], got (20.0, 0.0)"),
+        ({"band": (0.0, 1.0, 2.0)}, "band must be finite with 0 <= lower < upper [Hz], got (0.0, 1.0, 2.0)"),
+        ({"band": None}, "band must be finite with 0 <= lower < upper [Hz], got None"),
+        ({"lower": (30e3, 1e3)}, "lower must be finite and below upper in every variable"),
+        ({"lower": (0.0, 1e3)}, "lower bound of spring must be finite and > 0 N/m, got 0.0"),
+        ({"lower": (1e3,), "upper": (3e4,)}, "lower and upper must bound spring, damper, got (1000.0,)"),
+        ({"nodes": 1}, "nodes must be a whole number >= 2, got 1"),
+        ({"nodes": 60}, "nodes must resolve every resonance in the box to 1e-06, got 60"),
+        ({"lower": (1e3, 1.0)}, "nodes must resolve every resonance in the box"),
+    ],
+)
+def test_rejects_bad_settings(changes, message):
+    with pytest.raises(ValueError, match="^" + re.escape(message)):
+        paper.ride_problem(**changes)
+
+
+@pytest.mark.parametrize(
+    "design", [[22e3, -1500.0], [22e3, 100.0], [40e3, 1500.0], [np.nan, 1500.0], [22e3, np.inf]]
+)
+def test_rejects_designs_outside_the_bounds(design):
+    """Where a quadrature checked at the corners of the box says nothing."""
+    with pytest.raises(
+        ValueError, match=r"^designs must lie within \[1000.0, 1000.0\] and \[30000.0, 5000.0\], got"
+    ):
+        problem().evaluate([[22e3, 1500.0], design])
+
+
+@pytest.mark.parametrize("designs", [[1.0, 2.0], [[1.0, 2.0, 3.0]], [[[1.0, 2.0]]]])
+def test_rejects_designs_of_another_shape(designs):
+    with pytest.raises(ValueError, match=r"^designs must have shape \(n, 2\), got"):
+        problem().evaluate(designs)

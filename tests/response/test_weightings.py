@@ -1,0 +1,62 @@
+import numpy as np
+import pytest
+
+from suspension_ctrl import datafiles, weighting
+from suspension_ctrl.response import weightings
+
+# ISO 8041-1, Table 1: factor at the reference angular frequency [rad/s]
+REFERENCE = {
+    "Wb": (100, 0.8126), "Wc": (100, 0.5145), "Wd": (100, 0.1261), "We": (100, 0.06287),
+    "Wf": (2.5, 0.3888), "Wj": (100, 1.019), "Wk": (100, 0.7718),
+}  # fmt: skip
+
+
+def printed(value: float) -> float:
+    """A factor to the four significant digits in which the standard prints it."""
+    return float(f"{value:.4g}")
+
+
+@pytest.mark.parametrize("name", weightings.FILTERS)
+def test_filters_equal_the_standard_at_its_reference_frequency(name):
+    omega, factor = REFERENCE[name]
+    assert printed(abs(weighting(name)(1j * omega))) == factor
+
+
+@pytest.mark.parametrize("name", ["Wk", "Wb"])
+def test_filters_equal_the_standards_table_to_its_digits(name):
+    for row in datafiles.rows("standards/iso8041_wk_wb_table.csv"):
+        f = 10 ** (int(row["band"]) / 10)
+        assert printed(abs(weighting(name)(2j * np.pi * f))) == float(row[name.lower()]), row
+
+
+@pytest.mark.parametrize("name", ["Wk", "Wb"])
+def test_table_and_filter_agree_between_the_bands(name):
+    """Straight lines in log-log between third octaves miss the curve by up to h^2/8 times its curvature."""
+    f = np.geomspace(0.1, 100, 3001)
+    table, filter_ = (weightings.by_name(n).factor(f) for n in (f"{name}-table", name))
+    log_filter, step = np.log(filter_), np.log(f[1] / f[0])
+    curvature = np.abs(np.diff(log_filter, 2)).max() / step**2
+    bound = curvature * (np.log(10) / 10) ** 2 / 8 + 0.5e-3  # and half a unit of the last printed digit
+    assert np.abs(np.log(table) - log_filter).max() < bound
+
+
+def test_table_goes_on_beyond_its_ends():
+    inside, outside = (
+        weightings.by_name("Wk-table").factor([0.1, 10**-0.9]),
+        weightings.by_name("Wk-table").factor([0.05]),
+    )
+    slope = np.log(inside[1] / inside[0]) / np.log(10**0.1)
+    np.testing.assert_allclose(outside, inside[0] * 0.5**slope, rtol=1e-12)
+
+
+def test_unknown_weightings_are_named():
+    for call in (weighting, weightings.by_name):
+        with pytest.raises(ValueError, match=r"^weighting must be one of Wk, Wd, .*got 'Wx'"):
+            call("Wx")
+    with pytest.raises(ValueError, match="got 'Wk-table'"):
+        weighting("Wk-table")
+
+
+def test_a_returned_filter_can_be_changed_without_harm():
+    weighting("Wk").num[0][0][:] = 0
+    assert abs(weighting("Wk")(2j * np.pi)) > 0.4

@@ -1,0 +1,154 @@
+"""Models of coherence, the isotropic one beside integrals over its surface's spectrum."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad
+from scipy.special import j1, jn_zeros
+
+from suspension_ctrl import PowerLawRoad, TwoSlopeRoad
+from suspension_ctrl.roads.coherence import Constant, Exponential, Isotropic, Tabulated, coherence_matrix
+
+WAVENUMBERS = np.array([0.001, 0.02, 0.1, 0.3, 1.5])
+ROAD = PowerLawRoad(roughness=1e-6, exponent=2.0)
+
+
+def isotropic_by_quadrature(road, n: float, distance: float) -> float:
+    """Coherence 1 - 2 pi d/G(n) int_0^inf G(sqrt(n^2 + m^2)) J_1(2 pi d m) dm (Dodds and Robson 1973).
+
+    The partial sums between the zeros of J_1 alternate about the integral; averaging 40 of them repeatedly
+    leaves less than the 1e-12 to which each is integrated.
+    """
+
+    def integrand(m: float) -> float:
+        return road.psd(np.hypot(n, m), 1.0) * j1(2 * np.pi * distance * m)
+
+    edges = np.concatenate([[0], jn_zeros(1, 60)]) / (2 * np.pi * distance)
+    corner = getattr(road, "corner", 0.0)
+    kinks = [n, 3 * n, 10 * n, 100 * n, np.sqrt(max(corner**2 - n**2, 0))]
+    points = np.unique([*edges, *(kink for kink in kinks if kink < edges[-1])])
+    panels = [quad(integrand, a, b, epsabs=0, epsrel=1e-12)[0] for a, b in pairwise(points)]
+    sums = np.cumsum(panels)[np.searchsorted(points, edges[21:]) - 1]
+    while sums.size > 1:
+        sums = (sums[1:] + sums[:-1]) / 2
+    return 1 - 2 * np.pi * distance * sums[0] / road.psd(n, 1.0)
+
+
+@pytest.mark.parametrize(
+    "road",
+    [
+        ROAD,
+        PowerLawRoad(roughness=5e-6, exponent=2.5),
+        TwoSlopeRoad(roughness=1e-6, reference=0.2, lower_exponent=1.5, upper_exponent=2.8, corner=0.2),
+        TwoSlopeRoad(roughness=1e-6, reference=0.2, lower_exponent=3.0, upper_exponent=2.0, corner=0.15),
+    ],
+)
+def test_isotropic_coherence_equals_the_integral_over_the_surface(road):
+    """Both to 1e-11 or better, the trapezoidal rule of the two slopes exp(-pi^2/0.3) and rounding."""
+    by_quadrature = [isotropic_by_quadrature(road, n, 1.5) for n in WAVENUMBERS]
+    np.testing.assert_allclose(Isotropic().between(WAVENUMBERS, 1.5, road), by_quadrature, rtol=0, atol=1e-10)
+
+
+def test_isotropic_coherence_of_exponents_with_elementary_bessel_functions():
+    """K_1/2(z) = sqrt(pi/2z) exp(-z), so that exponent 1 gives exp(-z) and exponent 3 (1 + z) exp(-z)."""
+    z = 2 * np.pi * WAVENUMBERS * 1.6
+    for exponent, by_hand in ((1.0, np.exp(-z)), (3.0, (1 + z) * np.exp(-z))):
+        np.testing.assert_allclose(Isotropic(exponent).between(WAVENUMBERS, 1.6, ROAD), by_hand, rtol=1e-12)
+
+
+def test_isotropic_coherence_is_that_of_a_two_dimensional_surface():
+    """Phi ~ (n^2 + m^2)^-3/2 for exponent 2: int Phi cos(2 pi m d) dm over int Phi dm with u = m/n, to 1e-8."""
+    for n in WAVENUMBERS:
+        cross, _ = quad(lambda u: (1 + u**2) ** -1.5, 0, np.inf, weight="cos", wvar=2 * np.pi * n * 1.5)
+        assert abs(Isotropic().between(np.array([n]), 1.5, ROAD)[0] - cross) < 1e-8  # int (1 + u^2)^-3/2 du = 1
+
+
+@given(st.floats(1e-12, 1e3), st.floats(1e-6, 1e3), st.floats(0.1, 8), st.floats(0.1, 8), st.floats(1e-4, 10))
+def test_coherence_stays_from_zero_to_one(n, distance, lower, upper, corner):
+    road = TwoSlopeRoad(
+        roughness=1e-6, reference=corner, lower_exponent=lower, upper_exponent=upper, corner=corner
+    )
+    gamma = Isotropic().between(np.array([n]), distance, road)
+    assert 0 <= gamma[0] <= 1
+    if n * distance < 1e-12 and lower >= 1:
+        assert gamma[0] > 1 - 1e-9
+
+
+def test_alike_slopes_are_one_power_law():
+    same = TwoSlopeRoad(roughness=1e-6, reference=0.1, lower_exponent=2, upper_exponent=2, corner=0.2)
+    near = TwoSlopeRoad(roughness=1e-6, reference=0.1, lower_exponent=2, upper_exponent=2 + 1e-9, corner=0.2)
+    law = Isotropic().between(WAVENUMBERS, 1.5, ROAD)
+    np.testing.assert_array_equal(Isotropic().between(WAVENUMBERS, 1.5, same), law)
+    np.testing.assert_allclose(Isotropic().between(WAVENUMBERS, 1.5, near), law, rtol=1e-7)
+
+
+def test_simple_models():
+    np.testing.assert_allclose(
+        Exponential(3.0).between(WAVENUMBERS, 1.5, ROAD), np.exp(-4.5 * WAVENUMBERS), rtol=1e-15
+    )
+    np.testing.assert_array_equal(
+        Exponential(0.0).between(WAVENUMBERS, 1.5, ROAD), Constant(1).between(WAVENUMBERS, 1.5, ROAD)
+    )
+    table = Tabulated((0.1, 0.3), (0.8, 0.2), 1.5)
+    np.testing.assert_allclose(
+        table.between(np.array([0.05, 0.1, 0.2, 0.3, 9.0]), 1.5, ROAD), [0.9, 0.8, 0.5, 0.2, 0.2]
+    )
+    np.testing.assert_allclose(
+        table.between(np.array([0.1]), 3.0, ROAD), table.between(np.array([0.2]), 1.5, ROAD)
+    )
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Isotropic(0.0), "exponent must be finite and > 0, got 0.0"),
+        (lambda: Exponential(-1.0), "decay must be a number from 0.0 to 1000000.0, got -1.0"),
+        (lambda: Exponential(np.inf), "decay must be a number from 0.0 to 1000000.0, got inf"),
+        (lambda: Constant(1.1), "value must be a number from 0.0 to 1.0, got 1.1"),
+        (lambda: Tabulated((0.1,), (0.5,), 0.0), "distance must be finite and > 0 m, got 0.0"),
+        (
+            lambda: Tabulated((0.1,), (0.5, 0.4), 1.0),
+            r"wavenumber and coherence must be of one length, got \(1,\)",
+        ),
+        (lambda: Tabulated((0.2, 0.1), (0.5, 0.4), 1.0), "wavenumber must be above zero, finite and ascending"),
+        (lambda: Tabulated((0.1, 0.2), (0.5, 1.4), 1.0), "coherence must be from 0 to 1, got 0.5 to 1.4"),
+    ],
+)
+def test_rejects_impossible_models(make, message):
+    with pytest.raises(ValueError, match=f"^{message}"):
+        make()
+
+
+class Custom:
+    """A model that returns whatever it was made with."""
+
+    def __init__(self, make):
+        self.make = make
+
+    def between(self, n, distance, road):
+        return self.make(n, distance)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda n, d: np.full(n.shape, 1.2),
+        lambda n, d: np.full(n.shape, -0.1),
+        lambda n, d: np.full(n.shape, np.nan),
+        lambda n, d: np.full(n.shape, 0.5j),
+        lambda n, d: 0.5,
+    ],
+)
+def test_rejects_what_is_no_coherence(make):
+    with pytest.raises(ValueError, match=r"^coherence must be real, from 0 to 1 and of shape \(5,\), got [^\n]*$"):
+        coherence_matrix(Custom(make), WAVENUMBERS, np.array([0.0, 1.5]), ROAD)
+
+
+def test_rejects_coherences_of_no_road():
+    """Neighbours all alike and the outer two strangers: an eigenvalue of 1 - sqrt(2)."""
+    model = Custom(lambda n, d: np.full(n.shape, 1.0 if d < 1 else 0.0))
+    with pytest.raises(ValueError, match=r"^coherence must make a positive semi-definite matrix, got [^\n]*$"):
+        coherence_matrix(model, WAVENUMBERS, np.array([0.0, 0.8, 1.6]), ROAD)

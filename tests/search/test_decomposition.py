@@ -1,0 +1,220 @@
+"""The steps of MOEA/D-DRA, each against its definition."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from suspension_ctrl.search import decomposition
+
+
+@pytest.mark.parametrize("m", [2, 3, 4])
+@pytest.mark.parametrize("n", [20, 105])
+def test_weights_lie_on_the_simplex_with_its_corners(n, m):
+    weights = decomposition.weight_vectors(n, m)
+    assert weights.shape == (n, m)
+    assert (weights >= 0).all()
+    np.testing.assert_allclose(weights.sum(axis=1), 1, rtol=1e-12)
+    corners = decomposition.corner_subproblems(weights)
+    np.testing.assert_array_equal(weights[corners], np.eye(m))
+
+
+def test_weights_are_evenly_spread():
+    """Each new one is farthest from the others, so no two are closer than the radius that is left uncovered.
+
+    But for the holes between the n = 5000 candidates, on the simplex of area A: sqrt(A log(n) / (pi n)).
+    """
+    weights = decomposition.weight_vectors(200, 3)
+    distance = np.linalg.norm(weights[:, None] - weights[None], axis=2) + 2 * np.eye(200)
+    sample = np.random.default_rng(0).dirichlet(np.ones(3), 2000)
+    uncovered = np.linalg.norm(sample[:, None] - weights[None], axis=2).min(axis=1).max()
+    hole = np.sqrt(np.sqrt(3) / 2 * np.log(5000) / (np.pi * 5000))
+    assert distance.min() >= uncovered - hole
+    # Anyone's nearest neighbour is within two radii of what is left uncovered, or a candidate would lie between.
+    assert distance.min(axis=1).max() <= 2 * (distance.min() + hole)
+
+
+def test_two_objectives_get_a_near_regular_row_of_weights():
+    first = np.sort(decomposition.weight_vectors(33, 2)[:, 0])
+    gaps = np.diff(first)
+    assert gaps.max() / gaps.min() < 2.2  # halving intervals leaves two sizes, and the candidates are finite
+
+
+def test_equal_sizes_give_equal_weights_that_cannot_be_changed():
+    weights = decomposition.weight_vectors(30, 3).copy()
+    decomposition.weight_vectors.cache_clear()
+    np.testing.assert_array_equal(decomposition.weight_vectors(30, 3), weights)
+    with pytest.raises(ValueError, match="read-only"):
+        decomposition.weight_vectors(30, 3)[0, 0] = 2.0
+
+
+def test_neighbourhoods_hold_the_nearest_and_begin_with_oneself():
+    weights, near = decomposition.weight_vectors(60, 3), decomposition.neighbourhoods(60, 3, 6)
+    np.testing.assert_array_equal(near[:, 0], np.arange(60))
+    distance = np.linalg.norm(weights[:, None] - weights[None], axis=2)
+    np.testing.assert_allclose(
+        np.take_along_axis(distance, near, axis=1), np.sort(distance, axis=1)[:, :6], rtol=1e-12, atol=1e-15
+    )
+
+
+vectors = st.lists(st.floats(0, 100), min_size=3, max_size=3).map(np.array)
+
+
+@given(vectors, vectors, vectors)
+def test_tchebycheff_is_equation_14(f, weight, ideal):
+    g = decomposition.tchebycheff(f, weight, ideal)
+    assert g == max(w * abs(a - z) for w, a, z in zip(weight, f, ideal, strict=True))
+
+
+@given(st.integers(15, 120), st.integers(0, 2**32))
+def test_corners_and_different_others_are_chosen(n, seed):
+    utility = np.random.default_rng(seed).random(n)
+    corners = np.array([n - 1, 0, 7])  # wherever they stand
+    chosen = decomposition.choose_subproblems(np.random.default_rng(seed), utility, corners, n // 5, 10)
+    assert chosen.size == n // 5
+    assert np.unique(chosen).size == chosen.size
+    np.testing.assert_array_equal(chosen[:3], corners)
+    assert ((chosen >= 0) & (chosen < n)).all()
+
+
+def test_higher_utilities_are_chosen_more_often():
+    utility = np.linspace(0.0, 1.0, 100)
+    rng = np.random.default_rng(0)
+    counts = np.zeros(100)
+    for _ in range(500):
+        counts[decomposition.choose_subproblems(rng, utility, np.array([0, 1, 2]), 20, 10)[3:]] += 1
+    assert counts[80:].mean() > 4 * counts[40:60].mean()
+    all_equal = [
+        decomposition.choose_subproblems(rng, np.ones(100), np.array([0]), 20, 10)[1:] for _ in range(2000)
+    ]
+    share = np.bincount(np.ravel(all_equal), minlength=100)[1:]
+    assert (np.abs(share - 38000 / 99) < 5 * np.sqrt(38000 / 99)).all()  # ties fall evenly
+
+
+def test_everyone_can_be_chosen():
+    """As many as there are: the last tournaments have a single candidate."""
+    chosen = decomposition.choose_subproblems(np.random.default_rng(0), np.ones(9), np.array([0, 1]), 9, 10)
+    np.testing.assert_array_equal(np.sort(chosen), np.arange(9))
+
+
+def test_mating_range_is_the_neighbourhood_with_its_probability():
+    near = decomposition.neighbourhoods(50, 3, 5)
+    rng = np.random.default_rng(1)
+    sizes = np.array([decomposition.mating_range(rng, 7, near, 0.9).size for _ in range(4000)])
+    assert set(sizes) == {5, 50}
+    assert (sizes == 5).mean() == pytest.approx(0.9, abs=5 * np.sqrt(0.09 / 4000))
+
+
+def population(n=12):
+    rng = np.random.default_rng(2)
+    weights = np.maximum(decomposition.weight_vectors(n, 3), decomposition.ZERO_WEIGHT)
+    objectives = 1 + rng.random((n, 3))
+    return rng.random((n, 2)), objectives, weights, objectives.min(axis=0)
+
+
+def test_an_ideal_child_replaces_up_to_the_limit_and_moves_the_ideal_point():
+    designs, objectives, weights, ideal = population()
+    child = np.array([0.5, 0.5])
+    decomposition.replace_worse(
+        np.random.default_rng(0), child, np.full(3, 0.1), np.arange(12), designs, objectives, weights, ideal, 4
+    )
+    replaced = (objectives == 0.1).all(axis=1)
+    assert replaced.sum() == 4
+    assert (designs[replaced] == child).all()
+    np.testing.assert_array_equal(ideal, 0.1)
+
+
+def test_whom_a_child_replaces_is_left_to_chance():
+    """It betters all twelve; each is among the four replaced a third of the time."""
+    counts = np.zeros(12)
+    rng = np.random.default_rng(3)
+    for _ in range(3000):
+        designs, objectives, weights, ideal = population()
+        decomposition.replace_worse(
+            rng, np.zeros(2), np.full(3, 0.1), np.arange(12), designs, objectives, weights, ideal, 4
+        )
+        counts += (objectives == 0.1).all(axis=1)
+    assert (np.abs(counts - 1000) < 5 * np.sqrt(3000 * 2 / 9)).all()
+
+
+def test_the_ideal_point_moves_before_the_comparison():
+    """The child betters the partner only if measured from the ideal point that it moves itself.
+
+    Partner (1, 3), child (2, 0), weights (0.3, 0.7). From the old ideal (1, 3) the partner has g = 0 and
+    nothing betters it; from the new one (1, 0) it has 0.7 x 3 = 2.1 and the child 0.3 x 1 = 0.3.
+    """
+    designs, objectives = np.array([[0.0]]), np.array([[1.0, 3.0]])
+    ideal = np.array([1.0, 3.0])
+    decomposition.replace_worse(
+        np.random.default_rng(0), np.array([9.0]), np.array([2.0, 0.0]), np.array([0]),
+        designs, objectives, np.array([[0.3, 0.7]]), ideal, 1,
+    )  # fmt: skip
+    np.testing.assert_array_equal(ideal, [1.0, 0.0])
+    assert designs[0, 0] == 9.0
+
+
+def test_a_worse_child_and_an_equal_one_replace_nobody():
+    designs, objectives, weights, ideal = population()
+    before = designs.copy()
+    for value in (np.full(3, 9.0), objectives[3].copy()):
+        decomposition.replace_worse(
+            np.random.default_rng(0),
+            np.zeros(2),
+            value,
+            np.array([3]),
+            designs,
+            objectives,
+            weights,
+            ideal,
+            5,
+        )
+    np.testing.assert_array_equal(designs, before)
+
+
+def test_utilities_follow_relative_progress_at_the_present_ideal_point():
+    """By hand, weights 1, ideal 0, threshold 0.001: progress 1/2, 0.0005, 0, backwards, and from g = 0."""
+    before = np.array([[2.0, 1.0], [2.0, 1.0], [2.0, 1.0], [2.0, 1.0], [0.0, 0.0]])
+    after = np.array([[1.0, 1.0], [1.999, 1.0], [2.0, 0.5], [3.0, 1.0], [0.0, 0.0]])
+    updated = decomposition.updated_utility(np.full(5, 0.8), before, after, np.ones((5, 2)), np.zeros(2), 0.001)
+    np.testing.assert_allclose(updated, [1.0, 0.8 * 0.975, 0.8 * 0.95, 0.8 * 0.95, 0.8 * 0.95], rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("child", "replaced"),
+    [
+        ([9.0, 9.0, -1.0, 0.0], [True, True, True, False]),  # feasible and bad: infeasible ones make room
+        ([0.0, 0.0, -1.0, -1.0], [True, True, True, True]),  # feasible and good: everyone does
+        ([0.0, 0.0, 0.25, 0.25], [True, False, False, False]),  # only those of larger violation
+        ([0.0, 0.0, 2.0, 0.0], [False, False, False, False]),
+    ],
+)
+def test_whom_a_child_replaces_with_constraints(child, replaced):
+    """Partners of violation 1, 0.5, 0.4 and none: slack of one constraint makes up for no other."""
+    values = np.array([[1.0, 1.0, 1.0, -9.0], [1.0, 1.0, 0.5, -1.0], [1.0, 1.0, 0.2, 0.2], [1.0, 1.0, 0.0, -1.0]])
+    designs, ideal = np.zeros((4, 1)), np.array([1.0, 1.0])
+    decomposition.replace_worse(
+        np.random.default_rng(0), np.ones(1), np.array(child), np.arange(4), designs, values,
+        np.full((4, 2), 0.5), ideal, 4,
+    )  # fmt: skip
+    np.testing.assert_array_equal(designs[:, 0] == 1, replaced)
+    feasible = max(child[2:]) <= 0
+    np.testing.assert_array_equal(ideal, np.minimum(child[:2], 1.0) if feasible else 1.0)
+
+
+def test_utilities_of_infeasible_designs_follow_their_violation():
+    """By hand, threshold 0.001: violation halved, met at last, as it was, down by 0.0005; g is worse in all."""
+    before = np.array([[1.0, 1.0, 2.0], [1.0, 1.0, 2.0], [1.0, 1.0, 2.0], [1.0, 1.0, 2.0]])
+    after = np.array([[9.0, 9.0, 1.0], [9.0, 9.0, -1.0], [9.0, 9.0, 2.0], [9.0, 9.0, 1.999]])
+    updated = decomposition.updated_utility(np.full(4, 0.8), before, after, np.ones((4, 2)), np.zeros(2), 0.001)
+    np.testing.assert_allclose(updated, [1.0, 1.0, 0.8 * 0.95, 0.8 * 0.975], rtol=1e-9)
+
+
+@given(st.integers(0, 2**32))
+def test_utilities_stay_between_zero_and_one(seed):
+    rng = np.random.default_rng(seed)
+    utility = rng.uniform(0.01, 1, 8)
+    updated = decomposition.updated_utility(
+        utility, rng.random((8, 3)), rng.random((8, 3)), rng.random((8, 3)), rng.normal(0, 1, 3), 0.001
+    )
+    assert ((updated > 0) & (updated <= 1)).all()
+    assert (updated[updated < 1] >= 0.95 * utility[updated < 1]).all()

@@ -1,0 +1,256 @@
+"""What every optimiser owes: budgets, seeds, histories, and clear errors."""
+
+import json
+import re
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from functions import dtlz2, zdt1
+from suspension_ctrl import MoeadDra, Nsga2, Problem, minimise
+from suspension_ctrl.paper import experiment as paper
+from suspension_ctrl.search.gamultiobj import Gamultiobj
+from suspension_ctrl.search.sampling import Sampling
+
+OPTIMISERS = {
+    "nsga2": Nsga2(population=40),
+    "nsga2-odd": Nsga2(population=41),
+    "nsga2-deap-standard": Nsga2(population=40, selection="deap-standard"),
+    "nsga2-deap-log": Nsga2(population=40, selection="deap-log"),
+    "moead-dra": MoeadDra(population=40, utility_period=3),
+    "moead-dra-raw": MoeadDra(population=40, normalise=False, objective_scales=(1.0, 1.0, 1e3)),
+    "moead-dra-batch": MoeadDra(population=40, update="batch"),
+    "nsga2-gamultiobj": Gamultiobj(population=40),
+    "random": Sampling(population=40, points="random"),
+    "sobol": Sampling(population=40),
+}
+
+every_optimiser = pytest.mark.parametrize("optimiser", OPTIMISERS.values(), ids=OPTIMISERS.keys())
+
+
+class Counted:
+    """A problem's evaluation that counts designs."""
+
+    def __init__(self, problem):
+        self.evaluate_inside = problem.evaluate
+        self.designs = 0
+
+    def __call__(self, designs):
+        self.designs += len(designs)
+        return self.evaluate_inside(designs)
+
+
+def counted(problem: Problem) -> tuple[Problem, Counted]:
+    counter = Counted(problem)
+    return replace(problem, evaluate=counter), counter
+
+
+@every_optimiser
+@pytest.mark.parametrize("iterations", [1, 7])
+def test_evaluations_are_those_counted(optimiser, iterations):
+    problem, counter = counted(dtlz2(5))
+    run = minimise(problem, optimiser, iterations=iterations, seed=1)
+    assert run.evaluations == counter.designs
+    share = 5 if isinstance(optimiser, MoeadDra) else 1
+    assert run.evaluations == optimiser.population + iterations * (optimiser.population // share)
+
+
+@every_optimiser
+def test_a_budget_of_evaluations_is_kept(optimiser):
+    problem, counter = counted(dtlz2(5))
+    run = minimise(problem, optimiser, evaluations=333, seed=1)
+    assert run.evaluations == counter.designs <= 333
+    assert run.evaluations + optimiser.evaluations_per_iteration(3) > 333
+
+
+@every_optimiser
+def test_same_seed_same_arrays(optimiser):
+    problem = paper.ride_problem()
+    first, again, other = (minimise(problem, optimiser, iterations=6, seed=seed) for seed in (3, 3, 4))
+    np.testing.assert_array_equal(first.designs, again.designs)
+    np.testing.assert_array_equal(first.objectives, again.objectives)
+    assert not np.array_equal(first.designs, other.designs)
+
+
+PROGRAM = """
+import json, sys
+from suspension_ctrl import Gamultiobj, MoeadDra, Nsga2, Sampling, minimise
+from suspension_ctrl.paper import experiment as paper
+runs = [minimise(paper.ride_problem(), eval(text), iterations=6, seed=3) for text in json.loads(sys.argv[1])]
+print(json.dumps([[run.designs.tolist(), run.objectives.tolist()] for run in runs]))
+"""
+
+
+def test_same_seed_same_arrays_in_another_process():
+    texts = json.dumps([repr(optimiser) for optimiser in OPTIMISERS.values()])
+    done = subprocess.run([sys.executable, "-c", PROGRAM, texts], capture_output=True, text=True, check=True)
+    for optimiser, (designs, objectives) in zip(OPTIMISERS.values(), json.loads(done.stdout), strict=True):
+        run = minimise(paper.ride_problem(), optimiser, iterations=6, seed=3)
+        np.testing.assert_array_equal(run.designs, designs)
+        np.testing.assert_array_equal(run.objectives, objectives)
+
+
+@every_optimiser
+def test_results_are_in_the_box_and_evaluated(optimiser):
+    problem = paper.ride_problem()
+    run = minimise(problem, optimiser, iterations=5, seed=0)
+    assert ((run.designs >= problem.lower) & (run.designs <= problem.upper)).all()
+    np.testing.assert_array_equal(run.objectives, problem.evaluate(run.designs))
+
+
+@every_optimiser
+def test_history_has_a_row_for_the_start_and_one_per_iteration(optimiser):
+    run = minimise(dtlz2(5), optimiser, iterations=4, seed=0)
+    history = run.history
+    assert history.iteration.tolist() == [0, 1, 2, 3, 4]
+    assert history.evaluations.iloc[0] == optimiser.population
+    assert history.evaluations.iloc[-1] == run.evaluations
+    assert history.evaluations.diff().iloc[1:].eq(optimiser.evaluations_per_iteration(3)).all()
+    assert history.seconds.is_monotonic_increasing
+    assert history.seconds.iloc[-1] == run.seconds
+    phases = history[[f"{phase}_seconds" for phase in optimiser.phases]]
+    assert (phases.diff().iloc[1:] >= 0).all(axis=None)
+    assert phases.iloc[-1].sum() <= run.seconds
+    ideal = history[["ideal_f1", "ideal_f2", "ideal_f3"]]
+    assert (ideal.diff().iloc[1:] <= 0).all(axis=None)
+    assert (ideal.iloc[-1] <= run.objectives.min(axis=0)).all()
+
+
+def test_a_fresh_seed_is_kept_and_repeats_the_run():
+    run = minimise(zdt1(4), OPTIMISERS["nsga2"], iterations=2)
+    again = minimise(zdt1(4), OPTIMISERS["nsga2"], iterations=2, seed=run.seed)
+    np.testing.assert_array_equal(run.designs, again.designs)
+
+
+@every_optimiser
+def test_any_number_of_variables(optimiser):
+    for variables in (1, 3):
+        problem = Problem(
+            evaluate=lambda x: np.stack([x.sum(axis=1), (1 - x).sum(axis=1), (x**2).sum(axis=1)], axis=1),
+            lower=(0.0,) * variables,
+            upper=(2.0,) * variables,
+            objectives=("a", "b", "c"),
+        )
+        assert minimise(problem, optimiser, iterations=3, seed=0).designs.shape[1] == variables
+
+
+@pytest.mark.parametrize(
+    ("budget", "message"),
+    [
+        ({}, "exactly one of iterations and evaluations must be given, got None and None"),
+        (
+            {"iterations": 1, "evaluations": 99},
+            "exactly one of iterations and evaluations must be given, got 1 and 99",
+        ),
+        ({"iterations": 0}, "iterations must be a whole number >= 1, got 0"),
+        ({"iterations": 2.5}, "iterations must be a whole number >= 1, got 2.5"),
+        ({"evaluations": 79}, "evaluations must be a whole number >= 80, got 79"),
+        ({"iterations": 1, "seed": -1}, "seed must be a whole number >= 0, got -1"),
+    ],
+)
+def test_rejects_bad_budgets(budget, message):
+    with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
+        minimise(zdt1(3), OPTIMISERS["nsga2"], **budget)
+
+
+@every_optimiser
+@pytest.mark.parametrize(
+    ("evaluate", "message"),
+    [
+        (lambda x: x[:, :2], "evaluate must return shape (40, 3) for designs (40, 5), got (40, 2)"),
+        (lambda x: x[1:, :3], "evaluate must return shape (40, 3) for designs (40, 5), got (39, 3)"),
+        (lambda x: x[:, :3] * np.nan, "evaluate must return finite objectives, got [nan, nan, nan] for design"),
+        (lambda x: x[:, :3] / 0.0, "evaluate must return finite objectives, got [inf, inf, inf] for design"),
+    ],
+)
+@pytest.mark.filterwarnings("ignore:divide by zero:RuntimeWarning")  # made on purpose, for an infinite objective
+def test_rejects_bad_evaluations(optimiser, evaluate, message):
+    optimiser = replace(optimiser, population=40)
+    with pytest.raises(ValueError, match=f"^{re.escape(message)}"):
+        minimise(replace(dtlz2(5), evaluate=evaluate), optimiser, iterations=1, seed=0)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Nsga2(population=3), "population must be a whole number >= 4, got 3"),
+        (lambda: MoeadDra(population=3), "population must be a whole number >= 4, got 3"),
+        (lambda: Nsga2(population=10.0), "population must be a whole number >= 4, got 10.0"),
+        (
+            lambda: Nsga2(population=8, crossover_probability=1.5),
+            "crossover_probability must be a number from 0 to 1",
+        ),
+        (
+            lambda: Nsga2(population=8, mutation_probability=-0.1),
+            "mutation_probability must be a number from 0 to 1",
+        ),
+        (
+            lambda: Nsga2(population=8, selection="quick"),
+            "selection must be one of array, deap-standard, deap-log, got",
+        ),
+        (lambda: MoeadDra(population=8, neighbourhood=2), "neighbourhood must be a number from 0 to 1, got 2"),
+        (lambda: MoeadDra(population=8, update="both"), "update must be one of sequential, batch, got 'both'"),
+        (
+            lambda: MoeadDra(population=8, normalise=False, objective_scales=(1.0, 0.0)),
+            "objective_scales must be finite",
+        ),
+    ],
+)
+def test_rejects_bad_settings(make, message):
+    with pytest.raises(ValueError, match=f"^{re.escape(message)}"):
+        make()
+
+
+def test_rejects_populations_too_small_for_the_corner_subproblems():
+    with pytest.raises(ValueError, match=r"^population must be >= 15 for 3 objectives, .* got 14$"):
+        minimise(dtlz2(5), MoeadDra(population=14), iterations=1, seed=0)
+    assert minimise(dtlz2(5), MoeadDra(population=15), iterations=1, seed=0).evaluations == 18
+
+
+def test_rejects_scales_that_do_not_fit():
+    with pytest.raises(
+        ValueError, match=r"^objective_scales must be 3 numbers, one per objective, got \(1.0, 2.0\)$"
+    ):
+        minimise(
+            dtlz2(5), MoeadDra(population=20, normalise=False, objective_scales=(1.0, 2.0)), iterations=1, seed=0
+        )
+    with pytest.raises(ValueError, match=r"^objective_scales must be None with normalise, got"):
+        MoeadDra(population=20, objective_scales=(1.0, 2.0, 3.0))
+
+
+@every_optimiser
+def test_an_evaluation_may_keep_its_memory_and_change_its_argument(optimiser):
+    """It hands out the same array each time, and spoils the designs that it is given."""
+    plain = dtlz2(5)
+    memory = {}
+
+    def careless(designs):
+        values = memory.setdefault(len(designs), np.empty((len(designs), 3)))
+        values[:] = plain.evaluate(designs)
+        designs[:] = -1.0
+        return values
+
+    run = minimise(replace(plain, evaluate=careless), optimiser, iterations=3, seed=0)
+    expected = minimise(plain, optimiser, iterations=3, seed=0)
+    np.testing.assert_array_equal(run.designs, expected.designs)
+    np.testing.assert_array_equal(run.objectives, expected.objectives)
+
+
+@every_optimiser
+def test_exchanged_evaluations_are_checked_and_counted(optimiser):
+    problem = paper.ride_problem()
+    toolbox = optimiser.toolbox(problem)
+    toolbox.register("evaluate", lambda designs: np.full((len(designs), 3), np.nan))
+    with pytest.raises(ValueError, match=r"^evaluate must return finite objectives"):
+        minimise(problem, optimiser, iterations=1, seed=0, toolbox=toolbox)
+
+
+def test_evaluations_are_counted_where_they_are_made():
+    """A tournament that returns half as many parents makes half as many children."""
+    problem, optimiser = dtlz2(5), Nsga2(population=40)
+    toolbox = optimiser.toolbox(problem)
+    toolbox.register("tournament", lambda rng, objectives, crowding, size: np.arange(size // 2))
+    assert minimise(problem, optimiser, iterations=3, seed=0, toolbox=toolbox).evaluations == 40 + 3 * 20

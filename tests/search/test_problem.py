@@ -1,0 +1,68 @@
+import re
+
+import numpy as np
+import pytest
+
+from suspension_ctrl import Problem
+from suspension_ctrl.quantities import column_headers
+from suspension_ctrl.search.problem import evaluate_checked
+
+GOOD = {"evaluate": lambda x: x, "lower": (0.0, 0.0), "upper": (1.0, 1.0), "objectives": ("a", "b")}
+
+
+def test_variables_get_names():
+    assert Problem(**GOOD).variables == ("x1", "x2")
+    assert Problem(**GOOD, variables=("k", "c")).variables == ("k", "c")
+
+
+def test_headers_carry_units():
+    assert column_headers(["SWS", "f1"], {"SWS": "m"}) == ["SWS [m]", "f1"]
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (
+            {"lower": (1.0, 0.0)},
+            "lower must be finite and below upper in every variable, got [1.0, 0.0] and [1.0, 1.0]",
+        ),
+        ({"lower": (0.0,)}, "lower and upper must be one-dimensional and of one length"),
+        ({"upper": (1.0, float("inf"))}, "lower must be finite and below upper"),
+        ({"lower": (), "upper": ()}, "lower and upper must be one-dimensional and of one length"),
+        ({"objectives": ("a",)}, "objectives must be 2 or more different names, got ('a',)"),
+        ({"objectives": ("a", "a")}, "objectives must be 2 or more different names, got ('a', 'a')"),
+        ({"objectives": "ab"}, "objectives must be 2 or more different names, got 'ab'"),
+        (
+            {"kernel": (len, ())},
+            "kernel must be a function compiled by numba and a tuple, got (<built-in",
+        ),
+        ({"kernel": len}, "kernel must be a function compiled by numba and a tuple, got <built-in"),
+        ({"constraints": ("c", "c")}, "constraints must be names different from all others, got ('c', 'c')"),
+        ({"constraints": ("a",)}, "constraints must be names different from all others, got ('a',)"),
+        ({"constraints": "c"}, "constraints must be names different from all others, got 'c'"),
+        ({"variables": ("x", "x", "y")}, "variables must be 2 different names, got ('x', 'x', 'y')"),
+        ({"variables": "kc"}, "variables must be 2 different names, got 'kc'"),
+        ({"variables": ("k",)}, "variables must be 2 different names, got ('k',)"),
+    ],
+)
+def test_rejects_bad_problems(change, message):
+    with pytest.raises(ValueError, match="^" + re.escape(message)):
+        Problem(**GOOD | change)
+
+
+def test_the_first_bad_design_is_named():
+    designs, problem = np.array([[0.1, 0.2], [0.2, 0.9]]), Problem(**GOOD)
+    found = evaluate_checked(lambda x: [[1, 2], [3, 4]], designs, problem)
+    assert found.tolist() == [[1.0, 2.0], [3.0, 4.0]]
+    with pytest.raises(ValueError, match=r"got \[0.2, nan\] for design \[0.2, 0.9\]$"):
+        evaluate_checked(lambda x: [[1, 2], [0.2, np.nan]], designs, problem)
+    limited = Problem(**GOOD, constraints=("limit",))
+    assert evaluate_checked(lambda x: np.hstack([x, x[:, :1]]), designs, limited).shape == (2, 3)
+    with pytest.raises(
+        ValueError, match=r"^evaluate must return shape \(2, 3\) for designs \(2, 2\), got \(2, 2\)$"
+    ):
+        evaluate_checked(lambda x: x, designs, limited)
+    with pytest.raises(
+        ValueError, match=r"^evaluate must return finite objectives and constraints, got \[1.0, 2.0, inf\]"
+    ):
+        evaluate_checked(lambda x: [[1, 2, np.inf], [1, 2, 3]], designs, limited)

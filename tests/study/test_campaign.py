@@ -1,0 +1,166 @@
+"""Campaigns that are killed, or whose disk gives out, go on where they were: real processes, real signals."""
+
+import os
+import resource
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from suspension_ctrl.study.store import FolderStore
+
+RUNS, BUDGET, POPULATION = 24, 200, 20
+
+PROGRAM = f"""
+import os, time
+from pathlib import Path
+import numpy as np
+from suspension_ctrl import Nsga2, Problem, Sampling
+from suspension_ctrl.commands import terminal
+from suspension_ctrl.search.indicators import ReferenceFront
+from suspension_ctrl.study.store import FolderStore
+from suspension_ctrl.study.study import Study
+
+def main(folder: Path, pause: float):
+    log = os.open(folder / "evaluated", os.O_CREAT | os.O_APPEND | os.O_WRONLY)
+
+    def evaluate(x):
+        time.sleep(pause)
+        os.write(log, b"." * len(x))
+        return np.stack([x[:, 0], 1 - x[:, 0] + x[:, 1]], axis=1)
+
+    line = np.linspace(0, 1, 50)
+    study = Study(
+        problems={{"p": Problem(evaluate=evaluate, lower=(0, 0), upper=(1, 1), objectives=("f1", "f2"))}},
+        algorithms={{
+            "nsga2": Nsga2(population={POPULATION}), "random": Sampling(population={POPULATION}, points="random")
+        }},
+        seeds=range({RUNS // 2}),
+        budgets=[40, {BUDGET}],
+        references={{"p": ReferenceFront.of(np.stack([line, 1 - line], axis=1))}},
+    )
+    store = FolderStore(folder / "store", {{"plan": 1}})
+    for run, error in study.carry_out(store):
+        os.write(log, f"<{{run.name}}>".encode())
+    study.table(store).drop(columns="seconds").to_csv(folder / "table.csv", index=False)
+
+terminal.run_script(main)
+"""
+
+
+def start(folder: Path, pause: float, **settings) -> subprocess.Popen:
+    folder.mkdir(exist_ok=True)
+    return subprocess.Popen(
+        [sys.executable, "-c", PROGRAM, str(folder), str(pause)], stderr=subprocess.PIPE, text=True, **settings
+    )
+
+
+def finish(folder: Path, pause: float = 0.0, **settings) -> tuple[int, str]:
+    """Exit status and what was printed as an error of a campaign that is left alone."""
+    process = start(folder, pause, **settings)
+    _, error = process.communicate()
+    return process.returncode, error
+
+
+def log(folder: Path) -> str:
+    path = folder / "evaluated"
+    return path.read_text() if path.exists() else ""
+
+
+def finished(folder: Path) -> list[str]:
+    """Names of the runs that were handed out as done, in order."""
+    return [part.split(">")[0] for part in log(folder).split("<")[1:]]
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("undisturbed")
+    assert finish(folder) == (0, "")
+    return folder
+
+
+def test_ten_times_killed_and_started_again_is_as_if_never_killed(undisturbed, tmp_path):
+    """Killed after so many characters of the log, at ten moments spread over the campaign."""
+    folder = tmp_path / "killed"
+    for kill in range(10):
+        process = start(folder, 0.002)
+        before = len(log(folder))
+        moment = before + 120 + 53 * kill  # within the first run, or up to two runs later
+        while len(log(folder)) < moment and process.poll() is None:
+            time.sleep(0.0005)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        process.stderr.close()
+        assert not (folder / "table.csv").exists()
+    done = len(FolderStore(folder / "store", {"plan": 1}))
+    assert 5 <= done < RUNS  # the kills were within the campaign
+    assert finish(folder) == (0, "")
+    assert (folder / "table.csv").read_bytes() == (undisturbed / "table.csv").read_bytes()
+    names = finished(folder)
+    assert len(set(names)) == len(names)
+    # Every run is made once, but for what the ten kills met.
+    assert RUNS * BUDGET <= log(folder).count(".") <= RUNS * BUDGET + 10 * BUDGET
+
+
+def test_a_full_disk_ends_it_in_one_line_and_loses_nothing(undisturbed, tmp_path):
+    """Files that may grow to so many bytes and no more stand for a disk that is full: writing fails alike."""
+    folder = tmp_path / "full"
+    assert finish(folder) == (0, "")
+    (folder / "table.csv").unlink()
+    for path in sorted((folder / "store" / "runs").iterdir())[5:]:
+        path.unlink()
+    largest = max(path.stat().st_size for path in (folder / "store" / "runs").iterdir())
+    (folder / "evaluated").unlink()
+
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (largest // 2, resource.RLIM_INFINITY))
+
+    status, error = finish(folder, preexec_fn=limit)
+    assert status == 1
+    assert error.count("\n") == 1
+    assert error.startswith("error: [Errno 27] File too large")
+    store = FolderStore(folder / "store", {"plan": 1})
+    assert len(store) == 5
+    assert all(len(store[name].course) for name in store)
+    assert finish(folder) == (0, "")
+    assert (folder / "table.csv").read_bytes() == (undisturbed / "table.csv").read_bytes()
+
+
+def test_a_folder_that_turns_read_only_ends_it_in_one_line(undisturbed, tmp_path):
+    """The folder of the runs is moved away and a file stands in its place, where nothing can be written."""
+    folder = tmp_path / "read-only"
+    process = start(folder, 0.02)
+    while len(finished(folder)) < 3:
+        time.sleep(0.005)
+    runs = folder / "store" / "runs"
+    runs.rename(folder / "elsewhere")
+    runs.touch(0o400)
+    _, error = process.communicate()
+    assert process.returncode == 1
+    assert error.count("\n") == 1
+    assert error.startswith("error: [Errno 20] Not a directory: ")
+    kept = sorted(path.stem for path in (folder / "elsewhere").glob("[!.]*"))
+    assert kept == sorted(finished(folder))
+    assert all(len(pd.read_csv(folder / "elsewhere" / f"{name}.csv")) for name in kept)
+    runs.unlink()
+    (folder / "elsewhere").rename(runs)
+    assert finish(folder) == (0, "")
+    assert (folder / "table.csv").read_bytes() == (undisturbed / "table.csv").read_bytes()
+    assert len(set(finished(folder))) == len(finished(folder)) == RUNS
+
+
+def test_a_folder_without_permission_is_refused_in_one_line(tmp_path):
+    if os.geteuid() == 0:
+        pytest.skip("the superuser may write anywhere")
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    (folder / "store").mkdir(mode=0o500)
+    status, error = finish(folder)
+    assert status == 1
+    assert error.startswith("error: [Errno 13] Permission denied: ")
+    assert error.count("\n") == 1

@@ -1,0 +1,121 @@
+"""Statistics against worked examples and against straightforward second computations."""
+
+import itertools
+
+import numpy as np
+import pandas as pd
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from suspension_ctrl.study import inference as statistics
+
+samples = st.lists(st.integers(0, 5).map(float), min_size=1, max_size=12)
+
+
+@given(samples, samples)
+def test_a12_counts_pairs(first, second):
+    wins = sum((a > b) + 0.5 * (a == b) for a, b in itertools.product(first, second))
+    assert statistics.a12(first, second) == pytest.approx(wins / (len(first) * len(second)), abs=1e-12)
+    assert statistics.a12(second, first) == pytest.approx(1 - statistics.a12(first, second), abs=1e-12)
+
+
+def test_a12_of_a_worked_example():
+    """Of 9 pairs of (3, 4, 5) and (1, 3, 4) the first is larger in 6 and equal in 2: 7/9."""
+    assert statistics.a12([3, 4, 5], [1, 3, 4]) == pytest.approx(7 / 9)
+
+
+def test_sizes_have_the_names_of_vargha_and_delaney():
+    """Their limits 0.56, 0.64 and 0.71, and the same on the other side of one half."""
+    words = [statistics.size_in_words(effect) for effect in (0.5, 0.559, 0.56, 0.639, 0.64, 0.709, 0.71, 1.0)]
+    assert words == ["negligible"] * 2 + ["small"] * 2 + ["medium"] * 2 + ["large"] * 2
+    assert [statistics.size_in_words(e) for e in (0.44, 0.36, 0.29)] == ["small", "medium", "large"]
+
+
+def test_holm_of_a_worked_example():
+    """0.005 x 4, 0.01 x 3, 0.03 x 2, then 0.04 x 1, but no less than the one before."""
+    adjusted = statistics.holm([0.01, np.nan, 0.04, 0.03, 0.005])
+    np.testing.assert_allclose(adjusted, [0.03, np.nan, 0.06, 0.06, 0.02])
+
+
+def test_bootstrap_interval_is_that_of_plain_resampling():
+    """Half a standard error of the resampled quantile, from 9999 draws here and there: below 0.01."""
+    rng = np.random.default_rng(0)
+    first, second = rng.lognormal(0.3, 0.2, 31), rng.lognormal(0.0, 0.2, 31)
+    ratio, low, high = statistics.ratio_of_medians(first, second)
+    assert ratio == np.median(first) / np.median(second)
+    medians = [np.median(rng.choice(x, (9999, 31)), axis=1) for x in (first, second)]
+    expected = np.quantile(medians[0] / medians[1], [0.025, 0.975])
+    np.testing.assert_allclose([low, high], expected, atol=0.02)
+    assert (ratio, low, high) == statistics.ratio_of_medians(first, second)
+
+
+def test_there_is_no_ratio_to_nothing():
+    assert np.isnan(statistics.ratio_of_medians([1.0, 2.0], [0.0, 1.0])).all()
+
+
+def table() -> pd.DataFrame:
+    rng = np.random.default_rng(1)
+    values = {"a": rng.normal(1, 0.1, 31), "b": rng.normal(1.01, 0.1, 31), "c": rng.normal(2, 0.1, 31)}
+    rows = [
+        {"population": n, "algorithm": name, "seed": seed, "value": value}
+        for n in (10, 20)
+        for name, column in values.items()
+        for seed, value in enumerate(column)
+    ]
+    return pd.DataFrame(rows)
+
+
+def test_pairs_are_all_compared_within_their_group():
+    pairs = statistics.pairwise(table(), ["population"], ["value"], ["a", "b", "c"])
+    assert list(zip(pairs["population"], pairs["first"], pairs["second"], strict=True)) == [
+        (n, *pair) for n in (10, 20) for pair in (("a", "b"), ("a", "c"), ("b", "c"))
+    ]
+    alike, apart = pairs.iloc[0], pairs.iloc[1]
+    assert alike.p_holm > 0.05
+    assert alike["size"] in ("negligible", "small")
+    assert apart.p_holm < 1e-9
+    assert (apart.a12, apart["size"]) == (0, "large")
+    assert apart.ratio_low < apart.ratio < apart.ratio_high < 0.6
+    assert (pairs.p_holm >= pairs.p).all()
+
+
+def test_equal_runs_do_not_differ():
+    same = pd.DataFrame({"n": 1, "algorithm": ["a"] * 5 + ["b"] * 5, "value": 2.0})
+    pair = statistics.pairwise(same, ["n"], ["value"], ["a", "b"]).iloc[0]
+    assert (pair.p, pair.a12, pair["size"], pair.ratio) == (1, 0.5, "negligible", 1)
+
+
+def test_one_run_each_can_be_compared():
+    single = pd.DataFrame({"n": 1, "algorithm": ["a", "b"], "value": [1.0, 2.0]})
+    pair = statistics.pairwise(single, ["n"], ["value"], ["a", "b"]).iloc[0]
+    assert pair.ratio == 0.5
+    assert np.isnan(pair.ratio_low)
+    assert pair.p_holm == 1
+
+
+def test_quartiles_by_group():
+    rows = pd.DataFrame({"k": ["x"] * 5 + ["y"], "v": [1.0, 2, 3, 4, 5, 7]})
+    found = statistics.quartiles(rows, ["k"], ["v"])
+    assert found.to_numpy().tolist() == [["x", 5, 3, 2, 4], ["y", 1, 7, 7, 7]]
+
+
+def test_infinite_values_rank_last():
+    """Runs without a feasible design are infinitely far from the front: quartiles and tests take them so.
+
+    By hand: of 1, 2, inf, inf, inf the quartiles are the second, third and fourth; of 8 pairs with 3 and 4 the
+    first sample is larger in 6.
+    """
+    table = pd.DataFrame({"algorithm": "a", "igd_plus": [np.inf, 1.0, np.inf, 2.0, np.inf]})
+    row = statistics.quartiles(table, ["algorithm"], ["igd_plus"]).iloc[0]
+    assert [row["igd_plus q1"], row["igd_plus"], row["igd_plus q3"]] == [2.0, np.inf, np.inf]
+    mixed = pd.DataFrame({"algorithm": list("aaaa"), "igd_plus": [1.0, np.inf, np.inf, np.inf]})
+    other = pd.DataFrame({"algorithm": list("bb"), "igd_plus": [3.0, 4.0]})
+    compared = statistics.pairwise(
+        pd.concat([mixed, other]).assign(group=1), ["group"], ["igd_plus"], ["a", "b"]
+    ).iloc[0]
+    assert compared.a12 == 6 / 8
+    assert compared.median_first == np.inf
+    assert np.isnan(compared.ratio)
+    alike = pd.DataFrame({"algorithm": list("aabb"), "igd_plus": np.inf, "group": 1})
+    assert statistics.pairwise(alike, ["group"], ["igd_plus"], ["a", "b"]).p.tolist() == [1.0]

@@ -1,0 +1,97 @@
+"""What is held equal, by a table made up by hand; and the words that follow from it."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from suspension_ctrl.study import inference as statistics
+from suspension_ctrl.study import inference as verdicts
+from suspension_ctrl.study import lenses
+
+
+@pytest.fixture
+def timed() -> pd.DataFrame:
+    """Two algorithms of N = 10: one spends 10 an iteration at 1 s each, the other 2 at 0.4 s."""
+    rows = [
+        {"population": 10, "algorithm": name, "seed": seed, "set": "population", "evaluations": e,
+         "relative_hypervolume": quality(e) + 0.001 * seed}
+        for name, quality, grid in (
+            ("big", lambda e: 1 - 2 / e, range(10, 51, 10)),
+            ("small", lambda e: 1 - 1 / e, range(10, 51, 2)),
+        )
+        for seed in (0, 1)
+        for e in grid
+    ]  # fmt: skip
+    clock = pd.DataFrame(
+        {"algorithm": ["big", "big", "small", "small"], "population": 10, "evaluations": [10, 50, 10, 50],
+         "seconds": [1.0, 5.0, 1.0, 9.0]}
+    )  # fmt: skip
+    return lenses.with_seconds(pd.DataFrame(rows), clock)
+
+
+def test_seconds_are_in_proportion_between_those_timed(timed):
+    assert timed[(timed.algorithm == "big") & (timed.evaluations == 30)].seconds.tolist() == [3, 3]
+    assert timed[(timed.algorithm == "small") & (timed.evaluations == 20)].seconds.tolist() == [3, 3]
+
+
+def test_each_lens_takes_the_last_state_within_its_limit(timed):
+    """Two iterations: 30 and 14 evaluations; as many as the most, 30; the 3 s of the first, 20."""
+    equal = lenses.at_equal(timed, ["big", "small"], [2], {("big", 10): 10, ("small", 10): 2})
+    found = equal[equal.seed == 1].set_index(["lens", "algorithm"]).evaluations.to_dict()
+    assert found == {
+        (lenses.ITERATIONS, "big"): 30, (lenses.ITERATIONS, "small"): 14,
+        (lenses.EVALUATIONS, "big"): 30, (lenses.EVALUATIONS, "small"): 30,
+        (lenses.TIME, "big"): 30, (lenses.TIME, "small"): 20,
+    }  # fmt: skip
+    assert (equal.iterations == 2).all()
+
+
+def test_who_is_first_does_not_depend_on_which_run_is_missing(timed):
+    """Without the first run of the first algorithm its other one still sets the time."""
+    cost = {("big", 10): 10, ("small", 10): 2}
+    gap = timed[(timed.algorithm == "small") | (timed.seed == 1)]
+    gap = pd.concat([gap[gap.algorithm == "small"], gap[gap.algorithm == "big"]])
+    equal = lenses.at_equal(gap, ["big", "small"], [2], cost)
+    time = equal[equal.lens == lenses.TIME].set_index(["algorithm", "seed"]).evaluations
+    assert time.to_dict() == {("big", 1): 30, ("small", 0): 20, ("small", 1): 20}
+    none = lenses.at_equal(timed[timed.algorithm == "small"], ["big", "small"], [2], cost)
+    assert lenses.TIME not in set(none.lens)
+    pairs = statistics.pairwise(equal, ["lens"], ["relative_hypervolume"], ["big", "small"])
+    assert set(zip(pairs["first"], pairs["second"], strict=True)) == {("big", "small")}
+
+
+def test_time_to_reach_a_quality(timed):
+    """1 - 2/e reaches 0.95 at 40 and 1 - 1/e at 20, a thousandth for the seed notwithstanding."""
+    reached = lenses.to_reach(timed, 0.95).set_index(["algorithm", "seed"])
+    assert reached.evaluations.to_dict() == {("big", 0): 40, ("big", 1): 40, ("small", 0): 20, ("small", 1): 20}
+    assert reached.seconds["small", 1] == 3
+    summary = lenses.reached_by(lenses.to_reach(timed, 0.9605)).set_index("algorithm")
+    assert summary.reached.to_dict() == {"big": 1, "small": 2}
+    assert np.isnan(summary.evaluations["big"])  # the median of two runs of which one gets there
+    assert summary.evaluations["small"] == 26
+
+
+def compared(shift: float) -> pd.DataFrame:
+    rng = np.random.default_rng(2)
+    rows = [
+        {"lens": lens, "population": 10, "iterations": 5, "algorithm": name, "value": value}
+        for lens in ("equal iterations", "equal time")
+        for name, add in (("a", 0.0), ("b", shift if lens == "equal time" else 0.0))
+        for value in rng.normal(0.9, 0.01, 31) + add
+    ]
+    return statistics.pairwise(pd.DataFrame(rows), ["lens", "population", "iterations"], ["value"], ["a", "b"])
+
+
+def test_verdict_says_who_is_ahead_and_where_nobody_is():
+    for shift, expected in ((0.05, "b is ahead"), (-0.05, "a is ahead")):
+        words = verdicts.verdict(compared(shift), "a", "b", "Quality")
+        assert words.startswith(
+            "Quality, a against b. At equal iterations there is no difference that the runs can show for N = 10"
+        )
+        assert f"At equal time {expected} for N = 10 and 5 iterations (medians 0." in words
+        assert "p < 0.001, A12 = " in words
+        assert words.count("is ahead") == 1
+
+
+def test_verdict_without_runs_says_so():
+    assert verdicts.verdict(compared(0.0), "a", "c", "Quality") == "There are no runs of both a and c to compare."

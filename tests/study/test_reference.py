@@ -1,0 +1,149 @@
+"""The reference front: a grid that has settled, and its copy on disk."""
+
+import numpy as np
+import pytest
+
+from functions import srn, srn_set
+from suspension_ctrl import Problem
+from suspension_ctrl.search.indicators import ReferenceFront
+from suspension_ctrl.study import reference as references
+
+
+class Line:
+    """f1 = x, f2 = 1 - x + y, which counts its designs: the front is y = 0, of hypervolume 0.71 below 1.1."""
+
+    def __init__(self, slope: float = 1.0) -> None:
+        self.slope, self.designs = slope, 0
+
+    def __call__(self, x):
+        self.designs += len(x)
+        return np.stack([x[:, 0], self.slope * (1 - x[:, 0] + x[:, 1])], axis=1)
+
+    def problem(self) -> Problem:
+        return Problem(evaluate=self, lower=(0, 0), upper=(1, 1), objectives=("f1", "f2"))
+
+
+@pytest.fixture(autouse=True)
+def cache(tmp_path, monkeypatch):
+    monkeypatch.setenv(references.CACHE, str(tmp_path / "cache"))
+    return tmp_path / "cache"
+
+
+def test_refined_front_has_the_hypervolume_of_the_true_one():
+    """n points on the line lose (n - 1) triangles of 1/2 (n - 1)^2: with half as many values twice as much."""
+    found = references.refined(Line().problem(), 2e-3)
+    lost = 0.5 / (found.points - 1)
+    assert found.front.volume == pytest.approx(0.71 - lost, rel=1e-9)
+    half = 0.5 / (found.points // 2 - 1)
+    assert found.change == pytest.approx((half - lost) / found.front.volume, rel=1e-6)
+    assert 0 < found.second < found.change <= 2e-3
+    assert found.points == 400  # 200 values change by 3.5e-3
+
+
+def test_a_front_is_made_once(cache):
+    line = Line()
+    first = references.cached(line.problem(), 1e-2)
+    made = line.designs
+    second = references.cached(line.problem(), 1e-2)
+    assert line.designs - made == 64  # the designs that tell which problem it is
+    for name, value in vars(first.front).items():
+        np.testing.assert_array_equal(value, getattr(second.front, name))
+    assert second[1:] == first[1:]
+    assert len(list(cache.iterdir())) == 1
+
+
+def test_whatever_it_depends_on_makes_another_front(cache, monkeypatch):
+    line = Line()
+    keys = {references.key(line.problem(), 1e-2), references.key(line.problem(), 1e-3)}
+    keys.add(references.key(Line(1 + 1e-15).problem(), 1e-2))
+    wider = Problem(evaluate=line, lower=(0, 0), upper=(1, 1.0001), objectives=("f1", "f2"))
+    keys.add(references.key(wider, 1e-2))
+    monkeypatch.setattr(references, "version", lambda name: "0")
+    keys.add(references.key(line.problem(), 1e-2))
+    assert len(keys) == 5
+
+
+def test_a_spoilt_copy_is_made_anew(cache):
+    first = references.cached(Line().problem(), 1e-2)
+    (path,) = cache.iterdir()
+    for spoilt in (b"", path.read_bytes()[:200]):
+        path.write_bytes(spoilt)
+        assert references.cached(Line().problem(), 1e-2)[1:] == first[1:]
+
+
+def test_a_cache_that_cannot_be_written_is_done_without(monkeypatch):
+    monkeypatch.setenv(references.CACHE, "/proc/nowhere")
+    assert references.cached(Line().problem(), 1e-2).front.volume == pytest.approx(0.71, abs=5e-3)
+
+
+def test_too_many_variables_are_refused():
+    problem = Problem(evaluate=lambda x: x[:, :2], lower=(0,) * 5, upper=(1,) * 5, objectives=("f1", "f2"))
+    with pytest.raises(ValueError, match=r"^problem must have a front that a grid of 20000000 designs settles"):
+        references.refined(problem)
+
+
+def limited(bound: float, evaluate=None) -> Problem:
+    """The line with x >= bound: its front goes from (bound, 1 - bound) to (1, 0)."""
+    line = evaluate or Line()
+    return Problem(
+        evaluate=lambda x: np.column_stack([line(x), bound - x[:, 0]]),
+        lower=(0, 0), upper=(1, 1), objectives=("f1", "f2"), constraints=("least",),
+    )  # fmt: skip
+
+
+def test_only_feasible_designs_make_a_front():
+    """The feasible half of the line: in its own scale the same 0.71 below 1.1, less as many triangles as steps."""
+    found = references.refined(limited(0.5), 2e-3)
+    assert found.front.ideal[0] >= 0.5
+    steps = np.count_nonzero(np.linspace(0, 1, found.points) >= 0.5) - 1
+    assert found.front.volume == pytest.approx(0.71 - 0.5 / steps, rel=1e-9)
+
+
+def test_the_front_of_a_constrained_problem_is_its_closed_form():
+    """The ends count most: a grid of 800 steps of 0.05 misses each by as much as one step, of a range of 200."""
+    grid = ReferenceFront.of(references.grid_front(srn(), 800))
+    true = ReferenceFront.of(srn().evaluate(srn_set(500))[:, :2])
+    assert true.relative_hypervolume(grid.objectives) == pytest.approx(1, abs=2e-3)
+
+
+@pytest.mark.parametrize(("bound", "found"), [(0.9999, 1), (2.0, 0)])
+def test_without_a_front_of_feasible_designs_there_is_no_reference(bound, found, monkeypatch):
+    """One point, the bound of the box, has no range to scale by; no point at all is no front either."""
+    monkeypatch.setattr(references, "_MOST", 100_000)
+    assert references.grid_front(limited(bound), 100).shape == (found, 2)
+    with pytest.raises(
+        ValueError, match=r"^problem must have .* does not \(no front of feasible designs found\); give"
+    ):
+        references.refined(limited(bound))
+
+
+def test_a_feasible_region_that_the_coarsest_grid_misses_is_found():
+    """From 0.991 to 0.994 there is no value of 100, whose last are 0.990 and 1, and one of 200, 198/199."""
+    line = Line()
+    problem = Problem(
+        evaluate=lambda x: np.column_stack([line(x), np.abs(x[:, 0] - 0.9925) - 0.0015]),
+        lower=(0, 0), upper=(1, 1), objectives=("f1", "f2"), constraints=("narrow",),
+    )  # fmt: skip
+    assert len(references.grid_front(problem, 100)) == 0
+    assert references.refined(problem, 0.25).points > 200
+
+
+def test_constraints_make_another_front():
+    """Also where they are met throughout the sample that tells problems apart, as far as their values differ."""
+    line = Line()
+    keys = {
+        references.key(problem, 1e-2) for problem in (line.problem(), limited(-1.0, line), limited(-2.0, line))
+    }
+    assert len(keys) == 3
+
+
+def test_a_fine_front_is_measured_by_an_even_sample():
+    f1 = np.sort(np.random.default_rng(0).random(50_000))
+    f1[[0, -1]] = 0, 1
+    whole = np.stack([f1, 1 - f1], axis=1)
+    front = ReferenceFront.of(whole)
+    assert len(front.objectives) == ReferenceFront.SAMPLE
+    gaps = np.diff(np.sort(front.objectives[:, 0]))
+    assert gaps.max() < 2.1 / ReferenceFront.SAMPLE
+    assert front.volume == pytest.approx(front.hypervolume(whole), rel=1e-12)
+    assert front.relative_hypervolume(whole) == pytest.approx(1)

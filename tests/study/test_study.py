@@ -1,0 +1,264 @@
+"""Studies: a tidy table of every run, judged by what was seen, whoever makes the runs and in whatever order."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from functions import dtlz2, srn, srn_set, zdt1
+from suspension_ctrl import MoeadDra, Nsga2, Problem, minimise, tables
+from suspension_ctrl.search.indicators import ReferenceFront, non_dominated
+from suspension_ctrl.search.sampling import Sampling
+from suspension_ctrl.search.trace import trace
+from suspension_ctrl.study import study
+from suspension_ctrl.study.store import FolderStore
+from suspension_ctrl.study.study import ARCHIVE, CUT_ARCHIVE, INDICATORS, POPULATION, Study
+
+F1 = np.linspace(0, 1, 200)
+ZDT1_FRONT = ReferenceFront.of(np.stack([F1, 1 - np.sqrt(F1)], axis=1))
+
+
+@pytest.fixture(scope="module")
+def small() -> Study:
+    return Study(
+        problems={"zdt1": zdt1(4), "dtlz2": dtlz2(4)},
+        algorithms={"nsga2": Nsga2(population=20), "sobol": Sampling(population=20)},
+        seeds=[3, 4],
+        budgets=[40, 205],
+        references={"zdt1": ZDT1_FRONT},
+    )
+
+
+@pytest.fixture(scope="module")
+def table(small) -> pd.DataFrame:
+    return small.run()
+
+
+def test_a_row_per_run_budget_and_set(table):
+    assert len(table) == 2 * 2 * 2 * 2 * 3
+    assert not table.duplicated(["problem", "algorithm", "seed", "budget", "set"]).any()
+    assert table[table.budget == 205].evaluations.unique().tolist() == [200]
+    assert table[list(INDICATORS)].notna().all(axis=None)
+    assert table.error.eq("").all()
+
+
+def test_indicators_are_those_of_the_runs(table):
+    run = minimise(zdt1(4), Nsga2(population=20), evaluations=205, seed=4)
+    best = run.objectives[non_dominated(run.objectives)]
+    rows = table[(table.problem == "zdt1") & (table.algorithm == "nsga2") & (table.seed == 4)]
+    row = rows[(rows.budget == 205) & (rows.set == POPULATION)].iloc[0]
+    assert row["size"] == len(best)
+    for indicator in INDICATORS:
+        assert row[indicator] == getattr(ZDT1_FRONT, indicator)(best)
+
+
+def test_an_archive_is_at_least_as_good_as_what_it_is_cut_to(table):
+    by_set = table.pivot_table(
+        index=["problem", "algorithm", "seed", "budget"], columns="set", values=["relative_hypervolume", "size"]
+    )
+    volume, size = by_set.relative_hypervolume, by_set["size"]
+    assert (volume[ARCHIVE] >= volume[POPULATION] - 1e-12).all()
+    assert (volume[ARCHIVE] >= volume[CUT_ARCHIVE] - 1e-12).all()
+    assert (size[CUT_ARCHIVE] == size[ARCHIVE].clip(upper=20)).all()
+    sobol = volume.xs("sobol", level="algorithm")
+    np.testing.assert_array_equal(sobol[POPULATION], sobol[CUT_ARCHIVE])
+
+
+def test_without_a_reference_the_first_seeds_runs_are_it(small, table):
+    archives = table[(table.problem == "dtlz2") & (table.seed == 3) & (table.set == ARCHIVE)]
+    assert archives.relative_hypervolume.max() <= 1
+    assert small.reference("dtlz2").relative_hypervolume(small.reference("dtlz2").objectives) == pytest.approx(1)
+
+
+def test_what_is_stored_is_not_made_again(small, table, tmp_path):
+    store = FolderStore(tmp_path / "kept", {"plan": 1})
+    made = small.carry_out(store)
+    first = [next(made)[0].name for _ in range(3)]
+    made.close()
+    again = FolderStore(tmp_path / "kept", {"plan": 1})
+    assert sorted(again) == sorted(first)
+    rest = [run.name for run, _ in small.carry_out(again)]
+    assert sorted(first + rest) == sorted(run.name for run in small.runs())
+    pd.testing.assert_frame_equal(small.table(again).drop(columns="seconds"), table.drop(columns="seconds"))
+
+
+def test_a_folder_belongs_to_one_plan(tmp_path):
+    FolderStore(tmp_path, {"seeds": 3, "numpy": "2.4"})
+    with pytest.raises(ValueError, match=r"^seeds must be 3 as in '.*plan.json' to go on there, got 4$"):
+        FolderStore(tmp_path, {"seeds": 4, "numpy": "2.4"})
+
+
+def test_what_a_killed_process_left_half_written_is_no_run(tmp_path):
+    store = FolderStore(tmp_path, {})
+    (tmp_path / "runs" / ".half.csv").write_text("a,b\n1")
+    assert list(FolderStore(tmp_path, {})) == list(store) == []
+    assert list((tmp_path / "runs").iterdir()) == []
+
+
+def test_a_run_of_which_only_half_could_be_written_is_no_run(small, tmp_path, monkeypatch):
+    store = FolderStore(tmp_path, {})
+    written = []
+
+    def once(path, frame):
+        if written:
+            raise OSError(28, "No space left on device")
+        written.append(path)
+        frame.to_csv(path, index=False)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(tables, "write_csv", once)
+        with pytest.raises(OSError, match="No space left on device"):
+            next(small.carry_out(store))
+    assert len(written) == 1
+    assert list(FolderStore(tmp_path, {})) == []
+
+
+def test_a_store_forgets_what_is_deleted(small, tmp_path):
+    store = FolderStore(tmp_path, {})
+    name = next(small.carry_out(store))[0].name
+    assert len(store) == 1
+    del store[name]
+    assert name not in store
+    with pytest.raises(KeyError):
+        store[name]
+
+
+def failing(designs: np.ndarray) -> np.ndarray:
+    if designs[0, 0] > 0.5:
+        raise RuntimeError("the road\nends here")
+    return np.stack([designs[:, 0], 1 - designs[:, 0]], axis=1)
+
+
+def test_a_run_that_raises_is_recorded_and_the_others_go_on():
+    problem = Problem(evaluate=failing, lower=(0,), upper=(1,), objectives=("f1", "f2"))
+    found = Study(
+        problems={"p": problem},
+        algorithms={"random": Sampling(population=4, points="random")},
+        seeds=range(12),
+        budgets=[8],
+        references={"p": ReferenceFront.of(np.array([[0.0, 1.0], [1.0, 0.0]]))},
+    ).run()
+    raised = found[found.error != ""]
+    assert 0 < len(raised) < 12
+    assert set(raised.error) == {"RuntimeError: the road ends here"}
+    assert raised[list(INDICATORS)].isna().all(axis=None)
+    assert found.seed.nunique() == 12
+
+
+def test_a_reference_that_cannot_be_made_is_the_error_of_its_runs():
+    problems = {"p": Problem(evaluate=failing, lower=(0,), upper=(1,), objectives=("f1", "f2")), "zdt1": zdt1(4)}
+    algorithms = {"random": Sampling(population=4, points="random")}
+    found = Study(problems=problems, algorithms=algorithms, seeds=range(3), budgets=[40]).run()
+    assert (found[found.problem == "p"].error == "RuntimeError: the road ends here").all()
+    assert (found[found.problem == "zdt1"].error == "").all()
+    assert found.groupby("problem").seed.nunique().tolist() == [3, 3]
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"seeds": []}, r"seeds must be one or more, got \[\]"),
+        ({"algorithms": {}}, r"algorithms must be one or more, got \{\}"),
+        ({"seeds": [-1]}, "seeds must be a whole number >= 0, got -1"),
+        ({"seeds": [1, 2, 1]}, r"seeds must be different, got \[1, 2, 1\]"),
+        ({"budgets": [40, 8]}, "budgets must be a whole number >= 20, got 8"),
+        ({"algorithms": {"a/b": Nsga2(population=20)}}, r"names must be of letters, digits and ._\+-, got 'a/b'"),
+        (
+            {
+                "problems": {"p": zdt1(4), "p_q": zdt1(4)},
+                "algorithms": {"q_a": Nsga2(population=20), "a": Nsga2(population=20)},
+            },
+            "names must not give two runs the same name",
+        ),
+        ({"references": {"zdt2": ZDT1_FRONT}}, "references must be one of zdt1, got 'zdt2'"),
+    ],
+)
+def test_rejects_bad_studies(change, message):
+    settings = {
+        "problems": {"zdt1": zdt1(4)}, "algorithms": {"a": Nsga2(population=20)}, "seeds": [1], "budgets": [40]
+    }  # fmt: skip
+    with pytest.raises(ValueError, match=f"^{message}"):
+        Study(**settings | change)
+
+
+def test_moead_is_judged_by_what_its_kernel_returned():
+    problem = dtlz2(4, compiled=True)
+    one = Study(problems={"p": problem}, algorithms={"m": MoeadDra(population=20)}, seeds=[1], budgets=[20, 80])
+    rows = one.run()
+    run = minimise(problem, MoeadDra(population=20), evaluations=80, seed=1)
+    best = run.objectives[non_dominated(run.objectives)]
+    final = rows[(rows.budget == 80) & (rows.set == POPULATION)].iloc[0]
+    assert final.relative_hypervolume == one.reference("p").relative_hypervolume(best)
+    assert rows[(rows.budget == 80) & (rows.set == ARCHIVE)].relative_hypervolume.item() == pytest.approx(1)
+
+
+def test_nothing_is_judged_twice_by_name(small):
+    names = [run.name for run in small.runs()]
+    assert len(set(names)) == len(names) == 8
+    assert names[0] == "zdt1_nsga2_n20_s3"
+    assert study.StudyRun("p", "a", 5, 1).name == "p_a_n5_s1"
+
+
+def nowhere(designs: np.ndarray) -> np.ndarray:
+    return np.column_stack([designs, 1 - designs, 0 * designs + 1])
+
+
+NOWHERE = Problem(
+    evaluate=nowhere, lower=(0,), upper=(1,), objectives=("f1", "f2"), constraints=("g",)
+)  # fmt: skip
+
+
+def test_only_feasible_designs_are_judged():
+    """Population, archive and what is cut of it, against what a run and a trace of it give by hand."""
+    problem, front = srn(), ReferenceFront.of(srn().evaluate(srn_set(200))[:, :2])
+    algorithms = {"nsga2": Nsga2(population=20), "moead": MoeadDra(population=20)}
+    store = {}
+    one = Study(
+        problems={"srn": problem}, algorithms=algorithms, seeds=[2], budgets=[20, 200], references={"srn": front}
+    )
+    assert all(error == "" for _, error in one.carry_out(store))
+    table = one.table(store)
+    for name, optimiser in algorithms.items():
+        rows = table[table.algorithm == name].set_index(["budget", "set"])
+        for budget in (20, 200):
+            seen = trace(problem, optimiser, [budget], seed=2)
+            for kept, objectives, feasible in (
+                (POPULATION, seen.states[budget].objectives, seen.states[budget].violation == 0),
+                (ARCHIVE, seen.objectives, seen.feasible),
+            ):
+                best = objectives[feasible][non_dominated(objectives[feasible])]
+                row = rows.loc[budget, kept]
+                assert row["size"] == len(best) > 0
+                assert row.relative_hypervolume == front.relative_hypervolume(best)
+                assert row.igd_plus == front.igd_plus(best)
+        assert rows.loc[(20, POPULATION), "size"] < non_dominated(seen.objectives[:20]).sum()
+        final = store[one.runs()[list(algorithms).index(name)].name].final
+        assert list(final.columns) == ["f1", "f2", "violation"]
+        np.testing.assert_array_equal(final.violation, seen.states[200].violation)
+
+
+def test_a_run_without_a_feasible_design_has_no_hypervolume(tmp_path):
+    """It is no error, also not when it is read back from disk; statistics rank it below all others."""
+    front = ReferenceFront.of(np.array([[0.0, 1.0], [1.0, 0.0]]))
+    algorithms = {
+        "nsga2": Nsga2(population=20),
+        "moead": MoeadDra(population=20),
+        "sobol": Sampling(population=20),
+    }
+    one = Study(
+        problems={"p": NOWHERE}, algorithms=algorithms, seeds=[1, 2], budgets=[40], references={"p": front}
+    )
+    store = FolderStore(tmp_path, {})
+    assert all(error == "" for _, error in one.carry_out(store))
+    table = one.table(store)
+    assert table.relative_hypervolume.eq(0).all()
+    assert table["size"].eq(0).all()
+    assert np.isposinf(table[["igd_plus", "epsilon"]]).all(axis=None)
+    assert table.spread.isna().all()
+    assert all(store[run.name].final.violation.eq(1).all() for run in one.runs())
+
+
+def test_without_a_feasible_design_there_is_no_reference():
+    found = Study(problems={"p": NOWHERE}, algorithms={"a": Nsga2(population=20)}, seeds=[1], budgets=[40]).run()
+    assert found.error.tolist() == [
+        "ValueError: references must hold 'p', of which the runs from seed 1 found no feasible design, got []"
+    ]

@@ -1,0 +1,172 @@
+"""Runs spread over processes by Dask: the same results, also where a worker dies."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from functions import dtlz2, slow, srn
+from suspension_ctrl import Nsga2, Problem, minimise
+from suspension_ctrl.search.sampling import Sampling
+from suspension_ctrl.study import workers as clusters
+from suspension_ctrl.study.study import Study
+
+
+def study() -> Study:
+    problem = Problem(evaluate=slow, lower=(0,) * 4, upper=(1,) * 4, objectives=("f1", "f2"))
+    return Study(
+        problems={"slow": problem},
+        algorithms={"nsga2": Nsga2(population=20), "sobol": Sampling(population=20)},
+        seeds=range(6),
+        budgets=[40, 200],
+    )
+
+
+@pytest.fixture(scope="module")
+def alone() -> pd.DataFrame:
+    return study().run().drop(columns="seconds")
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    with clusters.local_cluster(2) as client:
+        yield client
+
+
+def test_two_workers_give_what_one_process_gives(alone, cluster):
+    pd.testing.assert_frame_equal(study().run(cluster).drop(columns="seconds"), alone)
+
+
+def test_runs_of_a_worker_that_dies_are_made_elsewhere(alone):
+    with clusters.local_cluster(2) as client:
+        victim, _ = client.run(os.getpid).values()
+        store = {}
+        made = study().carry_out(store, client)
+        next(made)
+        os.kill(victim, signal.SIGKILL)
+        assert all(error == "" for _, error in made)
+        assert victim not in client.run(os.getpid).values()
+    pd.testing.assert_frame_equal(study().table(store).drop(columns="seconds"), alone)
+
+
+@contextmanager
+def running(folder: Path, *command: str):
+    """A process of its own, with the modules of the tests at hand."""
+    path = os.pathsep.join([str(Path(__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
+    process = subprocess.Popen(
+        [sys.executable, "-m", *command], cwd=folder, env=os.environ | {"PYTHONPATH": path},
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    try:
+        yield process
+    finally:
+        process.terminate()
+        process.wait(20)
+
+
+def test_a_scheduler_gives_the_same_also_when_one_of_its_workers_is_killed(alone, tmp_path):
+    """Real processes: a scheduler, two workers without a nanny, of which one is killed during the campaign."""
+    file = tmp_path / "scheduler.json"
+    scheduler = ("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
+    worker = ("distributed.cli.dask_worker", "--scheduler-file", str(file), "--nthreads", "1", "--no-nanny")
+    worker = (*worker, "--no-dashboard")
+    with running(tmp_path, *scheduler, "--scheduler-file", str(file)):
+        while not file.exists():
+            time.sleep(0.05)
+        with running(tmp_path, *worker) as first, running(tmp_path, *worker):
+            address = pd.read_json(file, typ="series").address
+            with clusters.scheduler_at(address) as client:
+                client.wait_for_workers(2, timeout=60)
+                store = {}
+                made = study().carry_out(store, client)
+                next(made)
+                first.kill()
+                assert all(error == "" for _, error in made)
+    pd.testing.assert_frame_equal(study().table(store).drop(columns="seconds"), alone)
+
+
+@pytest.mark.skipif(not Path("/proc/net/tcp").exists(), reason="the system does not list sockets there")
+def test_a_local_cluster_listens_on_loopback_alone(cluster):
+    sockets = set()
+    for pid in (os.getpid(), *cluster.run(os.getpid).values()):
+        links = [os.readlink(path) for path in Path(f"/proc/{pid}/fd").iterdir() if path.is_symlink()]
+        sockets |= {link[8:-1] for link in links if link.startswith("socket:[")}
+    rows = [
+        line.split() for file in ("tcp", "tcp6") for line in Path("/proc/net", file).read_text().splitlines()[1:]
+    ]
+    listening = [address for _, address, _, state, *rest in rows if state == "0A" and rest[5] in sockets]
+    assert len(listening) >= 3  # the scheduler and two workers
+    assert all(address.startswith("0100007F:") for address in listening)
+
+
+def test_a_scheduler_that_is_lost_or_has_no_worker_is_told_in_one_line(tmp_path):
+    file = tmp_path / "scheduler.json"
+    command = ("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
+    with running(tmp_path, *command, "--scheduler-file", str(file)) as scheduler:
+        while not file.exists():
+            time.sleep(0.05)
+        address = pd.read_json(file, typ="series").address
+        with (
+            pytest.raises(ValueError, match=r"^scheduler must have a worker"),
+            clusters.scheduler_at(address, timeout=1.0),
+        ):
+            pass
+        worker = ("distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard")
+        with running(tmp_path, *worker), clusters.scheduler_at(address) as client:
+            made = study().carry_out({}, client)
+            next(made)
+            scheduler.kill()
+            with pytest.raises(ConnectionError, match=r"^scheduler lost: "):
+                list(made)
+
+
+def test_an_evaluation_spread_over_workers_gives_the_same_run(cluster):
+    spread = clusters.distributed(dtlz2(5), cluster, chunk=7)
+    ours, theirs = (minimise(p, Nsga2(population=20), iterations=3, seed=1) for p in (dtlz2(5), spread))
+    np.testing.assert_array_equal(ours.objectives, theirs.objectives)
+    assert (spread.variables, spread.objectives) == (dtlz2(5).variables, dtlz2(5).objectives)
+    assert spread.constraints == ()
+    assert clusters.distributed(srn(), cluster).constraints == ("g1", "g2")
+    with pytest.raises(ValueError, match=r"^chunk must be a whole number >= 1, got 0$"):
+        clusters.distributed(dtlz2(5), cluster, chunk=0)
+
+
+def test_what_raises_on_a_worker_is_told_in_one_line(cluster):
+    found = {
+        name: (result, error)
+        for name, result, error in clusters.outcomes(ratio, {"a": (1, 2), "b": (1, 0)}, cluster)
+    }
+    assert found == {"a": (0.5, ""), "b": (None, "ZeroDivisionError: division by zero")}
+
+
+def ratio(a: float, b: float) -> float:
+    return a / b
+
+
+@pytest.mark.parametrize(
+    ("address", "tls", "message"),
+    [
+        ("localhost:8786", None, r"scheduler must be tcp://host:port, got 'localhost:8786'"),
+        (
+            "tcp://127.0.0.1:8786",
+            clusters.Tls(ca_file="a", cert="b", key="c"),
+            "scheduler must be tls://host:port",
+        ),
+        ("tcp://127.0.0.1:1", None, "scheduler must be one that answers, got 'tcp://127.0.0.1:1': "),
+    ],
+)
+def test_rejects_addresses_where_no_scheduler_is(address, tls, message):
+    with pytest.raises(ValueError, match=f"^{message}"), clusters.scheduler_at(address, tls, timeout=0.5):
+        pass
+
+
+def test_rejects_bad_numbers_of_jobs():
+    with pytest.raises(ValueError, match=r"^jobs must be a whole number >= 1, got 0$"), clusters.local_cluster(0):
+        pass
