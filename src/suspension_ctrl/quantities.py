@@ -1,12 +1,114 @@
-"""Names and units of quantities: of parameters, of signals, in keys of files and headers of tables."""
+"""Names and units of quantities; frozen records of them, compared, hashed and shown by their fields."""
 
-from collections.abc import Mapping, Sequence
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import MISSING, Field, fields
+from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+K = TypeVar("K")
+V = TypeVar("V", covariant=True)
+
+_WIDTH, _LINES = 88, 6
+"""Columns and lines that the repr of a record may take."""
+
+
+def unit(text: str) -> dict[str, str]:
+    """Return the metadata of a dataclass field in this unit: ``field(metadata=unit("kg"))``."""
+    return {"unit": text}
+
+
+def frozen_array(values: ArrayLike, dtype: type = float) -> NDArray[Any]:
+    """Return a read-only copy of the values."""
+    array: NDArray[Any] = np.array(values, dtype=dtype)
+    array.flags.writeable = False
+    return array
+
+
+class FrozenMapping(Mapping[K, V]):
+    """A mapping that does not change: a copy, hashable where its values are, and fit for pickling."""
+
+    def __init__(self, items: Mapping[K, V]) -> None:
+        self._items = dict(items)
+
+    def __getitem__(self, key: K) -> V:
+        return self._items[key]
+
+    def __iter__(self) -> Iterator[K]:
+        return iter(self._items)
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+    def __hash__(self) -> int:
+        return hash(frozenset((key, _hashable(value)) for key, value in self._items.items()))
+
+    def __repr__(self) -> str:
+        return repr(self._items)
+
+
+class Record:
+    """A frozen dataclass without its own ``==`` and ``repr`` (``eq=False, repr=False``), which come from here.
+
+    Two records are equal if they are of one class and all fields are, arrays element by element. Arrays stay
+    read-only when a record is pickled.
+    """
+
+    def __eq__(self, other: object) -> bool:
+        if type(self) is not type(other):
+            return NotImplemented
+        return self._values() == other._values()
+
+    def __hash__(self) -> int:
+        return hash((type(self), self._values()))
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        for value in state.values():
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
+        self.__dict__.update(state)
+
+    def __repr__(self) -> str:
+        shown = (f for f in self._fields() if f.repr and not _is_default(f, getattr(self, f.name)))
+        text = f"{type(self).__name__}({', '.join(f'{f.name}={_shown(getattr(self, f.name), f)}' for f in shown)})"
+        return "\n".join(
+            textwrap.wrap(text, _WIDTH, subsequent_indent="    ", max_lines=_LINES, placeholder=" ...")
+        )
+
+    def _values(self) -> tuple[object, ...]:
+        return tuple(_hashable(getattr(self, f.name)) for f in self._fields() if f.compare)
+
+    def _fields(self) -> tuple[Field[Any], ...]:
+        return fields(self)  # type: ignore[arg-type]
+
+
+def _hashable(value: object) -> object:
+    if isinstance(value, np.ndarray):
+        return value.shape, value.dtype.str, value.tobytes()
+    if isinstance(value, Mapping) and not isinstance(value, FrozenMapping):
+        return FrozenMapping(value)
+    if isinstance(value, list | tuple):
+        return tuple(map(_hashable, value))
+    return value
+
+
+def _is_default(one: Field[Any], value: object) -> bool:
+    default = one.default if one.default_factory is MISSING else one.default_factory()
+    return type(default) is type(value) and _hashable(default) == _hashable(value)
+
+
+def _shown(value: object, one: Field[Any]) -> str:
+    if isinstance(value, np.ndarray) and value.size > 2 and value.dtype.kind in "if":
+        text = f"{value.shape} from {value.min():.6g} to {value.max():.6g}"
+    elif isinstance(value, float):
+        text = f"{value:.6g}"
+    else:
+        text = str(value) if isinstance(value, np.ndarray) else repr(value)
+    return f"{text} {one.metadata.get('unit', '')}".rstrip()
 
 
 def key_of(name: str, unit: str) -> str:
