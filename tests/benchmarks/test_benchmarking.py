@@ -220,7 +220,7 @@ def test_imports_are_timed_one_after_the_other():
     """In a process where both are imported already, neither would take any time."""
     times = process.import_seconds()
     assert list(times) == ["import control", "import suspension_ctrl"]
-    assert 0.02 < times["import suspension_ctrl"] < times["import control"]
+    assert 0 < times["import suspension_ctrl"] < times["import control"]
 
 
 def test_a_million_designs_stay_below_500_mb():

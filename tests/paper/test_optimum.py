@@ -5,7 +5,6 @@ from scipy.optimize import minimize
 from suspension_ctrl import MoeadDra, minimise
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.paper import optimum
-from suspension_ctrl.response import files as problem_files
 
 
 @pytest.mark.parametrize(
@@ -108,7 +107,7 @@ def test_least_acc_up_to_the_limit_is_the_one_at_it(limit):
 @pytest.mark.parametrize("objective", ["ACC", "DTL"])
 def test_nothing_near_the_best_of_a_full_car_is_better(objective):
     """Where front and rear are equal the largest of them has a kink, which stops a plain descent."""
-    problem, _ = problem_files.chosen("jian_2022_full", "C", None)
+    problem, _ = paper.chosen("jian_2022_full", "C", None)
     lower, width = np.array(problem.lower), np.subtract(problem.upper, problem.lower)
     starts = lower + np.random.default_rng(0).random((4, 6)) * width
     best = np.array(optimum.least_within_limit(problem, 0.01, objective, starts))
