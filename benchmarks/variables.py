@@ -23,8 +23,8 @@ from suspension_ctrl.commands import results, terminal
 from suspension_ctrl.search.indicators import ReferenceFront
 from suspension_ctrl.study import inference as statistics
 from suspension_ctrl.study import study
-from suspension_ctrl.study import timing as experiments
 from suspension_ctrl.study import workers as clusters
+from suspension_ctrl.study.comparison import optimiser
 from suspension_ctrl.study.study import Study
 
 ALGORITHMS = ("nsga2", "moead-dra", "random", "sobol")
@@ -57,7 +57,7 @@ def main(
     }
     one = Study(
         problems=problems,
-        algorithms={name: experiments.optimiser(name, population) for name in ALGORITHMS},
+        algorithms={name: optimiser(name, population) for name in ALGORITHMS},
         seeds=range(seeds),
         budgets=[evaluations],
         references={name: true_front(name) for name in problems},

@@ -13,21 +13,12 @@ from hypothesis import settings
 from suspension_ctrl import RideProblem
 from suspension_ctrl.commands import terminal
 from suspension_ctrl.paper import experiment as paper
-from suspension_ctrl.study import reference as references
 
 Script = Callable[..., subprocess.CompletedProcess]
 
 # Examples are drawn from a fixed stream, so that a failure can be had again; timings of examples say nothing here.
 settings.register_profile("suspension_ctrl", deadline=None, derandomize=True)
 settings.load_profile("suspension_ctrl")
-
-
-@pytest.fixture(scope="session", autouse=True)
-def cache(tmp_path_factory) -> None:
-    """Reference fronts are kept for this session alone, in whatever process they are made."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv(references.CACHE, str(tmp_path_factory.mktemp("cache")))
-        yield
 
 
 @pytest.fixture(scope="session")

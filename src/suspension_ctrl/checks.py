@@ -1,13 +1,24 @@
 """Checks of user input: a ValueError names the parameter, the value and what is allowed."""
 
 import sys
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
+from contextlib import contextmanager
 
 import numpy as np
 from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
 _LARGEST = sys.float_info.max
+
+
+@contextmanager
+def installed(extra: str) -> Iterator[None]:
+    """Name the extra of this package to install in place of the ModuleNotFoundError of an import in the block."""
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        message = f'{error.name} must be installed, by: pip install "suspension-ctrl[{extra}]"'
+        raise ImportError(message, name=error.name) from None
 
 
 def positive(name: str, value: float, unit: str = "") -> None:

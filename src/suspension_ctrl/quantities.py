@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+Bool = NDArray[np.bool_]
 K = TypeVar("K")
 V = TypeVar("V", covariant=True)
 

@@ -7,7 +7,8 @@ import csv
 import json
 import math
 import os
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING, Any
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
 
 _LARGEST = 1e9
 """Beyond what roads and vehicles have; its square is still a number."""
+
+_DEVICES = r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)"
+"""Names that Windows keeps for devices, with any ending."""
 
 
 def read_table(path: "str | PathLike[str]") -> tuple[list[str], NDArray[np.float64]]:
@@ -74,6 +78,12 @@ def _one_line(error: Exception) -> str:
     return " ".join(str(error).split())
 
 
+def file_name(text: str) -> str:
+    """Return the text as a file's name: letters, digits and ``._+-`` as they are, ``_`` for all else."""
+    name = re.sub(r"[^\w.+-]", "_", text).strip(".") or "_"
+    return f"_{name}" if re.match(_DEVICES, name, re.IGNORECASE) else name
+
+
 def write_whole(path: Path, write: Callable[[Path], object]) -> None:
     """Let `write` fill a temporary file beside `path`, then put it in place in one step.
 
@@ -98,9 +108,9 @@ def write_csv(path: Path, frame: "pd.DataFrame") -> None:
 
 def write_text(path: Path, text: str) -> None:
     """Write a text file."""
-    write_whole(path, lambda temporary: temporary.write_text(text))
+    write_whole(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
 
 
-def write_json(path: Path, content: dict[str, Any]) -> None:
+def write_json(path: Path, content: Mapping[str, Any]) -> None:
     """Write a JSON file, indented."""
-    write_text(path, json.dumps(content, indent=2) + "\n")
+    write_text(path, json.dumps(dict(content), indent=2) + "\n")

@@ -9,12 +9,13 @@ from suspension_ctrl.commands import campaign as campaigns
 from suspension_ctrl.commands import reports
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.indicators import ReferenceFront
-from suspension_ctrl.study import timing as experiments
+from suspension_ctrl.study import comparison
+from suspension_ctrl.study.comparison import Comparison
 from suspension_ctrl.study.reference import grid_front
 from suspension_ctrl.study.store import FolderStore
 
 
-def campaign(raises) -> campaigns.Campaign:
+def campaign(raises) -> Comparison:
     ride = paper.ride_problem()
 
     def evaluate(designs: np.ndarray) -> np.ndarray:
@@ -26,8 +27,7 @@ def campaign(raises) -> campaigns.Campaign:
         evaluate=evaluate, lower=ride.lower, upper=ride.upper, objectives=ride.objectives,
         variables=ride.variables, units=ride.units,
     )  # fmt: skip
-    reference = ReferenceFront.of(grid_front(ride, 40))
-    return campaigns.Campaign(problem, ["nsga2", "sobol"], [20], [2], range(8), reference)
+    return Comparison(problem=problem, algorithms=["nsga2", "sobol"], populations=[20], iterations=[2], seeds=8)
 
 
 def clock() -> pd.DataFrame:
@@ -36,9 +36,10 @@ def clock() -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["algorithm", "population", "evaluations", "seconds"])
 
 
-def reported(one: campaigns.Campaign, folder) -> pd.DataFrame:
+def reported(one: Comparison, folder) -> pd.DataFrame:
     store = FolderStore(folder / "quality", {})
-    table = campaigns.carry_out(one, store, campaigns.Workers())
+    reference = ReferenceFront.of(grid_front(paper.ride_problem(), 40))
+    table = campaigns.carry_out(one, reference, store, campaigns.Workers())
     reports.report(one, table, store, clock(), 0.9, folder)
     return table
 
@@ -63,7 +64,7 @@ def test_runs_that_raise_leave_the_others_in_tables_and_figures(tmp_path):
 
 def test_an_algorithm_without_any_run_is_left_out(tmp_path, monkeypatch):
     one = campaign(lambda x: False)
-    monkeypatch.setitem(experiments.ALGORITHMS, "nsga2", lambda population: Broken(population))
+    monkeypatch.setitem(comparison.ALGORITHMS, "nsga2", lambda population: Broken(population))
     table = reported(one, tmp_path)
     assert set(table[table.error != ""].algorithm) == {"nsga2"}
     assert set(pd.read_csv(tmp_path / "equal.csv").algorithm) == {"sobol"}
@@ -87,8 +88,6 @@ def test_a_campaign_in_which_all_raise_says_only_that(tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["quality"]
 
 
-def test_budgets_hold_every_state_that_is_compared():
-    one = campaign(lambda x: False)
-    assert one.budgets(20) == [20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 60]
+def test_runs_are_made_in_one_place():
     with pytest.raises(ValueError, match=r"^jobs must stand without scheduler, got 2 and 'tcp://h:1'$"):
         campaigns.Workers(2, "tcp://h:1")

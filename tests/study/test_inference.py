@@ -73,9 +73,9 @@ def test_pairs_are_all_compared_within_their_group():
     ]
     alike, apart = pairs.iloc[0], pairs.iloc[1]
     assert alike.p_holm > 0.05
-    assert alike["size"] in ("negligible", "small")
+    assert alike.effect in ("negligible", "small")
     assert apart.p_holm < 1e-9
-    assert (apart.a12, apart["size"]) == (0, "large")
+    assert (apart.a12, apart.effect) == (0, "large")
     assert apart.ratio_low < apart.ratio < apart.ratio_high < 0.6
     assert (pairs.p_holm >= pairs.p).all()
 
@@ -83,7 +83,7 @@ def test_pairs_are_all_compared_within_their_group():
 def test_equal_runs_do_not_differ():
     same = pd.DataFrame({"n": 1, "algorithm": ["a"] * 5 + ["b"] * 5, "value": 2.0})
     pair = statistics.pairwise(same, ["n"], ["value"], ["a", "b"]).iloc[0]
-    assert (pair.p, pair.a12, pair["size"], pair.ratio) == (1, 0.5, "negligible", 1)
+    assert (pair.p, pair.a12, pair.effect, pair.ratio) == (1, 0.5, "negligible", 1)
 
 
 def test_one_run_each_can_be_compared():

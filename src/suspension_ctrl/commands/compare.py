@@ -9,7 +9,6 @@ can be spread over processes and machines. What was stopped goes on with the sam
 
 import platform
 import warnings
-from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -31,11 +30,11 @@ from ..study import figures
 from ..study import machine as environment
 from ..study import reference as references
 from ..study import timing as experiments
-from ..study import workers as clusters
+from ..study.comparison import ALGORITHMS as KNOWN
+from ..study.comparison import Comparison
 from ..study.store import FolderStore
-from ..study.timing import PlannedRun
 from . import reports, results, terminal
-from .campaign import Campaign, Workers, carry_out
+from .campaign import Workers, carry_out
 
 POPULATIONS, ITERATIONS = ",".join(map(str, paper.POPULATIONS)), ",".join(map(str, paper.ITERATIONS))
 ALGORITHMS = "nsga2,moead-dra"
@@ -58,9 +57,7 @@ def main(
     repeats: Annotated[
         int, Option(parser=terminal.whole_number, help="Timed runs of each algorithm at each configuration.")
     ] = paper.REPEATS,
-    algorithms: Annotated[
-        str, Option(help=f"Of {', '.join(experiments.ALGORITHMS)}; the first is the baseline.")
-    ] = ALGORITHMS,
+    algorithms: Annotated[str, Option(help=f"Of {', '.join(KNOWN)}; the first is the baseline.")] = ALGORITHMS,
     weighting: Annotated[str | None, Option(help="ISO 2631 weighting of ACC: Wk, Wb, Wb-table, ...")] = None,
     vehicle: Annotated[str | None, Option(help=paper.VEHICLE_HELP)] = None,
     road: Annotated[str | None, Option(help=paper.ROAD_HELP)] = None,
@@ -89,9 +86,6 @@ def main(
         int | None, Option(parser=terminal.whole_number, help="Processes for the runs of --quality.")
     ] = None,
     scheduler: Annotated[str | None, Option(help="Dask scheduler for them: tcp://host:8786 or tls://...")] = None,
-    tls_ca_file: Annotated[str | None, Option(help="Certificate of the authority, for tls://.")] = None,
-    tls_cert: Annotated[str | None, Option(help="One's own certificate.")] = None,
-    tls_key: Annotated[str | None, Option(help="One's own key.")] = None,
 ) -> None:
     """Compare NSGA-II and MOEA/D-DRA as the paper does, and with --quality as a careful reader would."""
     if quick:
@@ -101,16 +95,26 @@ def main(
             )
         populations, iterations, repeats, seeds = "60,100", "5,10", 2, 3
     arguments = locals() | {"out": str(out) if out else None, "problem_file": str(problem_file or "")}
-    workers = _workers(quality, jobs, scheduler, tls_ca_file, tls_cert, tls_key)
+    if not quality and (jobs is not None or scheduler):
+        raise ValueError(f"jobs and scheduler must stand with quality, got {scheduler or jobs!r} without it")
+    workers = Workers(jobs, scheduler)
     sizes, counts = (
         terminal.whole_numbers("populations", populations),
         terminal.whole_numbers("iterations", iterations),
     )
-    checks.at_least("seeds", seeds, 1)
     checks.within("target", target, 0, 1)
     problem = _problem(weighting, vehicle, road, speed, band, problem_file)
     names = terminal.names(algorithms)
-    runs = experiments.plan(problem, names, sizes, counts, repeats, seed)
+    comparison = Comparison(
+        problem=problem,
+        algorithms=names,
+        populations=sizes,
+        iterations=counts,
+        repeats=repeats,
+        seeds=seeds,
+        seed=seed,
+    )
+    runs = comparison.timed_runs()
     folder = results.results_folder(out, resumed_by="timed")
     machine = {"processor": environment.processor_name(), "python": platform.python_version()}
     tolerance = QUICK_TOLERANCE if quick else references.TOLERANCE
@@ -119,30 +123,29 @@ def main(
     with environment.single_thread(), warnings.catch_warnings():
         warnings.simplefilter("ignore", InfeasibleWarning)  # what runs found is said of all of them together
         record = environment.describe(arguments)
-        experiments.warm_up(problem, runs)
-        for _ in terminal.progress(experiments.carry_out(problem, runs, store), len(runs)):
+        experiments.warm_up(comparison)
+        for _ in terminal.progress(experiments.carry_out(comparison, store), len(runs)):
             pass
-    front, made_of = _reference(problem, runs, store, tolerance)
-    timed = experiments.tidy(problem, runs, store, front).assign(timing=True)
+    front, made_of = _reference(comparison, store, tolerance, folder)
+    timed = experiments.tidy(comparison, store, front).assign(timing=True)
     if not (folder / "environment.json").exists():  # of the command that began the timed runs
         files.write_json(folder / "environment.json", record)
     files.write_csv(folder / "runs.csv", timed)
     write_tables(timed, folder, beside_paper=(vehicle, road, speed, band, problem_file) == (None,) * 5)
-    write_fronts(problem, runs, store, folder / "fronts")
-    write_figure5(problem, experiments.final_populations(runs, store), names, folder)
+    write_fronts(comparison, store, folder / "fronts")
+    write_figure5(problem, experiments.final_populations(comparison, store), names, folder)
     explain(problem, made_of, counts, names)
     barren = sum(experiments.feasible_rows(problem, store[run.name].final).empty for run in runs)
     if barren:
         terminal.note(f"{barren} of {len(runs)} timed runs found no design within the limits.")
     raised = 0
     if quality:
-        campaign = Campaign(problem, names, sizes, counts, range(seed, seed + seeds), front)
         judged_by = {"reference": references.digest(front)}
         kept = FolderStore(folder / "quality", judged_by | _plan(arguments, "seed", "seeds"))
-        table = carry_out(campaign, kept, workers)
+        table = carry_out(comparison, front, kept, workers)
         files.write_csv(folder / "runs.csv", pd.concat([timed, reports.last_rows(table).assign(timing=False)]))
-        clock = experiments.seconds_by_evaluations(runs, store)
-        reports.report(campaign, table, kept, clock, target, folder)
+        clock = experiments.seconds_by_evaluations(comparison, store)
+        reports.report(comparison, table, kept, clock, target, folder)
         raised = int(table.error.ne("").sum())
     print(folder)
     if raised:
@@ -169,17 +172,18 @@ def _problem(
 
 
 def _reference(
-    problem: RideProblem, runs: list[PlannedRun], store: FolderStore, tolerance: float
+    comparison: Comparison, store: FolderStore, tolerance: float, folder: Path
 ) -> tuple[ReferenceFront, str]:
     """Return what fronts are judged by, and what it was made of in words."""
+    problem = comparison.problem
     big = any(len(case.vehicle.contact_points) > 1 for case in problem.load_cases)
     if big or len(problem.variables) > GRID_VARIABLES:
         found = [
             experiments.objectives_of(problem, experiments.feasible_rows(problem, store[run.name].final))
-            for run in runs
+            for run in comparison.timed_runs()
         ]
         return references.best_known(found), "the non-dominated designs of all these runs"
-    grid = references.cached(problem, tolerance)
+    grid = references.kept(folder / "reference.npz", problem, tolerance)
     points = " x ".join([str(grid.points)] * len(problem.variables))
     return grid.front, (
         f"the non-dominated designs of a {points} grid (hypervolume "
@@ -207,25 +211,10 @@ def explain(problem: RideProblem, made_of: str, counts: list[int], algorithms: l
         )
 
 
-def _workers(
-    quality: bool, jobs: int | None, scheduler: str | None, ca_file: str | None, cert: str | None, key: str | None
-) -> Workers:
-    files_given = [value for value in (ca_file, cert, key) if value]
-    if files_given and (len(files_given) < 3 or not scheduler):
-        raise ValueError(
-            f"tls-ca-file, tls-cert and tls-key must stand together with scheduler, got {files_given}"
-        )
-    if not quality and (jobs is not None or scheduler):
-        raise ValueError(f"jobs and scheduler must stand with quality, got {scheduler or jobs!r} without it")
-    tls = clusters.Tls(ca_file=ca_file, cert=cert, key=key) if ca_file and cert and key else None
-    return Workers(jobs, scheduler, tls)
-
-
 def _plan(arguments: dict[str, Any], *also: str) -> dict[str, Any]:
     """Return what the results of a run depend on: these arguments, and the versions that compute it."""
     kept = {name: arguments[name] for name in ("populations", "iterations", "problem", "algorithms", *also)}
-    packages = ("suspension-ctrl", "control", "moocore", "numba", "numpy", "scipy")
-    return kept | {name: version(name) for name in packages}
+    return kept | environment.provenance()
 
 
 def write_tables(runs: pd.DataFrame, folder: Path, *, beside_paper: bool) -> None:
@@ -256,7 +245,8 @@ def write_figure5(problem: RideProblem, populations: pd.DataFrame, algorithms: l
         results.write_figure(folder / stem, figures.final_populations(shown, across, up))
 
 
-def write_fronts(problem: RideProblem, runs: list[PlannedRun], store: FolderStore, folder: Path) -> None:
+def write_fronts(comparison: Comparison, store: FolderStore, folder: Path) -> None:
     folder.mkdir(exist_ok=True)
-    for planned in runs:
-        files.write_csv(folder / f"{planned.name}.csv", experiments.front(problem, store[planned.name].final))
+    for planned in comparison.timed_runs():
+        final = experiments.front(comparison.problem, store[planned.name].final)
+        files.write_csv(folder / f"{planned.name}.csv", final)

@@ -1,4 +1,4 @@
-"""Figures of a campaign, written to its folder."""
+"""Figures of a comparison, written to its folder."""
 
 from collections.abc import Mapping
 from itertools import combinations
@@ -10,17 +10,17 @@ from ..quantities import column_headers
 from ..study import figures as comparison_figures
 from ..study import lenses, study
 from ..study import timing as experiments
-from ..study.store import Record
+from ..study.comparison import Comparison
+from ..study.store import StoredRun
 from ..study.study import INDICATORS
 from . import results
-from .campaign import Campaign
 
 
 def draw(
-    campaign: Campaign, timed: pd.DataFrame, equal: pd.DataFrame, store: Mapping[str, Record], folder: Path
+    comparison: Comparison, timed: pd.DataFrame, equal: pd.DataFrame, store: Mapping[str, StoredRun], folder: Path
 ) -> None:
     """Write anytime curves, box plots and attainment differences, a figure of each per population."""
-    for population in campaign.populations:
+    for population in comparison.populations:
         curves = timed[timed.population == population]
         figure, axes = comparison_figures.panels(4, columns=2)
         places = ((s, x) for s in (study.POPULATION, study.CUT_ARCHIVE) for x in ("evaluations", "seconds"))
@@ -32,7 +32,7 @@ def draw(
 
         last = equal[
             (equal.population == population)
-            & (equal.iterations == max(campaign.iterations))
+            & (equal.iterations == max(comparison.iterations))
             & (equal.lens == lenses.EVALUATIONS)
             & (equal.set == study.POPULATION)
         ]
@@ -40,21 +40,19 @@ def draw(
         for ax, indicator in zip(axes, INDICATORS, strict=True):
             comparison_figures.boxes(ax, last, indicator)
         results.write_figure(folder / f"boxes_n{population}", figure)
-        if len(campaign.algorithms) > 1:
-            _draw_attainment(campaign, population, store, folder)
+        if len(comparison.algorithms) > 1:
+            _draw_attainment(comparison, population, store, folder)
 
 
-def _draw_attainment(campaign: Campaign, population: int, store: Mapping[str, Record], folder: Path) -> None:
-    names = campaign.algorithms[:2]
-    runs = campaign.studies()[population].runs()
-    kept = {
-        name: {
-            r.seed: experiments.feasible_rows(campaign.problem, store[r.name].final)
-            for r in runs
-            if r.algorithm == name and r.name in store
-        }
-        for name in names
-    }
+def _draw_attainment(
+    comparison: Comparison, population: int, store: Mapping[str, StoredRun], folder: Path
+) -> None:
+    names = comparison.algorithms[:2]
+    kept: dict[str, dict[int, pd.DataFrame]] = {name: {} for name in names}
+    for run in comparison.studies()[population].runs():
+        if run.key["algorithm"] in kept and run.name in store:
+            feasible = experiments.feasible_rows(comparison.problem, store[run.name].final)
+            kept[run.key["algorithm"]][run.seed] = feasible
     shared = sorted(
         seed for seed in kept[names[0]] if len(kept[names[0]][seed]) and len(kept[names[1]].get(seed, ()))
     )
@@ -63,8 +61,8 @@ def _draw_attainment(campaign: Campaign, population: int, store: Mapping[str, Re
     sides = [pd.concat([kept[name][seed].assign(seed=seed) for seed in shared]) for name in names]
     headers = dict(
         zip(
-            campaign.problem.objectives,
-            column_headers(campaign.problem.objectives, campaign.problem.units),
+            comparison.problem.objectives,
+            column_headers(comparison.problem.objectives, comparison.problem.units),
             strict=True,
         )
     )

@@ -1,4 +1,4 @@
-"""What follows from the runs of a campaign: tables, the verdict, figures."""
+"""What follows from the runs of a comparison: tables, the verdict, figures."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -9,10 +9,10 @@ from .. import tables as files
 from ..study import inference as statistics
 from ..study import inference as verdicts
 from ..study import lenses, study
-from ..study.store import Record
+from ..study.comparison import Comparison
+from ..study.store import StoredRun
 from ..study.study import INDICATORS
 from . import results, terminal
-from .campaign import Campaign
 from .pictures import draw
 
 VALUE = "relative_hypervolume"
@@ -25,14 +25,14 @@ def last_rows(quality: pd.DataFrame) -> pd.DataFrame:
     return (
         ends.groupby(["population", "algorithm", "seed"], sort=False)
         .tail(1)
-        .drop(columns=["set", "size", "budget"])
+        .drop(columns=["set", "members", "budget"])
     )
 
 
 def report(
-    campaign: Campaign,
+    comparison: Comparison,
     quality: pd.DataFrame,
-    store: Mapping[str, Record],
+    store: Mapping[str, StoredRun],
     clock: pd.DataFrame,
     target: float,
     folder: Path,
@@ -43,11 +43,11 @@ def report(
         return
     timed = lenses.with_seconds(ended, clock)
     files.write_csv(folder / "quality.csv", timed.drop(columns="seconds"))
-    equal = lenses.at_equal(timed, campaign.algorithms, campaign.iterations, campaign.cost())
+    equal = lenses.at_equal(timed, comparison.algorithms, comparison.iterations, comparison.cost())
     by = [*CONFIGURATION, "set", "algorithm"]
     spent = equal.groupby(by, sort=False)[["evaluations", "seconds"]].median().reset_index()
     summary = spent.merge(statistics.quartiles(equal, by, INDICATORS), on=by)
-    compared = statistics.pairwise(equal, [*CONFIGURATION, "set"], INDICATORS, campaign.algorithms)
+    compared = statistics.pairwise(equal, [*CONFIGURATION, "set"], INDICATORS, comparison.algorithms)
     reached = lenses.reached_by(lenses.to_reach(timed, target))
     for name, table in (("equal", summary), ("differences", compared), ("to_reach", reached)):
         results.write_table(folder / name, table.rename(columns=_headers(table.columns)))
@@ -55,7 +55,7 @@ def report(
     words = [
         verdicts.verdict(
             compared[(compared.set == chosen) & (compared.value == VALUE)],
-            *campaign.algorithms[:2],
+            *comparison.algorithms[:2],
             f"Hypervolume of the {what}",
         )
         for what, chosen in judged.items()
@@ -63,7 +63,7 @@ def report(
     ]
     files.write_text(folder / "verdict.md", "\n\n".join(words) + "\n")
     _show(summary, reached, words, target)
-    draw(campaign, timed, equal, store, folder)
+    draw(comparison, timed, equal, store, folder)
 
 
 def _headers(columns: Sequence[str]) -> dict[str, str]:
@@ -77,7 +77,8 @@ def _headers(columns: Sequence[str]) -> dict[str, str]:
         "algorithm",
         "first",
         "second",
-        "size",
+        "effect",
+        "members",
         "runs",
         "reached",
     }

@@ -7,7 +7,7 @@ import pandas as pd
 
 from ..quantities import column_headers
 from ..response.problem import RideProblem
-from ..study.timing import EQUAL_EVALUATIONS, EQUAL_ITERATIONS
+from ..study.comparison import EQUAL_EVALUATIONS, EQUAL_ITERATIONS
 
 CONFIGURATION = ["population", "iterations"]
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike, NDArray
-from scipy import stats
-from statsmodels.stats.multitest import multipletests
+
+from ..checks import installed
 
 SIGNIFICANCE = 0.05
 CONFIDENCE = 0.95
@@ -50,6 +50,8 @@ def a12(first: ArrayLike, second: ArrayLike) -> float:
     A. Vargha and H. D. Delaney, "A critique and improvement of the CL common language effect size statistics of
     McGraw and Wong", Journal of Educational and Behavioral Statistics 25(2), 2000.
     """
+    from scipy import stats
+
     first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
     return float(stats.mannwhitneyu(first, second, method="asymptotic").statistic / (first.size * second.size))
 
@@ -65,6 +67,9 @@ def size_in_words(effect: float) -> str:
 
 def holm(p_values: ArrayLike) -> NDArray[np.float64]:
     """Return p-values (n,) adjusted by Holm for all n tests being made at once; NaN where there is none."""
+    with installed("study"):
+        from statsmodels.stats.multitest import multipletests
+
     p = np.asarray(p_values, dtype=float)
     adjusted = np.full(p.shape, np.nan)
     known = ~np.isnan(p)
@@ -79,6 +84,8 @@ def ratio_of_medians(first: ArrayLike, second: ArrayLike, seed: int = 0) -> tupl
     All NaN where the second sample has values that are not positive or either has infinite ones, the interval
     where a sample has one value.
     """
+    from scipy import stats
+
     first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
 
     def ratio(x: NDArray[np.float64], y: NDArray[np.float64], axis: int = -1) -> NDArray[np.float64]:
@@ -121,7 +128,7 @@ def pairwise(
     DataFrame
         A row per value, group and pair: value, `by`, first, second, both medians, ratio of the medians with its
         bootstrap interval (ratio, low, high), p of the two-sided Mann-Whitney test, p_holm adjusted for all
-        tests of the table, a12 of the first over the second and its size in words.
+        tests of the table, a12 of the first over the second and its effect in words.
     """
     rows: list[dict[str, Any]] = []
     for value, (key, group) in product(values, list(table.groupby(list(by), sort=False))):
@@ -135,6 +142,8 @@ def pairwise(
 
 
 def _compared(first: "pd.Series[float]", second: "pd.Series[float]") -> dict[str, Any]:
+    from scipy import stats
+
     ratio, low, high = ratio_of_medians(first, second)
     effect = a12(first, second)
     alike = np.unique(np.concatenate([first, second])).size == 1  # a rank test of equal values has nothing to rank
@@ -146,7 +155,7 @@ def _compared(first: "pd.Series[float]", second: "pd.Series[float]") -> dict[str
         "ratio_high": high,
         "p": 1.0 if alike else float(stats.mannwhitneyu(first, second).pvalue),
         "a12": effect,
-        "size": size_in_words(effect),
+        "effect": size_in_words(effect),
     }
 
 
@@ -183,7 +192,7 @@ def _sentence(lens: str, pairs: pd.DataFrame, first: str, second: str) -> str:
 
 
 def _outcome(pair: Mapping[Hashable, Any], first: str, second: str) -> str:
-    if pair["p_holm"] >= SIGNIFICANCE or pair["size"] == "negligible":
+    if pair["p_holm"] >= SIGNIFICANCE or pair["effect"] == "negligible":
         return "there is no difference that the runs can show"
     return f"{first if pair['a12'] > 0.5 else second} is ahead"
 
@@ -191,7 +200,7 @@ def _outcome(pair: Mapping[Hashable, Any], first: str, second: str) -> str:
 def _numbers(pair: Mapping[Hashable, Any]) -> str:
     medians = f"medians {pair['median_first']:.4f} and {pair['median_second']:.4f}"
     p = "p < 0.001" if pair["p_holm"] < 0.001 else f"p = {pair['p_holm']:.3f}"
-    return f"{medians}, {p}, A12 = {pair['a12']:.2f}, {pair['size']}"
+    return f"{medians}, {p}, A12 = {pair['a12']:.2f}, {pair['effect']}"
 
 
 def _listed(parts: Sequence[str]) -> str:

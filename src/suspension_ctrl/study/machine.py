@@ -1,24 +1,34 @@
-"""The machine a result was made on: threads held at one, and a record of what ran."""
+"""The machine of a result: its threads held at one, and a record of processor, versions and threads."""
 
 import os
 import platform
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-import numba
-from threadpoolctl import threadpool_info, threadpool_limits
+from ..checks import installed
 
-_PACKAGES = ("suspension-ctrl", "control", "deap", "moocore", "numba", "numpy", "pandas", "scipy")
+PACKAGES = ("suspension-ctrl", "control", "deap", "moocore", "numba", "numpy", "pandas", "scipy")
+"""Distributions that a result depends on."""
+
+
+def provenance() -> dict[str, str]:
+    """Return the versions that a result depends on, beside its settings."""
+    return {name: version(name) for name in PACKAGES}
 
 
 @contextmanager
 def single_thread() -> Iterator[None]:
     """Hold the thread pools of BLAS and numba at one thread, so that timings compare algorithms."""
+    import numba
+
+    with installed("study"):
+        from threadpoolctl import threadpool_limits
+
     before = numba.get_num_threads()
     numba.set_num_threads(1)
     try:
@@ -28,19 +38,26 @@ def single_thread() -> Iterator[None]:
         numba.set_num_threads(before)
 
 
-def describe(arguments: dict[str, Any]) -> dict[str, Any]:
-    """Return what a reader needs to judge timings: processor, versions, threads in force and arguments."""
-    pools = [{key: pool.get(key) for key in ("user_api", "internal_api", "version", "num_threads")}
-             for pool in threadpool_info()]  # fmt: skip
+def describe(arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the record that timings are judged by: date, processor, versions, threads in force and arguments."""
+    import numba
+
+    with installed("study"):
+        from threadpoolctl import threadpool_info
+
+    keys = ("user_api", "internal_api", "version", "num_threads")
     return {
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
         "processor": processor_name(),
         "cores": os.cpu_count(),
         "platform": platform.platform(),
         "python": sys.version.split()[0],
-        "versions": {name: version(name) for name in _PACKAGES},
-        "threads": {"numba": numba.get_num_threads(), "pools": pools},
-        "arguments": arguments,
+        "versions": provenance(),
+        "threads": {
+            "numba": numba.get_num_threads(),
+            "pools": [{key: pool.get(key) for key in keys} for pool in threadpool_info()],
+        },
+        "arguments": dict(arguments),
     }
 
 
@@ -48,7 +65,8 @@ def processor_name() -> str:
     """Return the processor's name as the system tells it."""
     cpuinfo = Path("/proc/cpuinfo")
     if cpuinfo.exists():
-        names = [line for line in cpuinfo.read_text().splitlines() if line.startswith("model name")]
+        lines = cpuinfo.read_text(encoding="utf-8", errors="replace").splitlines()
+        names = [line for line in lines if line.startswith("model name")]
         if names:
             return names[0].split(":", 1)[1].strip()
     return platform.processor() or platform.machine()

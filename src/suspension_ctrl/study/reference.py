@@ -1,33 +1,28 @@
-"""The reference front of a problem: a grid refined until its hypervolume stands still, kept on disk."""
+"""The reference front of a problem: a grid refined until its hypervolume converges, kept beside the results."""
 
 import hashlib
 import json
-import os
 from collections.abc import Sequence
 from contextlib import suppress
-from importlib.metadata import version
 from pathlib import Path
 from typing import NamedTuple
 from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
-from platformdirs import user_cache_path
 
 from .. import checks
 from .. import tables as files
 from ..search.constraints import feasible_objectives
 from ..search.indicators import ReferenceFront, non_dominated
 from ..search.problem import Minimisable
+from .machine import provenance
 
 TOLERANCE = 1e-4
-CACHE = "SUSPENSION_CTRL_CACHE"
-"""Variable of the environment that names the folder of kept fronts in place of the user's cache."""
 
 _FIRST = 100  # values per variable of the coarsest grid
 _MOST = 20_000_000  # designs of the finest grid
 _CHUNK = 500_000  # designs at a time
-_PACKAGES = ("suspension-ctrl", "moocore", "numpy", "scipy", "control")
 
 
 class Refined(NamedTuple):
@@ -133,26 +128,25 @@ def digest(front: ReferenceFront) -> str:
     return hashlib.sha256(front.objectives.tobytes() + np.float64(front.volume).tobytes()).hexdigest()[:32]
 
 
-def cached(problem: Minimisable, tolerance: float = TOLERANCE) -> Refined:
-    """Return `refined` from disk, where it has been made before for the same problem by the same versions."""
-    folder = Path(os.environ.get(CACHE) or user_cache_path("suspension_ctrl"))
-    path = folder / f"front-{key(problem, tolerance)}.npz"
-    with suppress(OSError, ValueError, KeyError, EOFError, BadZipFile):  # absent or spoilt: made anew
-        return _read(path)
+def kept(path: Path, problem: Minimisable, tolerance: float = TOLERANCE) -> Refined:
+    """Return `refined` from a file, written first if it is absent, spoilt or of another `key`."""
+    wanted = key(problem, tolerance)
+    with suppress(OSError, ValueError, KeyError, EOFError, BadZipFile):
+        return _read(path, wanted)
     found = refined(problem, tolerance)
-    content = {**vars(found.front), **found._asdict()}
+    content = {"key": wanted, **vars(found.front), **found._asdict()}
     del content["front"]
-    with suppress(OSError):  # a cache that cannot be written is no reason to stop
-        folder.mkdir(parents=True, exist_ok=True)
-        files.write_whole(path, lambda temporary: np.savez(temporary, **content))
+    files.write_whole(path, lambda temporary: np.savez(temporary, **content))
     return found
 
 
-def _read(path: Path) -> Refined:
-    with path.open("rb") as file, np.load(file) as kept:
-        arrays = {name: kept[name] for name in ("objectives", "ideal", "nadir")}
-        front = ReferenceFront(**arrays, volume=float(kept["volume"]))
-        return Refined(front, int(kept["points"]), float(kept["change"]), float(kept["second"]))
+def _read(path: Path, wanted: str) -> Refined:
+    with path.open("rb") as file, np.load(file) as there:
+        if there["key"] != wanted:
+            raise ValueError("key must be that of the problem, got another")
+        arrays = {name: there[name] for name in ("objectives", "ideal", "nadir")}
+        front = ReferenceFront(**arrays, volume=float(there["volume"]))
+        return Refined(front, int(there["points"]), float(there["change"]), float(there["second"]))
 
 
 def key(problem: Minimisable, tolerance: float) -> str:
@@ -165,7 +159,7 @@ def key(problem: Minimisable, tolerance: float) -> str:
     lower, upper = (np.asarray(bound, dtype=float) for bound in (problem.lower, problem.upper))
     probes = problem.evaluate(lower + (upper - lower) * rng.random((64, lower.size)))
     settings = {
-        "versions": {name: version(name) for name in _PACKAGES},
+        "versions": provenance(),
         "objectives": list(problem.objectives),
         "bounds": [lower.tolist(), upper.tolist()],
         "grid": [tolerance, _FIRST, _MOST],

@@ -1,23 +1,22 @@
-"""Finished runs on disk: each file whole or not at all, so that a campaign goes on where it was stopped."""
+"""Finished runs on disk: each file whole or not at all, so that what was stopped goes on where it was."""
 
 import json
-from collections.abc import Iterator, MutableMapping
+from collections.abc import Iterator, Mapping, MutableMapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .. import tables as files
+from .. import tables
 
 if TYPE_CHECKING:
     import pandas as pd
 
 
-PLAN = "plan.json"
 VIOLATION = "violation"
 """Column of a final population's total violations, where the problem has constraints."""
 
 
-class Record(NamedTuple):
-    """What is kept of a run: a table of its course, and what it ended with.
+class StoredRun(NamedTuple):
+    """The tables of a finished run.
 
     Parameters
     ----------
@@ -31,15 +30,15 @@ class Record(NamedTuple):
     final: "pd.DataFrame"
 
 
-class FolderStore(MutableMapping[str, Record]):
-    """Records by name of a run, as two CSV files each in a folder that belongs to one plan.
+class FolderStore(MutableMapping[str, StoredRun]):
+    """Finished runs by name, as two CSV files each in a folder that belongs to one plan.
 
     Parameters
     ----------
     folder : Path
         Made if absent. A run is in the store once its file in ``runs`` is; that is written last.
-    plan : dict
-        What the results depend on, for ``plan.json``.
+    plan : mapping
+        Settings and versions that the results depend on, for ``plan.json``.
 
     Raises
     ------
@@ -47,13 +46,13 @@ class FolderStore(MutableMapping[str, Record]):
         If the folder holds runs of another plan.
     """
 
-    def __init__(self, folder: Path, plan: dict[str, Any]) -> None:
+    def __init__(self, folder: Path, plan: Mapping[str, Any]) -> None:
         self._course, self._final = folder / "runs", folder / "final"
         folder.mkdir(parents=True, exist_ok=True)
-        path = folder / PLAN
+        path = folder / "plan.json"
         if not path.exists():
-            files.write_json(path, plan)
-        there, wanted = json.loads(path.read_text()), json.loads(json.dumps(plan))
+            tables.write_json(path, plan)
+        there, wanted = json.loads(path.read_text(encoding="utf-8")), json.loads(json.dumps(dict(plan)))
         for name in wanted | there:
             if there.get(name) != wanted.get(name):
                 raise ValueError(
@@ -65,17 +64,16 @@ class FolderStore(MutableMapping[str, Record]):
             for unfinished in part.glob(".*"):  # left by a process that was killed as it wrote
                 unfinished.unlink()
 
-    def __getitem__(self, name: str) -> Record:
+    def __getitem__(self, name: str) -> StoredRun:
         import pandas as pd
 
         if name not in self:
             raise KeyError(name)
-        paths = (part / f"{name}.csv" for part in (self._course, self._final))
-        return Record(*(pd.read_csv(path) for path in paths))
+        return StoredRun(*(pd.read_csv(part / f"{name}.csv") for part in (self._course, self._final)))
 
-    def __setitem__(self, name: str, record: Record) -> None:
-        files.write_csv(self._final / f"{name}.csv", record.final)
-        files.write_csv(self._course / f"{name}.csv", record.course)
+    def __setitem__(self, name: str, run: StoredRun) -> None:
+        tables.write_csv(self._final / f"{name}.csv", run.final)
+        tables.write_csv(self._course / f"{name}.csv", run.course)
 
     def __delitem__(self, name: str) -> None:
         (self._course / f"{name}.csv").unlink()

@@ -1,22 +1,22 @@
 """Quality of algorithms on problems over seeds and budgets: one tidy table, of runs made in any order anywhere."""
 
-import re
 from collections.abc import Iterator, Mapping, MutableMapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from .. import checks
+from ..quantities import Bool, FrozenMapping, Real, Record
 from ..search.driver import Optimiser
 from ..search.indicators import ReferenceFront, evenly_spread, non_dominated
 from ..search.problem import Minimisable
 from ..search.trace import Trace, trace
-from .store import VIOLATION, Record
+from ..tables import file_name
+from .store import VIOLATION, StoredRun
 from .workers import outcome, outcomes
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 POPULATION, ARCHIVE, CUT_ARCHIVE = "population", "archive", "archive of N"
-"""What is judged: the population, all non-dominated designs evaluated, and N of those, spread evenly.
+"""Sets that are judged: the population, all non-dominated designs evaluated, and N of those, spread evenly.
 
 Of each the feasible designs; a set may be empty.
 """
@@ -32,32 +32,31 @@ Of each the feasible designs; a set may be empty.
 INDICATORS = ("relative_hypervolume", "igd_plus", "epsilon", "spread")
 
 
-@dataclass(frozen=True)
-class StudyRun:
-    """One run of a study.
+class PlannedRun(NamedTuple):
+    """One run of a study or of a timed comparison.
 
     Parameters
     ----------
-    problem, algorithm : str
-        Their names in the study.
-    population : int
-        Size of the algorithm's population.
+    name : str
+        Its name, fit for a file.
+    optimiser : Optimiser
+        The algorithm with its settings.
     seed : int
+    evaluations : int
+        Designs it may evaluate.
+    key : dict
+        Values of the columns that identify it in a table, ``algorithm`` and ``population`` among them.
     """
 
-    problem: str
-    algorithm: str
-    population: int
+    name: str
+    optimiser: Optimiser
     seed: int
-
-    @property
-    def name(self) -> str:
-        """A name for this run, fit for a file."""
-        return f"{self.problem}_{self.algorithm}_n{self.population}_s{self.seed}"
+    evaluations: int
+    key: dict[str, Any]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Study:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Study(Record):
     """Searches of every algorithm on every problem from every seed, judged at every budget.
 
     Parameters
@@ -77,17 +76,21 @@ class Study:
     Raises
     ------
     ValueError
-        If a part of it is empty, seeds or names of runs repeat, names hold other than letters, digits and
-        ``._+-``, a budget does not cover the start, or a name of a reference is not one of a problem.
+        If a part of it is empty, seeds or file names of runs repeat, a budget does not cover the start, or a name
+        of a reference is not one of a problem.
     """
 
     problems: Mapping[str, Minimisable]
     algorithms: Mapping[str, Optimiser]
     seeds: Sequence[int]
     budgets: Sequence[int]
-    references: Mapping[str, ReferenceFront] = field(default_factory=dict)
+    references: Mapping[str, ReferenceFront] = field(default_factory=lambda: FrozenMapping({}))
 
     def __post_init__(self) -> None:
+        for name in ("problems", "algorithms", "references"):
+            object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
+        for name in ("seeds", "budgets"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
         for name in ("problems", "algorithms", "seeds", "budgets"):
             if len(getattr(self, name)) == 0:
                 raise ValueError(f"{name} must be one or more, got {getattr(self, name)!r}")
@@ -97,20 +100,22 @@ class Study:
             raise ValueError(f"seeds must be different, got {list(self.seeds)}")
         for budget in self.budgets:
             checks.at_least("budgets", budget, max(o.population for o in self.algorithms.values()))
-        for name in (*self.problems, *self.algorithms):
-            if not re.fullmatch(r"[\w.+-]+", name):
-                raise ValueError(f"names must be of letters, digits and ._+-, got {name!r}")
-        if len({run.name for run in self.runs()}) < len(self.runs()):
-            raise ValueError(
-                f"names must not give two runs the same name, got {[*self.problems, *self.algorithms]}"
-            )
+        if len({run.name.casefold() for run in self.runs()}) < len(self.runs()):
+            names = [*self.problems, *self.algorithms]
+            raise ValueError(f"names must not give files of two runs the same name, got {names}")
         for name in self.references:
             checks.one_of("references", name, list(self.problems))
 
-    def runs(self) -> list[StudyRun]:
+    def runs(self) -> list[PlannedRun]:
         """Return the runs, algorithms taking turns within a seed."""
         return [
-            StudyRun(problem, algorithm, optimiser.population, seed)
+            PlannedRun(
+                file_name(f"{problem}_{algorithm}_n{optimiser.population}_s{seed}"),
+                optimiser,
+                seed,
+                max(self.budgets),
+                {"problem": problem, "algorithm": algorithm, "population": optimiser.population, "seed": seed},
+            )
             for problem, seed, (algorithm, optimiser) in product(
                 self.problems, self.seeds, self.algorithms.items()
             )
@@ -118,42 +123,32 @@ class Study:
 
     def run(self, client: "Client | None" = None) -> pd.DataFrame:
         """Make all runs, here or on the workers of a Dask client, and return `table`."""
-        store: dict[str, Record] = {}
+        store: dict[str, StoredRun] = {}
         errors = {run.name: error for run, error in self.carry_out(store, client) if error}
         return self.table(store, errors)
 
     def carry_out(
-        self, store: MutableMapping[str, Record], client: "Client | None" = None
-    ) -> Iterator[tuple[StudyRun, str]]:
-        """Make the runs that `store` does not hold, put each in it when done, and hand out which, with its error.
+        self, store: MutableMapping[str, StoredRun], client: "Client | None" = None
+    ) -> Iterator[tuple[PlannedRun, str]]:
+        """Make the runs that `store` does not hold, put each in it when done, and hand it out with its error.
 
-        The error is empty where there was none. With a client the runs come in whatever order they end; what
-        they give does not depend on it.
+        The error is empty where there was none. With a client the runs come in whatever order they end; their
+        results do not depend on it.
         """
-        missing = [run for run in self.runs() if run.name not in store]
-        references: dict[str, ReferenceFront] = {}
-        for problem in {run.problem for run in missing}:
+        missing = {run.name: run for run in self.runs() if run.name not in store}
+        work: dict[str, tuple[Any, ...]] = {}
+        for problem in {run.key["problem"] for run in missing.values()}:
+            runs = [run for run in missing.values() if run.key["problem"] == problem]
             reference, error = outcome(self.reference, (problem,))
             if reference is None:
-                yield from ((run, error) for run in missing if run.problem == problem)
-            else:
-                references[problem] = reference
-        missing = [run for run in missing if run.problem in references]
-        work = {
-            run.name: (
-                self.problems[run.problem],
-                self.algorithms[run.algorithm],
-                tuple(self.budgets),
-                run.seed,
-                references[run.problem],
-            )
-            for run in missing
-        }
-        by_name = {run.name: run for run in missing}
-        for name, record, error in outcomes(judged_run, work, client):
-            if record is not None:
-                store[name] = record
-            yield by_name[name], error
+                yield from ((run, error) for run in runs)
+                continue
+            for run in runs:
+                work[run.name] = (self.problems[problem], run.optimiser, self.budgets, run.seed, reference)
+        for name, finished, error in outcomes(judged_run, work, client):
+            if finished is not None:
+                store[name] = finished
+            yield missing[name], error
 
     def reference(self, problem: str) -> ReferenceFront:
         """Return the front that measures the runs on a problem.
@@ -169,44 +164,37 @@ class Study:
             trace(self.problems[problem], optimiser, [max(self.budgets)], self.seeds[0])
             for optimiser in self.algorithms.values()
         ]
-        objectives = np.concatenate([one.objectives[one.feasible] for one in seen])
-        if len(objectives) == 0:
+        best = _best(
+            np.concatenate([one.objectives for one in seen]), np.concatenate([one.feasible for one in seen])
+        )
+        if len(best) == 0:
             raise ValueError(
                 f"references must hold {problem!r}, of which the runs from seed {self.seeds[0]} found no feasible "
                 f"design, got {list(self.references)}"
             )
-        return ReferenceFront.of(objectives[non_dominated(objectives)])
+        return ReferenceFront.of(best)
 
-    def table(self, store: Mapping[str, Record], errors: Mapping[str, str] | None = None) -> pd.DataFrame:
+    def table(self, store: Mapping[str, StoredRun], errors: Mapping[str, str] | None = None) -> pd.DataFrame:
         """Return one row per run, budget and set; a run that raised has one row, with its error.
 
         Columns: problem, algorithm, population, seed, budget, evaluations, set (`POPULATION`, `ARCHIVE` or
-        `CUT_ARCHIVE`), size of the set, relative_hypervolume, igd_plus, epsilon, spread, error.
+        `CUT_ARCHIVE`), members of the set, relative_hypervolume, igd_plus, epsilon, spread, seconds (of the whole
+        run, untimed: it shared the machine), error.
         """
         parts = []
         for run in self.runs():
-            key: dict[str, Any] = {
-                "problem": run.problem,
-                "algorithm": run.algorithm,
-                "population": run.population,
-                "seed": run.seed,
-            }
             if run.name in store:
-                parts.append(store[run.name].course.assign(**key, error=""))
+                parts.append(store[run.name].course.assign(**run.key, error=""))
             elif errors and run.name in errors:
-                parts.append(pd.DataFrame([{**key, "error": errors[run.name]}]))
-        columns = ["problem", "algorithm", "population", "seed", "budget", "evaluations", "set", "size"]
+                parts.append(pd.DataFrame([{**run.key, "error": errors[run.name]}]))
+        columns = ["problem", "algorithm", "population", "seed", "budget", "evaluations", "set", "members"]
         return pd.concat(parts, ignore_index=True).reindex(columns=[*columns, *INDICATORS, "seconds", "error"])
 
 
 def judged_run(
-    problem: Minimisable,
-    optimiser: Optimiser,
-    budgets: Sequence[int],
-    seed: int,
-    reference: ReferenceFront,
-) -> Record:
-    """Make one run and return its `Record`; this is what is sent to a worker."""
+    problem: Minimisable, optimiser: Optimiser, budgets: Sequence[int], seed: int, reference: ReferenceFront
+) -> StoredRun:
+    """Make one run and judge it at each budget; this is what is sent to a worker."""
     start = perf_counter()
     seen = trace(problem, optimiser, budgets, seed)
     seconds = perf_counter() - start
@@ -218,7 +206,7 @@ def judged_run(
     final = pd.DataFrame(last.objectives[kept], columns=list(problem.objectives))
     if problem.constraints:
         final[VIOLATION] = last.violation[kept]
-    return Record(pd.DataFrame(rows).assign(seconds=seconds), final)
+    return StoredRun(pd.DataFrame(rows).assign(seconds=seconds), final)
 
 
 def _judged(seen: Trace, budget: int, population: int, reference: ReferenceFront) -> Iterator[dict[str, Any]]:
@@ -231,16 +219,16 @@ def _judged(seen: Trace, budget: int, population: int, reference: ReferenceFront
             "budget": budget,
             "evaluations": state.evaluations,
             "set": name,
-            "size": len(objectives),
+            "members": len(objectives),
             **{indicator: getattr(reference, indicator)(objectives) for indicator in INDICATORS},
         }
 
 
-def _best(objectives: NDArray[np.float64], feasible: NDArray[np.bool_]) -> NDArray[np.float64]:
+def _best(objectives: Real, feasible: Bool) -> Real:
     candidates = objectives[feasible]
     return candidates[non_dominated(candidates)]
 
 
-def cut(objectives: NDArray[np.float64], population: int) -> NDArray[np.float64]:
+def cut(objectives: Real, population: int) -> Real:
     """Return as many of the objectives (n, m) as a population holds, spread evenly."""
     return objectives[evenly_spread(objectives, population)]

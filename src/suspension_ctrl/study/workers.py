@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 from uuid import uuid4
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import checks
+from ..checks import installed
 from ..search.problem import Described, Problem
 
 if TYPE_CHECKING:
@@ -19,26 +19,12 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 
-@dataclass(frozen=True, kw_only=True)
-class Tls:
-    """Files for encrypted connections to a scheduler at ``tls://``.
-
-    Parameters
-    ----------
-    ca_file, cert, key : str
-        Paths of the authority's certificate, and of one's own certificate and key, in PEM format.
-    """
-
-    ca_file: str
-    cert: str
-    key: str
-
-
 @contextmanager
 def local_cluster(jobs: int) -> Iterator["Client"]:
     """Start a cluster of `jobs` processes of one thread each on this machine, reachable from it alone."""
     checks.at_least("jobs", jobs, 1)
-    from distributed import Client, LocalCluster  # over a second: only where it is used
+    with installed("study"):
+        from distributed import Client, LocalCluster  # over a second: only where it is used
 
     with (
         LocalCluster(
@@ -55,23 +41,21 @@ def local_cluster(jobs: int) -> Iterator["Client"]:
         yield client
 
 
-def check_address(address: str, tls: Tls | None) -> None:
-    """Raise ValueError unless the address begins with ``tcp://``, or with ``tls://`` where `tls` is given."""
-    wanted = "tls://" if tls else "tcp://"
-    if not address.startswith(wanted):
-        raise ValueError(f"scheduler must be {wanted}host:port, got {address!r}")
+def check_address(address: str) -> None:
+    """Raise ValueError unless the address begins with ``tcp://`` or ``tls://``."""
+    if not address.startswith(("tcp://", "tls://")):
+        raise ValueError(f"scheduler must be tcp://host:port or tls://host:port, got {address!r}")
 
 
 @contextmanager
-def scheduler_at(address: str, tls: Tls | None = None, timeout: float = 10.0) -> Iterator["Client"]:
+def scheduler_at(address: str, timeout: float = 10.0) -> Iterator["Client"]:
     """Connect to a running scheduler.
 
     Parameters
     ----------
     address : str
-        For example ``tcp://host:8786``, or ``tls://host:8786`` with `tls`.
-    tls : Tls, optional
-        Files for an encrypted connection.
+        For example ``tcp://host:8786``; or ``tls://host:8786``, encrypted with the certificates that Dask's
+        configuration names (``distributed.comm.tls``).
     timeout : float
         Seconds after which to give up.
 
@@ -80,18 +64,13 @@ def scheduler_at(address: str, tls: Tls | None = None, timeout: float = 10.0) ->
     ValueError
         If the address has another form, no scheduler answers there, or it has no worker.
     """
-    from distributed import Client
-    from distributed.security import Security
+    check_address(address)
+    with installed("study"):
+        from distributed import Client
 
-    check_address(address, tls)
-    security = None
-    if tls:
-        security = Security(
-            tls_ca_file=tls.ca_file, tls_client_cert=tls.cert, tls_client_key=tls.key, require_encryption=True
-        )
     try:
-        client = Client(address, security=security, timeout=timeout, set_as_default=False)
-    except (OSError, ValueError) as error:
+        client = Client(address, timeout=timeout, set_as_default=False)
+    except (OSError, TypeError, ValueError) as error:  # TypeError: tls:// without certificates
         raise ValueError(f"scheduler must be one that answers, got {address!r}: {error}") from error
     with client:
         try:

@@ -1,0 +1,142 @@
+"""Algorithms compared on one problem: the runs that are timed, and the studies that judge them over many seeds."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+from .. import checks
+from ..quantities import Record
+from ..search.driver import Optimiser
+from ..search.gamultiobj import Gamultiobj
+from ..search.indicators import ReferenceFront
+from ..search.moead_dra import MoeadDra
+from ..search.nsga2 import Nsga2
+from ..search.problem import Described
+from ..search.sampling import Sampling
+from .study import PlannedRun, Study
+
+ALGORITHMS: dict[str, Callable[..., Optimiser]] = {
+    "nsga2": Nsga2,
+    "nsga2-standard-sort": partial(Nsga2, selection="deap-standard"),
+    "nsga2-gamultiobj": Gamultiobj,
+    "moead-dra": MoeadDra,
+    "moead-dra-raw": partial(MoeadDra, normalise=False, objective_scales=(1.0, 1.0, 1e3)),
+    "random": partial(Sampling, points="random"),
+    "sobol": partial(Sampling, points="sobol"),
+}
+"""Optimisers by name. Raw MOEA/D-DRA takes equation (14) to the letter, in the paper's units (DTL in kN)."""
+
+EQUAL_ITERATIONS, EQUAL_EVALUATIONS = "iterations", "evaluations"
+
+
+def optimiser(algorithm: str, population: int) -> Optimiser:
+    """Return the algorithm called `algorithm`, one of `ALGORITHMS`; ValueError for any other."""
+    checks.one_of("algorithms", algorithm, ALGORITHMS)
+    return ALGORITHMS[algorithm](population=population)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Comparison(Record):
+    """Every algorithm on one problem at every population and number of iterations.
+
+    Parameters
+    ----------
+    problem : Problem or RideProblem
+    algorithms : sequence of str
+        Names in `ALGORITHMS`; the first is the baseline.
+    populations, iterations : sequence of int
+        The configurations.
+    repeats : int
+        Timed runs of each algorithm at each configuration; repeat r has the seed `seed` + r - 1.
+    seeds : int
+        Runs of each algorithm that are judged, from `seed` on.
+    seed : int
+
+    Raises
+    ------
+    ValueError
+        If an algorithm is not one of `ALGORITHMS` or a number is too small.
+    """
+
+    problem: Described
+    algorithms: Sequence[str]
+    populations: Sequence[int]
+    iterations: Sequence[int]
+    repeats: int = 1
+    seeds: int = 1
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        for name in ("algorithms", "populations", "iterations"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
+        for name, least in (("repeats", 1), ("seeds", 1), ("seed", 0)):
+            checks.at_least(name, getattr(self, name), least)
+        for count in self.iterations:
+            checks.at_least("iterations", count, 1)
+        self.cost()
+
+    def cost(self) -> dict[tuple[str, int], int]:
+        """Return the evaluations of an iteration by algorithm and population."""
+        m = len(self.problem.objectives)
+        return {
+            (name, n): optimiser(name, n).evaluations_per_iteration(m)
+            for name in self.algorithms
+            for n in self.populations
+        }
+
+    def timed_runs(self) -> list[PlannedRun]:
+        """Return the runs that are timed, in the order in which they are made, algorithms taking turns.
+
+        An algorithm that spends fewer evaluations than another in as many iterations runs once more with as many,
+        up to a part of an iteration.
+        """
+        return [
+            self._timed(name, population, count, repeat, budget, evaluations)
+            for population in self.populations
+            for count in self.iterations
+            for repeat in range(1, self.repeats + 1)
+            for name, budget, evaluations in self._budgets_of(population, count)
+        ]
+
+    def _budgets_of(self, population: int, count: int) -> Iterator[tuple[str, str, int]]:
+        cost = {name: each for (name, n), each in self.cost().items() if n == population}
+        most = population + count * max(cost.values())
+        for name, each in cost.items():
+            yield name, EQUAL_ITERATIONS, population + count * each
+        for name, each in cost.items():
+            if population + count * each < most:
+                yield name, EQUAL_EVALUATIONS, population + (most - population) // each * each
+
+    def _timed(
+        self, name: str, population: int, count: int, repeat: int, budget: str, evaluations: int
+    ) -> PlannedRun:
+        suffix = "_equal-evaluations" if budget == EQUAL_EVALUATIONS else ""
+        seed = self.seed + repeat - 1
+        key = {"algorithm": name, "population": population, "iterations": count, "budget": budget}
+        return PlannedRun(
+            f"{name}_n{population}_i{count}_r{repeat}{suffix}",
+            optimiser(name, population),
+            seed,
+            evaluations,
+            {**key, "repeat": repeat, "seed": seed},
+        )
+
+    def budgets(self, population: int) -> list[int]:
+        """Return the evaluations at which runs are judged: by N/5 up to 5 N, by N beyond, and all compared."""
+        spent = {n for count in self.iterations for _, _, n in self._budgets_of(population, count)}
+        fine = {population + k * (population // 5) for k in range(21)}
+        coarse = set(range(population, max(spent), population))
+        return sorted(budget for budget in fine | coarse | spent if budget <= max(spent))
+
+    def studies(self, reference: ReferenceFront | None = None) -> dict[int, Study]:
+        """Return by population the study that judges the algorithms over all seeds, against a front if given."""
+        return {
+            n: Study(
+                problems={"ride": self.problem},
+                algorithms={name: optimiser(name, n) for name in self.algorithms},
+                seeds=range(self.seed, self.seed + self.seeds),
+                budgets=self.budgets(n),
+                references={"ride": reference} if reference else {},
+            )
+            for n in self.populations
+        }
