@@ -22,7 +22,7 @@ PUBLIC = {
     *("FlexibleBody", "FullCar", "HalfCar", "MeasuredPlant", "Payload", "QuarterCar", "RollGeometry", "Seat"),
     *("Constant", "Exponential", "Iso8608Road", "Isotropic", "MeasuredRoad", "PowerLawRoad", "Profile"),
     *("Tabulated", "TwoSlopeRoad", "load_problem", "load_road", "load_vehicle"),
-    *("LoadCase", "RideProblem", "exposure", "international_roughness_index", "response_psds", "simulate"),
+    *("LoadCase", "RideProblem", "exposure", "international_roughness_index", "response_psds", "ride", "simulate"),
     *("weighting", "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run"),
     *("Sampling", "Study", "minimise", "non_dominated"),
 }

@@ -4,6 +4,7 @@ from .response.histories import exposure as exposure
 from .response.load_case import LoadCase as LoadCase
 from .response.problem import RideProblem as RideProblem
 from .response.responses import response_psds as response_psds
+from .response.responses import ride as ride
 from .response.roughness import international_roughness_index as international_roughness_index
 from .response.weightings import weighting as weighting
 from .roads.coherence import Constant as Constant

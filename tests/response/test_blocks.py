@@ -45,7 +45,7 @@ def assert_is_the_closed_model(p: RideProblem, terms: list, kinks: tuple = (), r
     """Each measure of the problem is one response with its weighting."""
     designs = draws(p, 2)
     for design, found in zip(designs, p.evaluate(designs), strict=True):
-        struts = p.struts | dict(zip(p.variables, design.tolist(), strict=True))
+        struts = {**p.struts, **dict(zip(p.variables, design.tolist(), strict=True))}
         expected = mean_squares(p.vehicle, struts, terms, p.band, p.nodes, kinks, p.road, p.speed)
         np.testing.assert_allclose(found, np.sqrt(expected), rtol=rtol)
         function, arguments = p.kernel
@@ -101,7 +101,7 @@ def test_a_road_shaped_like_a_cylinder_rolls_nothing():
     p = problem(FULL, ("front.spring", "rear.damper"), names, road=road)
     design = draws(p, 1)
     found = p.evaluate(design)[0]
-    struts = p.struts | dict(zip(p.variables, design[0].tolist(), strict=True))
+    struts = {**p.struts, **dict(zip(p.variables, design[0].tolist(), strict=True))}
     expected = mean_squares(FULL, struts, [(name, None) for name in names], BAND, 256, (), road)
     np.testing.assert_allclose(found[[0, 2]], np.sqrt(expected[[0, 2]]), rtol=1e-9)
     assert found[1] == 0
@@ -123,7 +123,7 @@ def test_the_rear_wheel_meets_what_the_front_wheel_met(speed):
     p = problem(HALF, ("front.spring", "rear.damper"), names, speed=speed, nodes=400)
     design = draws(p, 1)[0]
     f, w = frequency_nodes(BAND, 400)
-    h = from_roads(HALF, p.struts | dict(zip(p.variables, design.tolist(), strict=True)), names, f)
+    h = from_roads(HALF, {**p.struts, **dict(zip(p.variables, design.tolist(), strict=True))}, names, f)
     lags = np.exp(2j * np.pi * f / speed * np.array([[1.2], [-1.5]]))
     squares = (np.abs(np.einsum("nmr,rn->mn", h, lags)) ** 2 * ROAD.psd(f, speed) * w).sum(axis=1)
     np.testing.assert_allclose(p.evaluate([design])[0], np.sqrt(squares), rtol=1e-9)

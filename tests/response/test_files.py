@@ -129,7 +129,7 @@ def test_vehicles_of_the_package(name):
     )
     assert problem.variables == tuple(file.bounds)
     assert struts == file.vehicle.coefficients(file.struts)
-    assert struts == problem.struts | {name: struts[name] for name in problem.variables}
+    assert struts == {**problem.struts, **{name: struts[name] for name in problem.variables}}
     assert np.isfinite(problem.evaluate([[struts[name] for name in problem.variables]])).all()
 
 
@@ -196,7 +196,7 @@ def test_the_full_car_study_is_the_one_made_by_hand(full_car):
 
 
 def test_only_the_third_case_of_the_full_car_is_loaded(full_car):
-    assert [case.vehicle.assembly().payload for case in full_car.load_cases] == [(), (), [(225.0, (-0.9, 0.0))]]
+    assert [case.vehicle.assembly().payload for case in full_car.cases] == [(), (), [(225.0, (-0.9, 0.0))]]
 
 
 def front_of(problem: RideProblem, optimiser: object) -> np.ndarray:
@@ -230,7 +230,7 @@ def test_a_study_in_full(tmp_path):
     problem = load_problem(written(tmp_path, STUDY))
     car = Seat(name="driver", mass=60.0, spring=8e3, damper=500.0).on(load_vehicle("minaker_half").vehicle)
     loaded = Payload(mass=100.0, position=(-1.0, 0.0)).on(car)
-    assert problem.load_cases == (
+    assert problem.cases == (
         LoadCase(vehicle=car, road=Iso8608Road("C"), speed=15.0),
         LoadCase(vehicle=loaded, road=Iso8608Road("D", level="upper"), speed=10.0, share=0.5),
     )
@@ -272,8 +272,8 @@ def test_paths_are_from_the_file_that_names_them(tmp_path):
         'vehicle = "cars/mine.toml"\nroad = "road.toml"\nspeed_m_per_s = 15'
     )
     problem = load_problem(written(tmp_path, text))
-    assert problem.load_cases[0].vehicle == load_vehicle(str(tmp_path / "cars/mine.toml")).vehicle
-    assert problem.load_cases[0].road == paper.ride_problem().road
+    assert problem.cases[0].vehicle == load_vehicle(str(tmp_path / "cars/mine.toml")).vehicle
+    assert problem.cases[0].road == paper.ride_problem().road
 
 
 def test_roll_geometry_of_a_case_stands_in_place_of_the_vehicles(checkout, tmp_path):
@@ -282,7 +282,7 @@ def test_roll_geometry_of_a_case_stands_in_place_of_the_vehicles(checkout, tmp_p
         "\n[cases.roll_geometry]\nroll_arm_m = 0.5\nfront_roll_centre_m = 0.1\nrear_roll_centre_m = 0.1\n"
         "wheel_centre_m = 0.3\n"
     )
-    first, _, third = (case.roll_geometry for case in load_problem(written(tmp_path, text)).load_cases)
+    first, _, third = (case.roll_geometry for case in load_problem(written(tmp_path, text)).cases)
     assert first == load_vehicle("jian_2022_full").roll_geometry
     assert third == RollGeometry(roll_arm=0.5, front_roll_centre=0.1, rear_roll_centre=0.1, wheel_centre=0.3)
 
@@ -439,7 +439,7 @@ def test_whatever_the_text_of_a_file_it_is_read_or_refused(tmp_path_factory, tex
     path = written(tmp_path_factory.getbasetemp(), content)
     try:
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(objectives, "_NODES", (256,))  # more take seconds before they are refused
+            patch.setattr(objectives, "NODES", (256,))  # more take seconds before they are refused
             problem = load_problem(path)
             problem.evaluate(inside(problem))
         refusal = f"{path}: "

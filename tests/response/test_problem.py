@@ -1,5 +1,6 @@
 """The batched objectives against second roads: adaptive quadrature, closed forms, the compiled kernel."""
 
+import pickle
 import re
 from dataclasses import replace
 from functools import cache
@@ -10,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from suspension_ctrl import PowerLawRoad, QuarterCar, RideProblem
+from suspension_ctrl import PowerLawRoad, QuarterCar, RideProblem, weighting
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.response import weightings
 from suspension_ctrl.response.one_strut import fill_mean_squares
@@ -195,3 +196,61 @@ def test_rejects_designs_outside_the_bounds(design):
 def test_rejects_designs_of_another_shape(designs):
     with pytest.raises(ValueError, match=r"^designs must have shape \(n, 2\), got"):
         problem().evaluate(designs)
+
+
+def test_one_thing_of_a_problem_is_replaced():
+    p = problem()
+    bounds = {"spring": (1e4, 2e4), "damper": (1e3, 2e3)}
+    for changed in (p.replace(bounds=bounds), replace(p, bounds=bounds)):
+        assert (changed.lower, changed.upper) == ((1e4, 1e3), (2e4, 2e3))
+        np.testing.assert_array_equal(changed.evaluate([[15e3, 15e2]]), p.evaluate([[15e3, 15e2]]))
+    narrow = p.replace(bounds={"damper": (1e3, 2e3)}, struts={"spring": 15e3})
+    assert (narrow.variables, narrow.units) == (("damper",), {"damper": "N s/m"} | dict(list(p.units.items())[2:]))
+    assert p.replace(lower=(2e3, 1e3)).bounds == {"spring": (2e3, 30e3), "damper": (1e3, 5e3)}
+    faster = replace(p, speed=30.0)
+    assert (faster.speed, faster.vehicle, faster.road) == (30.0, p.vehicle, p.road)
+    assert faster == paper.ride_problem(speed=30.0)
+
+
+def test_nodes_are_found_anew_unless_given():
+    """Less damping makes resonances sharper."""
+    p = problem()
+    assert p.nodes == 256
+    assert p.replace(lower=(1e3, 300.0)).nodes > 256
+    with pytest.raises(ValueError, match=r"^nodes must resolve every resonance in the box to 1e-06, got 256"):
+        p.replace(nodes=256).replace(lower=(1e3, 100.0))
+
+
+def test_problems_are_values():
+    """Equal, hashed alike, pickled, and out of reach of the parts they were made of."""
+    bounds = {"spring": np.array([1e4, 2e4]), "damper": [1e3, 2e3]}
+    p = paper.ride_problem(lower=[1e4, 1e3], upper=np.array([2e4, 2e3]))
+    same = p.replace(bounds=bounds)
+    bounds["spring"][:] = 0.0
+    bounds.clear()
+    assert same == p
+    assert len({p, same, pickle.loads(pickle.dumps(p))}) == 1
+    assert p != p.replace(weighting="Wb")
+    with pytest.raises(TypeError):
+        p.bounds["spring"] = (1.0, 2.0)
+    with pytest.raises(AttributeError):
+        p.band = (1.0, 2.0)
+    systems = [p.replace(weighting=weighting("Wk")) for _ in range(2)]
+    assert systems[0] == systems[1] != p.replace(weighting=weighting("Wb"))
+    assert hash(systems[0]) == hash(pickle.loads(pickle.dumps(systems[1])))
+
+
+def test_a_problem_is_shown_in_a_few_lines_with_units():
+    assert repr(problem(constraints=("SWS <= 0.03",))).splitlines() == [
+        "RideProblem: ACC [m/s^2], SWS [m], DTL [N]; SWS <= 0.03",
+        "    spring 1000 to 30000 N/m, damper 1000 to 5000 N s/m",
+        "    QuarterCar at 20 m/s",
+        "    0 to 20 Hz, weighting Wk, 256 nodes",
+    ]
+
+
+@pytest.mark.parametrize("name", ["tyre_stiffness", "position"])
+def test_bounds_are_of_coefficients_of_struts(name):
+    message = f"bounds must be one of spring, damper, coefficients of struts, got '{name}'"
+    with pytest.raises(ValueError, match=f"^{message}$"):
+        paper.ride_problem(lower=(), upper=(), bounds={name: (1e5, 2e5)})

@@ -1,14 +1,127 @@
-"""Responses of single designs: spectra integrate to the objectives, phases and natural frequencies by hand."""
+"""The ride of one vehicle; spectra, phases and natural frequencies of single designs by hand."""
 
+import re
+
+import control
 import numpy as np
 import pytest
 
-from suspension_ctrl import QuarterCar
+from garage import DRIVER, FULL, HALF, QUARTER, ROAD, mean_squares, struts_of
+from suspension_ctrl import PowerLawRoad, QuarterCar, RideProblem, ride, weighting
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.response import responses
 from suspension_ctrl.response.quadrature import frequency_nodes
 
 DESIGN = (22e3, 1500.0)
+
+
+class Spectrum:
+    """A road of one wheel, known by its spectrum alone: G V^(p-1)/f^p."""
+
+    def __init__(self, power: float) -> None:
+        self.power = power
+
+    def psd(self, f: np.ndarray, speed: float) -> np.ndarray:
+        return 1e-6 * speed ** (self.power - 1) / f**self.power
+
+
+@pytest.mark.parametrize(
+    "vehicle", [QUARTER, HALF, FULL, DRIVER.on(FULL)], ids=["quarter", "half", "full", "seat"]
+)
+def test_the_ride_of_a_vehicle_is_the_value_of_a_problem_at_its_setting(vehicle):
+    setting = vehicle.coefficients(struts_of(vehicle))
+    free = [parameter.name for parameter in vehicle.parameters if parameter.default is None]
+    problem = RideProblem(
+        vehicle,
+        ROAD,
+        speed=20.0,
+        band=(0.1, 20.0),
+        bounds={name: (0.8 * setting[name], 1.1 * setting[name]) for name in free},
+        struts={name: value for name, value in setting.items() if name not in free},
+    )
+    table = ride(vehicle, struts_of(vehicle), ROAD, 20.0, band=(0.1, 20.0))
+    found = problem.evaluate([[setting[name] for name in free]])[0]
+    np.testing.assert_allclose(table.value.iloc[:3], found, rtol=1e-12)
+    assert table.index.tolist() == ["ACC", "SWS", "DTL", *vehicle.responses]
+    assert table.unit.iloc[:3].tolist() == ["m/s^2", "m", "N"]
+    assert not table.note.any()
+
+
+def test_the_ride_has_the_root_mean_square_of_every_response():
+    """By python-control's closed model at the nodes of the quadrature."""
+    vehicle = DRIVER.on(FULL)
+    options = {"weighting": None, "band": (0.1, 20.0), "measures": ["ACC driver"]}
+    table = ride(vehicle, struts_of(vehicle), ROAD, 20.0, **options)
+    terms = [(name, None) for name in vehicle.responses]
+    expected = np.sqrt(mean_squares(vehicle, struts_of(vehicle), terms, (0.1, 20.0), 256))
+    np.testing.assert_allclose(table.value.loc[list(vehicle.responses)], expected, rtol=1e-9)
+    assert table.value["ACC driver"] == table.value["driver_acceleration"]
+
+
+def test_the_ride_takes_spring_and_damper_of_a_quarter_car():
+    by_name = ride(QUARTER, {"spring": 22e3, "damper": 1500.0}, ROAD, 20.0)
+    assert ride(QUARTER, DESIGN, ROAD, 20.0).equals(by_name)
+
+
+def test_the_ride_takes_any_system_as_weighting():
+    """The filter of ISO 2631 as a transfer function, in state space, and as frequency responses at 4000 lines."""
+    named = ride(QUARTER, DESIGN, ROAD, 20.0, weighting="Wk", band=(0.5, 20.0)).value["ACC"]
+    filter_, lines = weighting("Wk"), 2 * np.pi * np.linspace(0.4, 21.0, 4000)
+    measured = control.frd(filter_(1j * lines), lines)
+    for system, rtol in ((filter_, 1e-14), (control.ss(filter_), 1e-9), (measured, 1e-9)):
+        found = ride(QUARTER, DESIGN, ROAD, 20.0, weighting=system, band=(0.5, 20.0)).value["ACC"]
+        assert found == pytest.approx(named, rel=rtol)
+
+
+def test_a_road_of_one_wheel_is_any_object_with_a_spectrum():
+    road = PowerLawRoad(roughness=1e-6, exponent=2.0)
+    found, expected = (ride(QUARTER, DESIGN, one, 20.0).value for one in (Spectrum(2.0), road))
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
+
+
+def test_a_diverging_integral_is_none_and_gives_its_reason():
+    """All responses fall as f^2 towards 0 Hz, so their spectra fall or rise as f^(4 - p)."""
+    assert not ride(QUARTER, DESIGN, Spectrum(4.5), 20.0).note.any()
+    table = ride(QUARTER, DESIGN, Spectrum(5.2), 20.0)
+    assert table.value.isna().all()
+    assert (table.note == "diverges towards 0 Hz: begin the band above").all()
+    assert ride(QUARTER, DESIGN, Spectrum(5.2), 20.0, band=(0.1, 20.0)).value.notna().all()
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"band": (1.0, 0.5)}, "band must be finite with 0 <= lower < upper [Hz], got (1.0, 0.5)"),
+        ({"measures": "ACC"}, "measures must be a list of measures, got 'ACC'"),
+        ({"measures": ["SWS front"]}, "SWS must be of one of all wheels, got 'front'"),
+        ({"speed": 0.0}, "speed must be finite and > 0 m/s, got 0.0"),
+        (
+            {"weighting": control.rss(2, 2, 1)},
+            "weighting must have one input and one output in ",
+        ),
+        (
+            {"weighting": control.tf([1], [1, 1], 0.1)},
+            "weighting must have one input and one output in ",
+        ),
+        ({"weighting": control.frd([1, 1, 1, 1], [10, 20, 30, 40])}, "band must lie within what was measured, "),
+        ({"vehicle": HALF, "road": Spectrum(2.0)}, "road must have a cross_spectrum for 2 wheels, got "),
+        ({"road": "C"}, "road must be a road such as Iso8608Road('C'), got 'C'"),
+        ({"setting": {"spring": 1e4}}, "struts must have spring, damper, got none for damper"),
+    ],
+)
+def test_the_ride_rejects(changes, message):
+    with pytest.raises(ValueError, match="^" + re.escape(message)) as caught:
+        ride(**{"vehicle": QUARTER, "setting": DESIGN, "road": ROAD, "speed": 20.0} | changes)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_spectrum_of_another_shape_is_refused():
+    class Flat(Spectrum):
+        def psd(self, f, speed):
+            return -f[:1]
+
+    with pytest.raises(ValueError, match=r"^psd of the road must return 2 finite values >= 0 m\^2/Hz, got shape"):
+        ride(QUARTER, DESIGN, Flat(1.0), 20.0)
 
 
 def test_spectra_integrate_to_the_objectives():

@@ -99,7 +99,7 @@ def design_label(values: list[float]) -> str:
 
 def default_responses(problem: RideProblem) -> list[str]:
     """Return a travel, the body's acceleration and a tyre's load, of the first wheel."""
-    names = problem.load_cases[0].vehicle.responses
+    names = problem.cases[0].vehicle.responses
     return [next(name for name in names if name.endswith(last)) for last in PAPERS_ORDER]
 
 
@@ -116,7 +116,7 @@ def settings_of(problem: RideProblem, values: list[float]) -> dict[str, float]:
 def design_curves(
     problem: RideProblem, label: str, values: list[float], shown: list[str], points: int
 ) -> DesignCurves:
-    case = problem.load_cases[0]
+    case = problem.cases[0]
     closed = case.vehicle.with_struts(settings_of(problem, values), shown)
     f = frequencies(problem.band, points)
     densities = responses.response_psds(closed, f, case.cross_spectrum(f))
@@ -130,7 +130,7 @@ def design_curves(
 
 
 def natural_frequencies(problem: RideProblem, label: str, values: list[float]) -> pd.DataFrame:
-    modes = problem.load_cases[0].vehicle.modes(settings_of(problem, values))
+    modes = problem.cases[0].vehicle.modes(settings_of(problem, values))
     swinging = modes[modes["damping ratio [-]"] < 1]
     shown = swinging.rename(columns={"name": "mode", "frequency [Hz]": "natural frequency [Hz]"})
     shown.insert(0, "design", label)

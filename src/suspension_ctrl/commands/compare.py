@@ -176,7 +176,7 @@ def _reference(
 ) -> tuple[ReferenceFront, str]:
     """Return what fronts are judged by, and what it was made of in words."""
     problem = comparison.problem
-    big = any(len(case.vehicle.contact_points) > 1 for case in problem.load_cases)
+    big = any(len(case.vehicle.contact_points) > 1 for case in problem.cases)
     if big or len(problem.variables) > GRID_VARIABLES:
         found = [
             experiments.objectives_of(problem, experiments.feasible_rows(problem, store[run.name].final))
@@ -196,10 +196,10 @@ def explain(problem: RideProblem, made_of: str, counts: list[int], algorithms: l
     """Say what the tables rest on."""
     if problem.constraints:
         terminal.note(f"Limits: {', '.join(problem.constraints)}.")
-    if len(problem.load_cases) > 1:
+    if len(problem.cases) > 1:
         how = "their worst" if problem.worst_case else "their mean square by shares"
-        terminal.note(f"Objectives are over {len(problem.load_cases)} load cases, {how}; limits hold in each.")
-    for number, case in enumerate(problem.load_cases, start=1):
+        terminal.note(f"Objectives are over {len(problem.cases)} load cases, {how}; limits hold in each.")
+    for number, case in enumerate(problem.cases, start=1):
         terminal.note(f"Case {number}, share {case.share:g}: {case.road.describe()}; {case.speed:g} m/s.")
     accelerated = any(text.split("=")[-1].strip(" -").startswith("ACC") for text in problem.measures)
     weighted = f"ACC is weighted with {problem.weighting}. " if accelerated else ""

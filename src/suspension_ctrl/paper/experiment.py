@@ -5,7 +5,6 @@ suspension optimization", 2010.
 """
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from .. import datafiles
@@ -114,7 +113,7 @@ def chosen(
     } | settings
     if vehicle is None:
         struts = dict(zip(papers.variables, reference_design(), strict=True))
-        return replace(papers, **changes), struts
+        return papers.replace(**changes), struts
     file = load_vehicle(vehicle)
     if not file.bounds:
         raise ValueError(f"vehicle must be a file with bounds, got {vehicle!r}")
@@ -122,4 +121,4 @@ def chosen(
         changes["bounds"] = file.bounds
     struts = file.vehicle.coefficients(file.struts)
     fixed = {name: value for name, value in struts.items() if name not in changes["bounds"]}
-    return replace(papers, vehicle=file.vehicle, struts=fixed, lower=(), upper=(), **changes), struts
+    return papers.replace(vehicle=file.vehicle, struts=fixed, **changes), struts

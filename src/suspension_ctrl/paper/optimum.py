@@ -1,6 +1,5 @@
 """The best strut within a limit of suspension travel: exact, and picked from a Pareto set (Table 5)."""
 
-from dataclasses import replace
 from operator import itemgetter
 from typing import Any
 
@@ -127,9 +126,9 @@ def least_within_limit(
         If no design within the limit is found.
     """
     checks.positive("sws_limit", limit, "m")
-    wheels = problem.load_cases[0].vehicle.tyres
+    wheels = problem.cases[0].vehicle.tyres
     least = [objective] if objective == "ACC" else [f"{objective} {wheel}".strip() for wheel in wheels]
-    smooth = replace(problem, measures=(*least, *(f"SWS {wheel}".strip() for wheel in wheels)))
+    smooth = problem.replace(measures=(*least, *(f"SWS {wheel}".strip() for wheel in wheels)))
     lower, width = np.asarray(problem.lower), np.subtract(problem.upper, problem.lower)
     most, travels = len(least), len(least) + len(wheels)
     scale = smooth.evaluate(starts[:1])[0, :most].max()

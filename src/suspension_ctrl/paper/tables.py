@@ -144,7 +144,7 @@ def beside_published(
         columns=column_headers([*problem.variables, *problem.objectives], problem.units),
     )
     table.insert(0, "design", list(designs))
-    table.insert(0, "weighting", problem.weighting)
+    table.insert(0, "weighting", str(problem.weighting))
     for column, name in enumerate(problem.objectives):
         printed = np.array([published.get(design, {}).get(name, np.nan) for design in designs])
         table[f"published {name} [{problem.units[name]}]"] = printed

@@ -83,7 +83,7 @@ def _bounds_and_struts(
 
 def _check_texts(case: LoadCase, settings: Mapping[str, Any]) -> None:
     """Raise ValueError that says which measure or constraint means nothing in a case."""
-    weighting = settings.get("weighting", RideProblem.weighting)
+    weighting = settings.get("weighting", "Wk")
     for key, meaning in (("measures", measure), ("constraints", limit)):
         for i, text in enumerate(settings[key], start=1):
             with under(f"{key}[{i}]"):

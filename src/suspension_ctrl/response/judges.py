@@ -15,6 +15,12 @@ from .measures import Measure, Term
 from .one_strut import StrutLoop
 from .scores import Scoring, scores_of_all, scores_of_one_strut, scores_of_struts
 
+RESOLVED = 1e-6
+"""Largest relative change of a root mean square that twice the nodes may make."""
+
+NODES = (256, 384, 512, 768, 1024, 2048, 4096)
+"""Numbers of nodes to choose from."""
+
 
 class Score(NamedTuple):
     """A measure in each load case, whether the worst case counts or the mean, and what it is scaled to."""
@@ -60,6 +66,12 @@ class Judge:
         """Return the mean squares (c, p, k) of all terms in each case for designs (p, v)."""
         return np.array([case.mean_squares(designs) for case in self.ride_cases(nodes)])
 
+    def errors(self, designs: Real, nodes: int) -> Real:
+        """Return the largest relative change (c, k) of each term's root mean square by twice the nodes."""
+        coarse, fine = (np.sqrt(self.mean_squares(designs, count)) for count in (nodes, 2 * nodes))
+        ratio = np.divide(coarse, fine, out=np.ones_like(fine), where=fine > 0)  # a zero is resolved
+        return np.asarray(np.abs(ratio - 1).max(axis=1))
+
     def evaluate(self, designs: Real, nodes: int) -> Real:
         """Return the scores (p, s) of designs (p, v)."""
         scores = scores_of_all(self.mean_squares(designs, nodes), self.scoring)
@@ -83,7 +95,7 @@ class Judge:
         if nodes not in self._ready:
             ready = [
                 ride_case(case, terms, self.variables, coefficients, self.band, nodes)
-                for case, terms, coefficients in zip(self.cases, self._terms, self.coefficients, strict=True)
+                for case, terms, coefficients in zip(self.cases, self.terms, self.coefficients, strict=True)
             ]
             most = max(case.channel.size for case in ready)  # the first term stands in where a case has fewer
             self._ready[nodes] = tuple(
@@ -92,7 +104,7 @@ class Judge:
         return self._ready[nodes]
 
     @cached_property
-    def _terms(self) -> list[list[Term]]:
+    def terms(self) -> list[list[Term]]:
         """What responses with what weightings there are in each case."""
         return [
             list(
@@ -106,8 +118,8 @@ class Judge:
     @cached_property
     def scoring(self) -> Scoring:
         """How scores are made of mean squares."""
-        squares = np.zeros((len(self.cases), len(self.scores), max(map(len, self._terms))))
-        for c, terms in enumerate(self._terms):
+        squares = np.zeros((len(self.cases), len(self.scores), max(map(len, self.terms))))
+        for c, terms in enumerate(self.terms):
             for s, score in enumerate(self.scores):
                 for term in score.measures[c].terms:
                     factor = term.factor / (self._static_load(c, term) if term.relative else 1.0)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from ..vehicles.vehicle import Vehicle
 from .measures import Measure, measure
+from .weightings import Weighting
 
 _LIMIT = re.compile(r"(.+?)(<=|>=)(.+)")
 
@@ -37,7 +38,7 @@ class Limit:
         return -self.scale * self.value
 
 
-def limit(text: str, vehicle: Vehicle, weighting: str | None) -> Limit:
+def limit(text: str, vehicle: Vehicle, weighting: Weighting | None) -> Limit:
     """Return the limit that is written so; ValueError if it is none.
 
     Measures of the ride only have a most. See `measures` for what can be limited.

@@ -1,14 +1,14 @@
 """A load case: a vehicle with a payload on a road at a speed, and the mean squares of its responses."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from .. import checks
-from ..quantities import Real
+from ..quantities import Complex, Real, Record, unit
 from ..vehicles.handling import RollGeometry
 from ..vehicles.vehicle import Vehicle
 from . import weightings
@@ -21,28 +21,23 @@ from .quadrature import frequency_nodes
 
 
 class Road(Protocol):
-    """What the road has to offer: its one-sided spectrum under a wheel, and those between several."""
+    """A road of one wheel; one of several wheels has ``cross_spectrum(f, speed, contact_points)`` too."""
 
-    def psd(self, f: ArrayLike, speed: float) -> Real:
-        """Return the spectrum (n,) [m^2/Hz] at the frequencies `f` (n,) [Hz] at a speed [m/s]."""
-
-    def breakpoints(self, speed: float) -> Sequence[float]:
-        """Return the frequencies [Hz] at which the spectrum has a kink at this speed [m/s]."""
-
-    def cross_spectrum(self, f: ArrayLike, speed: float, contact_points: ArrayLike) -> NDArray[np.complex128]:
-        """Return the cross-spectra (n, r, r) [m^2/Hz] under wheels at (r, 2) [m]."""
+    def psd(self, f: Real, speed: float) -> Real:
+        """Return the one-sided spectrum (n,) [m^2/Hz] at the frequencies `f` (n,) [Hz] at a speed [m/s]."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class LoadCase:
-    """What a vehicle is driven through.
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class LoadCase(Record):
+    """A vehicle with its payload on a road at a speed.
 
     Parameters
     ----------
     vehicle : Vehicle
         With its payload.
     road : Road
-        The road, e.g. a `PowerLawRoad`.
+        The road, e.g. a `PowerLawRoad`. Under one wheel any object with ``psd(f, speed)`` is one; kinks of its
+        spectrum stand in ``breakpoints(speed)``, if it has that [Hz].
     speed : float
         Vehicle speed V [m/s].
     share : float
@@ -53,12 +48,12 @@ class LoadCase:
     Raises
     ------
     ValueError
-        If speed or share are not finite and above zero.
+        If speed or share are not finite and above zero, or the road has no spectrum for the vehicle's wheels.
     """
 
     vehicle: Vehicle
     road: Road
-    speed: float
+    speed: float = field(metadata=unit("m/s"))
     share: float = 1.0
     roll_geometry: RollGeometry | None = None
 
@@ -67,15 +62,36 @@ class LoadCase:
             raise ValueError(f"vehicle must be a Vehicle such as a QuarterCar, got {self.vehicle!r}")
         if not hasattr(self.road, "psd"):
             raise ValueError(f"road must be a road such as Iso8608Road('C'), got {self.road!r}")
+        if self.wheels > 1 and not hasattr(self.road, "cross_spectrum"):
+            raise ValueError(f"road must have a cross_spectrum for {self.wheels} wheels, got {self.road!r}")
         checks.positive("speed", self.speed, "m/s")
         checks.positive("share", self.share)
 
-    def cross_spectrum(self, f: Real) -> NDArray[np.complex128]:
+    @property
+    def wheels(self) -> int:
+        """Number of roads under the vehicle."""
+        return len(self.vehicle.contact_points)
+
+    @property
+    def breakpoints(self) -> tuple[float, ...]:
+        """Frequencies at which the road's spectrum has a kink [Hz]."""
+        return tuple(self.road.breakpoints(self.speed)) if hasattr(self.road, "breakpoints") else ()
+
+    def psd(self, f: Real) -> Real:
+        """Return the road's spectrum (n,) under a wheel [m^2/Hz], for `f` (n,) [Hz]."""
+        spectrum = np.asarray(self.road.psd(f, self.speed), dtype=float)
+        if spectrum.shape != f.shape or not (np.isfinite(spectrum) & (spectrum >= 0)).all():
+            raise ValueError(
+                f"psd of the road must return {f.size} finite values >= 0 m^2/Hz, got shape {spectrum.shape}"
+            )
+        return spectrum
+
+    def cross_spectrum(self, f: Real) -> Complex:
         """Return the cross-spectra (n, r, r) of the road under the wheels [m^2/Hz], for `f` (n,) [Hz]."""
-        points = self.vehicle.contact_points
-        if len(points) == 1:
-            return self.road.psd(f, self.speed)[:, None, None].astype(complex)
-        return np.asarray(self.road.cross_spectrum(f, self.speed, points))
+        if self.wheels == 1:
+            return self.psd(f)[:, None, None].astype(complex)
+        road: Any = self.road
+        return np.asarray(road.cross_spectrum(f, self.speed, self.vehicle.contact_points))
 
 
 class RideCase(NamedTuple):
@@ -125,15 +141,14 @@ def ride_case(
     """
     weights = [None if term.weighting is None else weightings.by_name(term.weighting) for term in terms]
     kinks = {f for weighting in weights if weighting for f in weighting.breakpoints}
-    kinks.update(case.road.breakpoints(case.speed))
+    kinks.update(case.breakpoints)
     f, w = frequency_nodes(band, nodes, kinks)
     omega, vehicle = 2 * np.pi * f, case.vehicle
     density = np.array([w * (weighting.factor(f) ** 2 if weighting else 1.0) for weighting in weights])
     responses = [term.response for term in terms]
-    one_wheel = len(vehicle.contact_points) == 1
-    if one_wheel and [p.name for p in vehicle.parameters] == list(variables) == ["spring", "damper"]:
+    if case.wheels == 1 and [p.name for p in vehicle.parameters] == list(variables) == ["spring", "damper"]:
         ports = Ports.of(vehicle, f, responses)
-        loop = StrutLoop.around(ports, omega, density * case.road.psd(f, case.speed))
+        loop = StrutLoop.around(ports, omega, density * case.psd(f))
         return RideCase(loop, np.arange(len(terms)))
     ports = Ports.of(vehicle, f, responses, vehicle.strut_gains(coefficients))
     varied = Variables.of(vehicle.parameters, list(variables), list(variables.values()))

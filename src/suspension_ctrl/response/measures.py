@@ -24,6 +24,7 @@ from ..quantities import signal_unit
 from ..vehicles.assembly import ResponseName, label
 from ..vehicles.vehicle import Vehicle
 from . import weightings
+from .weightings import Weighting
 
 HANDLING = {"roll_gradient": "deg/g", "roll_damping": "-", "front_load_transfer": "-"}
 """Measures of handling and their units."""
@@ -43,7 +44,7 @@ class Term:
     """A response, its weighting of ISO 2631 and its factor; over the static load of a tyre if `relative`."""
 
     response: ResponseName
-    weighting: str | None = None
+    weighting: Weighting | None = None
     factor: float = 1.0
     relative: bool = False
 
@@ -80,7 +81,7 @@ def name_of(text: str) -> str:
     return name
 
 
-def measure(text: str, vehicle: Vehicle, weighting: str | None) -> Measure:
+def measure(text: str, vehicle: Vehicle, weighting: Weighting | None) -> Measure:
     """Return what a text means on this vehicle, where ACC has this weighting; ValueError if it means nothing."""
     name = name_of(text)
     body = text.split("=", 1)[-1].strip()

@@ -1,65 +1,71 @@
-"""The ride problem: what of a vehicle's struts is judged, in which load cases, within which limits."""
+"""The ride problem: measures of a vehicle over coefficients of its struts, in load cases, within limits."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass, field
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 from typing import Any
 
+import control
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .. import checks
+from ..quantities import FrozenMapping, Real, Record
 from ..vehicles.vehicle import Settings, Vehicle
-from .judges import Judge, Score
+from .judges import NODES, RESOLVED, Judge, Score
 from .limits import limit
 from .load_case import LoadCase, Road
 from .measures import measure, name_of
+from .weightings import Weighting, checked
 
-_RESOLVED = 1e-6
-"""Largest relative change of an objective that twice the nodes may make at a corner of the box."""
-
-_NODES = (256, 384, 512, 768, 1024, 2048, 4096)
 _CORNERS = 64
 """Corners of the box at which the nodes are judged; of a box with more, so many drawn at random."""
 
 
-@dataclass(frozen=True)
-class RideProblem:
+class _Found(int):
+    """Nodes found by the search, which a changed problem repeats."""
+
+
+@dataclass(frozen=True, init=False, eq=False, repr=False)
+class RideProblem(Record):
     """Objectives of springs and dampers on a random road, equations (3) to (13) of Yuen and Ramli 2010.
+
+    ``problem.replace(bounds={...})``, as `dataclasses.replace`, returns a problem with other parameters.
 
     Parameters
     ----------
     vehicle : Vehicle, optional
         The vehicle.
     road : Road, optional
-        The road, e.g. a `PowerLawRoad`.
+        The road, e.g. a `PowerLawRoad`; under one wheel any object with ``psd(f, speed)``.
     speed : float, optional
         Vehicle speed V [m/s].
-    weighting : str or None
-        ISO 2631 weighting of ``ACC``: a filter (``"Wk"``, ``"Wb"``, ...) or a table (``"Wk-table"``,
-        ``"Wb-table"``); None for no weighting.
+    weighting : str, control.LTI or None
+        Weighting of ``ACC``: a filter of ISO 2631 (``"Wk"``, ``"Wb"``, ...) or a table (``"Wk-table"``,
+        ``"Wb-table"``), or a system of one input and one output; None for no weighting.
     band : (float, float)
         Frequencies over which the spectra are integrated [Hz].
-    lower, upper : sequence of float
-        Bounds of the struts' coefficients that have no default, in the vehicle's order: spring K_s [N/m] and
-        damper C_s [N s/m] of a quarter car.
-    bounds : mapping of str to (float, float)
-        In their place: bounds by name of those coefficients that vary, ``{"front.spring": (1e4, 4e4), ...}``.
-    struts : mapping of str to float
-        With `bounds`: the coefficients that do not vary.
+    lower, upper : sequence of float, optional
+        Bounds of the variables: spring K_s [N/m] and damper C_s [N s/m] of a quarter car. Without `bounds` the
+        variables are the coefficients that have no default, in the vehicle's order; beside `bounds` they take
+        the place of its lower or upper values.
+    bounds : mapping of str to (float, float), optional
+        Bounds by name of those coefficients that vary, ``{"front.spring": (1e4, 4e4), ...}``.
+    struts : mapping of str to float, optional
+        Coefficients that do not vary.
     measures : sequence of str
         The objectives, written as in `measures`.
     constraints : sequence of str
-        Limits on measures: ``"SWS <= 0.0287"``, in the worst case of several.
-    cases : sequence of LoadCase
-        In place of vehicle, road and speed: several of these. An objective is the root mean square over them by
-        their shares, of handling the mean.
+        Limits on measures: ``"SWS <= 0.0287"``, in the worst load case.
+    cases : sequence of LoadCase, optional
+        Several load cases; beside them a vehicle, road or speed takes the place of theirs. An objective is the
+        root mean square over them by their shares, of handling the mean.
     worst_case : bool
         Whether in place of that the worst case counts.
     nodes : int, optional
-        Quadrature nodes over the band; as many as resolve every resonance if not given. With 256, what the paper's
-        Table 1 takes, the objectives over its whole box are within 1e-9 of the integral (relative).
+        Quadrature nodes over the band; as many as resolve every resonance if not given. With 256, taken for the
+        paper's Table 1, the objectives over its whole box are within 1e-9 of the integral (relative).
 
     Raises
     ------
@@ -67,49 +73,90 @@ class RideProblem:
         If a parameter is out of range, or if `nodes` does not resolve the resonances at a corner of the box.
     """
 
-    vehicle: Vehicle | None = None
-    road: Road | None = None
-    _: KW_ONLY
-    speed: float | None = None
-    weighting: str | None = "Wk"
-    band: tuple[float, float] = (0.0, 20.0)
-    lower: Sequence[float] = ()
-    upper: Sequence[float] = ()
-    bounds: Mapping[str, tuple[float, float]] | None = None
-    struts: Settings = field(default_factory=dict)
-    measures: Sequence[str] = ("ACC", "SWS", "DTL")
-    constraints: Sequence[str] = ()
-    cases: Sequence[LoadCase] = ()
-    worst_case: bool = False
-    nodes: int | None = None
+    cases: tuple[LoadCase, ...]
+    bounds: Mapping[str, tuple[float, float]]
+    struts: Settings
+    weighting: Weighting | None
+    band: tuple[float, float]
+    measures: tuple[str, ...]
+    constraints: tuple[str, ...]
+    worst_case: bool
+    nodes: int
 
-    def __post_init__(self) -> None:
-        if isinstance(self.cases, LoadCase):
-            raise ValueError("cases must be a list of load cases, got one by itself")
-        if self.cases and (self.vehicle, self.road, self.speed) != (None, None, None):
-            raise ValueError("cases must stand in place of vehicle, road and speed, got both")
-        checks.interval("band", self.band, "Hz")
-        self._check_bounds()
-        if not (error := self._error(self._nodes)) < _RESOLVED:
-            several = any(len(case.vehicle.contact_points) > 1 for case in self.load_cases)
-            hint = (
-                "; under several wheels a band may have to begin above 0 Hz"
-                if several and not self.band[0]
-                else ""
-            )
-            raise ValueError(
-                f"nodes must resolve every resonance in the box to {_RESOLVED:g}, got {self._nodes}, "
-                f"which is off by {error:.1g} at its corners{hint}"
-            )
+    def __init__(
+        self,
+        vehicle: Vehicle | None = None,
+        road: Road | None = None,
+        *,
+        speed: float | None = None,
+        weighting: Weighting | control.LTI | None = "Wk",
+        band: tuple[float, float] = (0.0, 20.0),
+        lower: Sequence[float] = (),
+        upper: Sequence[float] = (),
+        bounds: Mapping[str, tuple[float, float]] | None = None,
+        struts: Settings | None = None,
+        measures: Sequence[str] = ("ACC", "SWS", "DTL"),
+        constraints: Sequence[str] = (),
+        cases: Sequence[LoadCase] = (),
+        worst_case: bool = False,
+        nodes: int | None = None,
+    ) -> None:
+        checks.interval("band", band, "Hz")
+        for name, texts in (("measures", measures), ("constraints", constraints)):
+            if isinstance(texts, str):
+                raise ValueError(f"{name} must be a list, got {texts!r}")
+        fixed: dict[str, Any] = {
+            name: tuple(value) if isinstance(value, Sequence | np.ndarray) else value
+            for name, value in (struts or {}).items()
+        }
+        every = _load_cases(cases, vehicle=vehicle, road=road, speed=speed)
+        put = {
+            "cases": every,
+            "struts": FrozenMapping(fixed),
+            "bounds": _checked_bounds(every[0].vehicle, bounds, lower, upper, fixed),
+            "weighting": checked(weighting),
+            "band": (float(band[0]), float(band[1])),
+            "measures": tuple(measures),
+            "constraints": tuple(constraints),
+            "worst_case": bool(worst_case),
+        }
+        for name, value in put.items():
+            object.__setattr__(self, name, value)
+        object.__setattr__(self, "nodes", self._resolving(None if isinstance(nodes, _Found) else nodes))
 
-    @cached_property
-    def load_cases(self) -> tuple[LoadCase, ...]:
-        """The load cases: those given, or the one that vehicle, road and speed make."""
-        if self.cases:
-            return tuple(self.cases)
-        if self.vehicle is None or self.road is None or self.speed is None:
-            raise ValueError("vehicle, road and speed must be given, or cases in their place, got neither")
-        return (LoadCase(vehicle=self.vehicle, road=self.road, speed=self.speed),)
+    def replace(self, **changes: Any) -> "RideProblem":
+        """Return the problem with other parameters; nodes that were not given are found anew."""
+        return replace(self, **changes)
+
+    @property
+    def vehicle(self) -> Vehicle:
+        """The vehicle of every load case."""
+        return self._common("vehicle")
+
+    @property
+    def road(self) -> Road:
+        """The road of every load case."""
+        return self._common("road")
+
+    @property
+    def speed(self) -> float:
+        """Speed in every load case [m/s]."""
+        return self._common("speed")
+
+    @property
+    def lower(self) -> tuple[float, ...]:
+        """Lower bounds of the variables."""
+        return tuple(low for low, _ in self.bounds.values())
+
+    @property
+    def upper(self) -> tuple[float, ...]:
+        """Upper bounds of the variables."""
+        return tuple(high for _, high in self.bounds.values())
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """Names of the variables."""
+        return tuple(self.bounds)
 
     @cached_property
     def objectives(self) -> tuple[str, ...]:
@@ -117,23 +164,15 @@ class RideProblem:
         return tuple(name_of(text) for text in self.measures)
 
     @cached_property
-    def variables(self) -> tuple[str, ...]:
-        """Names of the variables."""
-        if self.bounds is not None:
-            return tuple(self.bounds)
-        parameters = self.load_cases[0].vehicle.parameters
-        return tuple(parameter.name for parameter in parameters if parameter.default is None)
-
-    @cached_property
-    def units(self) -> dict[str, str]:
+    def units(self) -> Mapping[str, str]:
         """Unit of each variable and each objective by name."""
-        of_struts = {parameter.name: parameter.unit for parameter in self.load_cases[0].vehicle.parameters}
+        of_struts = {parameter.name: parameter.unit for parameter in self.cases[0].vehicle.parameters}
         judged = {score.measures[0].name: score.measures[0].unit for score in self._judge.scores}
-        return {name: of_struts[name] for name in self.variables} | {
-            name: judged[name] for name in self.objectives
-        }
+        return FrozenMapping(
+            {name: of_struts[name] for name in self.variables} | {name: judged[name] for name in self.objectives}
+        )
 
-    def evaluate(self, designs: ArrayLike) -> NDArray[np.float64]:
+    def evaluate(self, designs: ArrayLike) -> Real:
         """Return the objectives of many designs.
 
         Parameters
@@ -155,62 +194,58 @@ class RideProblem:
         """
         x = checks.designs(designs, len(self.variables))
         checks.rows_within("designs", x, self.lower, self.upper)
-        return self._judge.evaluate(x, self._nodes)
+        return self._judge.evaluate(x, self.nodes)
 
     @cached_property
-    def kernel(self) -> tuple[Callable[..., NDArray[np.float64]], tuple[Any, ...]] | None:
+    def kernel(self) -> tuple[Callable[..., Real], tuple[Any, ...]] | None:
         """What `evaluate` gives for a single design (d,), as a compiled function and its further arguments.
 
         None with measures of handling, which are not compiled.
         """
-        return self._judge.kernel(self._nodes)
+        return self._judge.kernel(self.nodes)
 
-    def _check_bounds(self) -> None:
-        names = self.variables
-        if self.bounds is not None:
-            self._take_bounds(self.bounds)
-        checks.ordered("lower", "upper", self.lower, self.upper)
-        if len(self.lower) != len(names):
-            raise ValueError(f"lower and upper must bound {', '.join(names)}, got {self.lower!r}")
-        known = {parameter.name: parameter for parameter in self.load_cases[0].vehicle.parameters}
-        for name, value in zip(names, self.lower, strict=True):
-            checks.one_of("bounds", name, known)
-            check = checks.not_negative if known[name].default == 0 else checks.positive
-            check(f"lower bound of {name}", value, known[name].unit)
+    def __repr__(self) -> str:
+        units = self.units
+        objectives = ", ".join(f"{name} [{units[name]}]" for name in self.objectives)
+        lines = [
+            f"RideProblem: {objectives}" + "".join(f"; {text}" for text in self.constraints),
+            ", ".join(f"{name} {low:g} to {high:g} {units[name]}" for name, (low, high) in self.bounds.items()),
+            "; ".join(f"{case.vehicle.__class__.__name__} at {case.speed:g} m/s" for case in self.cases),
+            f"{self.band[0]:g} to {self.band[1]:g} Hz, weighting {self.weighting}, {self.nodes} nodes",
+        ]
+        return "\n    ".join(line if len(line) <= 84 else f"{line[:80]} ..." for line in lines)
 
-    def _take_bounds(self, bounds: Mapping[str, tuple[float, float]]) -> None:
-        if not bounds:
-            raise ValueError("bounds must hold one coefficient at least, got none")
-        known = {parameter.name: parameter for parameter in self.load_cases[0].vehicle.parameters}
-        for name, pair in bounds.items():
-            checks.one_of("bounds", name, known)
-            checks.interval(f"bounds of {name}", pair, known[name].unit)
-        lower, upper = (tuple(float(pair[i]) for pair in bounds.values()) for i in (0, 1))
-        for name, given, taken in (("lower", self.lower, lower), ("upper", self.upper, upper)):
-            if len(given) and tuple(given) != taken:
-                raise ValueError(f"{name} must not stand beside bounds that differ from it, got {given!r}")
-            object.__setattr__(self, name, taken)
-        if both := bounds.keys() & self.struts.keys():
-            raise ValueError(f"struts must be those that do not vary, got {min(both)} with bounds")
+    def _common(self, name: str) -> Any:
+        first, *others = (getattr(case, name) for case in self.cases)
+        if any(other != first for other in others):
+            raise AttributeError(f"{name} differs between load cases, see cases")
+        return first
 
-    @cached_property
-    def _nodes(self) -> int:
-        if self.nodes is None:
-            return next((nodes for nodes in _NODES if self._error(nodes) < _RESOLVED), _NODES[-1])
-        checks.at_least("nodes", self.nodes, 2)
-        return self.nodes
+    def _resolving(self, nodes: int | None) -> int:
+        """Return the nodes, found if not given; ValueError where they do not resolve every resonance."""
+        if nodes is not None:
+            checks.at_least("nodes", nodes, 2)
+        taken = nodes or next((n for n in NODES if self._error(n) < RESOLVED), NODES[-1])
+        if not (error := self._error(taken)) < RESOLVED:
+            several = any(len(case.vehicle.contact_points) > 1 for case in self.cases)
+            hint = "; under several wheels a band may have to begin above 0 Hz"
+            raise ValueError(
+                f"nodes must resolve every resonance in the box to {RESOLVED:g}, got {taken}, which is off by "
+                f"{error:.1g} at its corners{hint if several and not self.band[0] else ''}"
+            )
+        return taken if nodes else _Found(taken)
 
     @cached_property
     def _judge(self) -> Judge:
         def score(text: str) -> Score:
-            found = tuple(measure(text, case.vehicle, self.weighting) for case in self.load_cases)
+            found = tuple(measure(text, case.vehicle, self.weighting) for case in self.cases)
             return Score(found, self.worst_case, found[0].sign)
 
         def limited(text: str) -> Score:
-            found = [limit(text, case.vehicle, self.weighting) for case in self.load_cases]
+            found = [limit(text, case.vehicle, self.weighting) for case in self.cases]
             return Score(tuple(one.measure for one in found), True, found[0].scale, found[0].offset)
 
-        if isinstance(self.measures, str) or len(set(self.objectives)) < max(2, len(self.measures)):
+        if len(set(self.objectives)) < max(2, len(self.measures)):
             raise ValueError(f"measures must be 2 or more with different names, got {self.measures!r}")
         for names, what in ((self.objectives, "measures"), (self.constraints, "constraints")):
             if len(set(names) | set(self.variables)) < len(names) + len(self.variables):
@@ -220,16 +255,66 @@ class RideProblem:
         if not any(one.measures[0].terms for one in scores):
             raise ValueError(f"measures must hold one of the ride, got {self.measures!r}")
         variables = dict(zip(self.variables, middle.tolist(), strict=True))
-        return Judge(self.load_cases, scores, variables, self.struts, self.band)
+        return Judge(self.cases, scores, variables, self.struts, self.band)
 
     def _error(self, nodes: int) -> float:
-        """Return the largest relative change of a score by twice the nodes, at corners of the box.
-
-        There resonances are sharpest.
-        """
-        corners = np.array(list(product(*zip(self.lower, self.upper, strict=True))), dtype=float)
+        """Return the largest error of a term at corners of the box, where resonances are sharpest."""
+        corners = np.array(list(product(*self.bounds.values())), dtype=float)
         if len(corners) > _CORNERS:
             corners = np.random.default_rng(0).permutation(corners)[:_CORNERS]
-        coarse, fine = (np.sqrt(self._judge.mean_squares(corners, count)) for count in (nodes, 2 * nodes))
-        ratio = np.divide(coarse, fine, out=np.ones_like(fine), where=fine > 0)  # what never moves is resolved
-        return float(np.abs(ratio - 1).max())
+        return float(self._judge.errors(corners, nodes).max())
+
+
+def _load_cases(cases: Sequence[LoadCase], **given: Any) -> tuple[LoadCase, ...]:
+    """Return the load cases with what is `given` in place of theirs, or the one that it makes."""
+    given = {name: value for name, value in given.items() if value is not None}
+    if isinstance(cases, LoadCase):
+        raise ValueError("cases must be a list of load cases, got one by itself")
+    if len(cases) > 1 and len(given) == 3:
+        raise ValueError("cases must stand in place of vehicle, road and speed, got both")
+    if len(cases) == 0:
+        if len(given) < 3:
+            raise ValueError("vehicle, road and speed must be given, or cases in their place, got neither")
+        return (LoadCase(**given),)
+    if not all(isinstance(case, LoadCase) for case in cases):
+        raise ValueError(f"cases must be a list of load cases, got {list(cases)!r}")
+    return tuple(replace(case, **given) for case in cases)
+
+
+def _checked_bounds(
+    vehicle: Vehicle,
+    bounds: Mapping[str, tuple[float, float]] | None,
+    lower: Sequence[float],
+    upper: Sequence[float],
+    fixed: Settings,
+) -> FrozenMapping[str, tuple[float, float]]:
+    """Return the bounds by name, with `lower` and `upper` (d,) in place of theirs where given."""
+    known = {parameter.name: parameter for parameter in vehicle.parameters}
+    if bounds is None:
+        names = [name for name, parameter in known.items() if parameter.default is None]
+        sides = [lower, upper]
+    else:
+        names = list(bounds)
+        _check_pairs(bounds, known)
+        sides = [
+            side if len(side) else [pair[i] for pair in bounds.values()] for i, side in enumerate((lower, upper))
+        ]
+    checks.ordered("lower", "upper", *sides)
+    if len(sides[0]) != len(names):
+        raise ValueError(f"lower and upper must bound {', '.join(names)}, got {sides[0]!r}")
+    for name, value in zip(names, sides[0], strict=True):
+        check = checks.not_negative if known[name].default == 0 else checks.positive
+        check(f"lower bound of {name}", value, known[name].unit)
+    if both := set(names) & fixed.keys():
+        raise ValueError(f"struts must be those that do not vary, got {min(both)} with bounds")
+    pairs = zip(*(map(float, side) for side in sides), strict=True)
+    return FrozenMapping(dict(zip(names, pairs, strict=True)))
+
+
+def _check_pairs(bounds: Mapping[str, tuple[float, float]], known: Mapping[str, Any]) -> None:
+    if not bounds:
+        raise ValueError("bounds must hold one coefficient at least, got none")
+    for name, pair in bounds.items():
+        if name not in known:
+            raise ValueError(f"bounds must be one of {', '.join(known)}, coefficients of struts, got {name!r}")
+        checks.interval(f"bounds of {name}", pair, known[name].unit)

@@ -1,13 +1,111 @@
-"""Responses of a vehicle with its struts to a random road."""
+"""Responses of a vehicle with its struts to a random road: frequency responses, spectra, root mean squares."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import control
 import numpy as np
-from numpy.typing import NDArray
+
+from .. import checks
+from ..quantities import Complex, Real, signal_unit
+from ..vehicles.assembly import ResponseName
+from ..vehicles.vehicle import Settings, Vehicle
+from .judges import NODES, RESOLVED, Judge, Score
+from .load_case import LoadCase, Road
+from .measures import Measure, Term, measure
+from .weightings import Weighting, checked
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+_LOWEST = np.array([1e-3, 2e-3])
+"""Frequencies [Hz] between which a spectrum shows its power of frequency towards 0 Hz."""
 
 
-def road_paths(closed: control.LTI, f: NDArray[np.float64]) -> NDArray[np.complex128]:
+def ride(
+    vehicle: Vehicle,
+    setting: Settings | tuple[float, float],
+    road: Road,
+    speed: float,
+    *,
+    weighting: Weighting | control.LTI | None = "Wk",
+    band: tuple[float, float] = (0.0, 20.0),
+    measures: Sequence[str] = ("ACC", "SWS", "DTL"),
+) -> "pd.DataFrame":
+    """Return the ride of a vehicle with its struts: measures, and the root mean square of every response.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        The vehicle.
+    setting : mapping of str to float or (float, float)
+        Coefficients of its struts, as for ``vehicle.closed``; spring [N/m] and damper [N s/m] of a quarter car.
+    road : Road
+        The road; under one wheel any object with ``psd(f, speed)``.
+    speed : float
+        Vehicle speed V [m/s].
+    weighting, band, measures
+        As of `RideProblem`.
+
+    Returns
+    -------
+    DataFrame
+        By ``name`` the measures, then every response, unweighted; columns ``value``, ``unit`` and ``note``. A
+        value whose integral diverges, or is not resolved, is NaN, and the note gives the reason.
+
+    Raises
+    ------
+    ValueError
+        If a parameter is out of range, or a measure is none of the vehicle's.
+    """
+    import pandas as pd
+
+    checks.interval("band", band, "Hz")
+    if isinstance(measures, str):
+        raise ValueError(f"measures must be a list of measures, got {measures!r}")
+    case = LoadCase(vehicle=vehicle, road=road, speed=speed)
+    known = checked(weighting)
+    judged = [measure(text, vehicle, known) for text in measures]
+    own = {one.name for one in judged}
+    judged += [Measure(name, signal_unit(name), (Term(name),)) for name in vehicle.responses if name not in own]
+    values = vehicle.coefficients(setting if isinstance(setting, Mapping) else {"": setting})
+    judge = Judge([case], [Score((one,), False, one.sign) for one in judged], values, {}, band)
+    design = np.array([list(values.values())])
+    diverging = _diverging(case, values, judge.terms[0]) if band[0] == 0 else set()
+    nodes, off = _resolved(judge, design, diverging)
+    notes = [_note(one, diverging, off, nodes) for one in judged]
+    found = np.where([bool(note) for note in notes], np.nan, judge.evaluate(design, nodes)[0])
+    index = pd.Index([one.name for one in judged], name="name")
+    return pd.DataFrame({"value": found, "unit": [one.unit for one in judged], "note": notes}, index=index)
+
+
+def _diverging(case: LoadCase, setting: Settings, terms: Iterable[Term]) -> set[ResponseName]:
+    """Return the responses whose spectrum rises towards 0 Hz as 1/f or faster."""
+    responses = list(dict.fromkeys(term.response for term in terms))
+    closed = case.vehicle.with_struts(setting, responses)
+    spectra = np.array(list(response_psds(closed, _LOWEST, case.cross_spectrum(_LOWEST)).values()))
+    rising = spectra[:, 0] >= spectra[:, 1] * _LOWEST[1] / _LOWEST[0]
+    return {name for name, is_rising in zip(responses, rising & (spectra[:, 0] > 0), strict=True) if is_rising}
+
+
+def _resolved(judge: Judge, design: Real, diverging: set[ResponseName]) -> tuple[int, dict[Term, float]]:
+    """Return the least nodes that resolve every term that does not diverge, and the error of each term."""
+    kept = [term.response not in diverging for term in judge.terms[0]]
+    for nodes in NODES:
+        errors = judge.errors(design, nodes)[0]
+        if (errors[kept] < RESOLVED).all():
+            break
+    return nodes, dict(zip(judge.terms[0], errors.tolist(), strict=True))
+
+
+def _note(one: Measure, diverging: set[ResponseName], off: Mapping[Term, float], nodes: int) -> str:
+    if any(term.response in diverging for term in one.terms):
+        return "diverges towards 0 Hz: begin the band above"
+    worst = max((off[Term(term.response, term.weighting)] for term in one.terms), default=0.0)
+    return "" if worst < RESOLVED else f"not resolved: {nodes} and {2 * nodes} nodes differ by {worst:.1g}"
+
+
+def road_paths(closed: control.LTI, f: Real) -> Complex:
     """Return H(w) from each road to each response of a vehicle with its struts.
 
     Parameters
@@ -31,9 +129,7 @@ def road_paths(closed: control.LTI, f: NDArray[np.float64]) -> NDArray[np.comple
     return h
 
 
-def frequency_responses(
-    closed: control.LTI, f: NDArray[np.float64], delays: Sequence[float] = (0.0,)
-) -> dict[str, NDArray[np.complex128]]:
+def frequency_responses(closed: control.LTI, f: Real, delays: Sequence[float] = (0.0,)) -> dict[str, Complex]:
     """Return H(w) to every response of a vehicle with its struts from a road that is alike on all its tracks.
 
     Parameters
@@ -53,9 +149,7 @@ def frequency_responses(
     return dict(zip(closed.output_labels, h.T, strict=True))
 
 
-def response_psds(
-    closed: control.LTI, f: NDArray[np.float64], road: NDArray[np.float64] | NDArray[np.complex128]
-) -> dict[str, NDArray[np.float64]]:
+def response_psds(closed: control.LTI, f: Real, road: Real | Complex) -> dict[str, Real]:
     """Return the spectrum of every response, equation (3): under one wheel |H(w)|^2 times the road's.
 
     Parameters
@@ -75,7 +169,7 @@ def response_psds(
     return dict(zip(closed.output_labels, psd, strict=True))
 
 
-def phase_degrees(h: NDArray[np.complex128]) -> NDArray[np.float64]:
+def phase_degrees(h: Complex) -> Real:
     """Return the continuous phase of a response (n,) [deg], beginning between -90 and 270 degrees.
 
     A response that begins opposite to the road, at -180 or 180 degrees, so always begins at 180.
@@ -84,7 +178,7 @@ def phase_degrees(h: NDArray[np.complex128]) -> NDArray[np.float64]:
     return phase + 360 if phase[0] < -90 else phase
 
 
-def natural_frequencies(closed: control.StateSpace) -> NDArray[np.float64]:
+def natural_frequencies(closed: control.StateSpace) -> Real:
     """Return the undamped natural frequencies of the oscillating modes, ascending [Hz]."""
     omega, damping, _ = control.damp(closed, doprint=False)
     return np.unique(np.round(omega[np.abs(damping) < 1], 9)) / (2 * np.pi)

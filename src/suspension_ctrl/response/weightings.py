@@ -4,15 +4,17 @@ The filters are the analogue ones of ISO 8041-1, the table its design-goal facto
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import control
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .. import checks, datafiles
+from ..quantities import Real, Record, frozen_array
+from ..vehicles.vehicle import check_measured
 
 
 @dataclass(frozen=True)
@@ -24,7 +26,7 @@ class FilterWeighting:
     breakpoints: ClassVar[tuple[float, ...]] = ()
     """Frequencies at which the factor has a kink [Hz]: none."""
 
-    def factor(self, f: ArrayLike) -> NDArray[np.float64]:
+    def factor(self, f: ArrayLike) -> Real:
         """Magnitude of the weighting at the frequencies `f` (n,) [Hz], shape (n,) [-]."""
         return np.abs(weighting(self.name)(2j * np.pi * np.asarray(f, dtype=float)))
 
@@ -43,7 +45,7 @@ class TabulatedWeighting:
         """Frequencies at which the factor has a kink [Hz]: the bands inside the table."""
         return tuple(np.exp(self._table()[0][1:-1]).tolist())
 
-    def factor(self, f: ArrayLike) -> NDArray[np.float64]:
+    def factor(self, f: ArrayLike) -> Real:
         """Magnitude of the weighting at the frequencies `f` (n,) [Hz], shape (n,) [-]."""
         log_band, log_factor = self._table()
         log_f = np.log(np.asarray(f, dtype=float))
@@ -51,11 +53,51 @@ class TabulatedWeighting:
         slope = np.diff(log_factor)[segment] / np.diff(log_band)[segment]
         return np.exp(log_factor[segment] + slope * (log_f - log_band[segment]))
 
-    def _table(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _table(self) -> tuple[Real, Real]:
         column = self.name.removesuffix("-table").lower()
         rows = datafiles.rows("standards/iso8041_wk_wb_table.csv")
         return np.log(BANDS), np.log([float(row[column]) for row in rows])
 
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class SystemWeighting(Record):
+    """Weighting by the magnitude of a system of python-control; equal where the numbers of the systems are."""
+
+    name: str = field(compare=False)
+    system: control.LTI = field(compare=False, repr=False)
+    numbers: tuple[Any, ...] = field(repr=False)
+
+    breakpoints: ClassVar[tuple[float, ...]] = ()
+    """Frequencies at which the factor has a kink [Hz]: none."""
+
+    @classmethod
+    def of(cls, system: control.LTI) -> "SystemWeighting":
+        """Take a system; ValueError unless it has one input and one output and is in continuous time."""
+        if not (system.ninputs == system.noutputs == 1 and system.isctime()):
+            got = f"{system.ninputs} and {system.noutputs}, dt = {system.dt}"
+            raise ValueError(f"weighting must have one input and one output in continuous time, got {got}")
+        if isinstance(system, control.FrequencyResponseData):
+            numbers: tuple[Any, ...] = (system.omega, system.frdata)
+            system = control.frd(system.frdata, system.omega, smooth=True, name=system.name)
+        elif isinstance(system, control.StateSpace):
+            numbers = (system.A, system.B, system.C, system.D)
+        else:
+            numbers = (system.num[0][0], system.den[0][0])
+        return cls(name=system.name, system=system, numbers=tuple(frozen_array(x, complex) for x in numbers))
+
+    def factor(self, f: ArrayLike) -> Real:
+        """Magnitude of the weighting at the frequencies `f` (n,) [Hz], shape (n,) [-]."""
+        omega = 2 * np.pi * np.asarray(f, dtype=float)
+        if isinstance(self.system, control.FrequencyResponseData):
+            check_measured(omega, self.system.omega)
+        return np.abs(self.system(1j * omega))
+
+    def __str__(self) -> str:
+        return str(self.name)
+
+
+Weighting = str | SystemWeighting
+"""A weighting by its name, or another one."""
 
 BANDS = 10.0 ** (np.arange(-10, 21) / 10)
 """Exact frequencies of the table's one-third-octave bands [Hz]; its frequency column rounds them."""
@@ -64,10 +106,21 @@ FILTERS = ("Wk", "Wd", "Wf", "Wc", "We", "Wj", "Wb")
 TABLES = ("Wk-table", "Wb-table")
 
 
-def by_name(name: str) -> FilterWeighting | TabulatedWeighting:
-    """Return the weighting called `name`, one of `FILTERS` or `TABLES`; ValueError for any other."""
-    checks.one_of("weighting", name, FILTERS + TABLES)
-    return TabulatedWeighting(name) if name in TABLES else FilterWeighting(name)
+def checked(weighting: Weighting | control.LTI | None) -> Weighting | None:
+    """Return a weighting that is a name, a system or none; ValueError for anything else."""
+    if isinstance(weighting, control.LTI):
+        return SystemWeighting.of(weighting)
+    if weighting is not None and not isinstance(weighting, SystemWeighting):
+        checks.one_of("weighting", weighting, FILTERS + TABLES)
+    return weighting
+
+
+def by_name(weighting: Weighting) -> FilterWeighting | TabulatedWeighting | SystemWeighting:
+    """Return the weighting called so, one of `FILTERS` or `TABLES`, or itself; ValueError for any other name."""
+    if isinstance(weighting, SystemWeighting):
+        return weighting
+    checks.one_of("weighting", weighting, FILTERS + TABLES)
+    return TabulatedWeighting(weighting) if weighting in TABLES else FilterWeighting(weighting)
 
 
 def weighting(name: str) -> control.TransferFunction:

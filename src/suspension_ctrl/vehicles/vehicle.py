@@ -133,7 +133,8 @@ class Vehicle(ABC):
             if isinstance(value, Sequence | np.ndarray) and not isinstance(value, str):
                 if len(value) != 2:
                     raise ValueError(f"struts must have two numbers, spring and damper, for {name}, got {value!r}")
-                pair = {f"{name}.spring": value[0], f"{name}.damper": value[1]}
+                prefix = f"{name}." if name else ""
+                pair = {f"{prefix}spring": value[0], f"{prefix}damper": value[1]}
             else:
                 pair = {name: value}
             if twice := given.keys() & pair:
