@@ -141,7 +141,6 @@ def test_table_4_with_a_baseline_that_spends_less():
 
 FRESH_PROCESS = """
 import numpy as np
-from suspension_ctrl import checks
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search import constraints, decomposition, operators, selection, sorting
 from suspension_ctrl.study import timing as experiments
@@ -150,7 +149,7 @@ comparison = Comparison(
     problem=paper.ride_problem(), algorithms=["nsga2", "moead-dra"], populations=[20], iterations=[12]
 )
 experiments.warm_up(comparison)
-modules = (checks, decomposition, constraints, operators, selection, sorting)
+modules = (decomposition, constraints, operators, selection, sorting)
 functions = {name: f for module in modules for name, f in vars(module).items() if hasattr(f, "signatures")}
 before = {name: list(f.signatures) for name, f in functions.items()}
 list(experiments.carry_out(comparison, {}))
