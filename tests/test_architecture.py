@@ -81,7 +81,7 @@ def copy(checkout, tmp_path_factory) -> Path:
         ("study/lenses.py", "from ..roads import road"),
         ("response/problem.py", "from ..search.nsga2 import Nsga2"),
         ("paper/tables.py", "def late():\n    from suspension_ctrl.commands import bode"),
-        ("from .quantities import Real"),
+        ("checks.py", "from .quantities import Real"),
     ],
 )
 def test_a_broken_layer_is_seen(copy, module, line):
