@@ -9,7 +9,7 @@ from suspension_ctrl import FlexibleBody, FullCar, HalfCar, PowerLawRoad, Quarte
 from suspension_ctrl.response import weightings
 from suspension_ctrl.response.quadrature import frequency_nodes
 from suspension_ctrl.vehicles.assembly import ResponseName
-from suspension_ctrl.vehicles.vehicle import Settings, Vehicle
+from suspension_ctrl.vehicles.vehicle import Setting, Vehicle
 
 ROAD = PowerLawRoad(roughness=5e-6, exponent=2.5)
 SPEED = 20.0
@@ -75,18 +75,18 @@ def struts_of(vehicle: Vehicle) -> dict[str, float | tuple[float, float]]:
 
 
 def from_roads(
-    vehicle: Vehicle, settings: Settings, responses: Sequence[ResponseName], f: np.ndarray
+    vehicle: Vehicle, settings: Setting, responses: Sequence[ResponseName], f: np.ndarray
 ) -> np.ndarray:
     """Return the responses (n, m, r) to the displacement of the roads, by python-control's closed model."""
     s = 2j * np.pi * f[:, None, None]
-    h = np.moveaxis(vehicle.with_struts(settings, responses)(s[:, 0, 0], squeeze=False), 2, 0)
+    h = np.moveaxis(vehicle.closed(settings, responses=responses)(s[:, 0, 0], squeeze=False), 2, 0)
     r = len(vehicle.contact_points)
     return h[:, :, :r] + s * h[:, :, r:] if h.shape[2] > r else h
 
 
 def mean_squares(
     vehicle: Vehicle,
-    settings: Settings,
+    settings: Setting,
     terms: Sequence[tuple[ResponseName, str | None]],
     band: tuple[float, float],
     nodes: int,

@@ -1,6 +1,7 @@
 """Where the data files are, in a checkout and in an installed wheel."""
 
 import csv
+from os import PathLike
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parent
@@ -15,6 +16,18 @@ def path(name: str) -> Path:
         if (folder / name).is_file():
             return folder / name
     raise FileNotFoundError(f"data file {name!r} is neither in the package nor in the checkout")
+
+
+def named(kind: str, folder: str, source: str | PathLike[str]) -> Path:
+    """Return the path of a TOML file, or of the data file in `folder` of that name without its ending."""
+    if Path(source).suffix == ".toml":
+        return Path(source)
+    known = stems(folder)
+    if str(source) not in known:
+        raise ValueError(
+            f"{kind} must be one of {', '.join(known)} or the path of a .toml file, got {str(source)!r}"
+        )
+    return path(f"{folder}/{source}.toml")
 
 
 def stems(folder: str) -> list[str]:

@@ -6,11 +6,15 @@ A quantity called ``body_mass`` in kg has the key ``body_mass_kg``; of units, ``
 
 import reprlib
 import tomllib
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import MISSING, dataclass, fields
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
+
+from .quantities import key_of
+
+T = TypeVar("T")
 
 _SMALLEST, _LARGEST = 1e-12, 1e12
 """Beyond any vehicle; squares, products and quotients of such are still numbers."""
@@ -132,6 +136,28 @@ class Table:
             else:
                 flat[key] = value
         return Table(self.name, flat)
+
+
+def made(table: Table, kind: type[T], beside: Collection[str] = (), **given: object) -> T:
+    """Return a dataclass by a table whose keys are names and units of its fields, and others `beside` them.
+
+    Fields of numbers, pairs and texts are read; the metadata ``key`` of a field stands for its name and unit.
+    """
+    read: dict[Any, Callable[[str], object]] = {
+        float: table.number,
+        str: table.text,
+        tuple[float, float]: table.pair,
+    }
+    own = {
+        one.metadata.get("key", key_of(one.name, one.metadata.get("unit", ""))): one
+        for one in fields(kind)  # type: ignore[arg-type]
+        if one.type in read and one.name not in given
+    }
+    names = {key: one.name for key, one in own.items()}
+    needed = [key for key, one in own.items() if one.default is MISSING]
+    table.check_keys(names | {key: key for key in beside}, needed)
+    with keyed(table.name, names):
+        return kind(**given, **{one.name: read[one.type](key) for key, one in own.items() if key in table.content})
 
 
 _NUMBER = f"a number from {_SMALLEST:g} to {_LARGEST:g} in size or 0"

@@ -8,6 +8,8 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import checks
+
 Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Bool = NDArray[np.bool_]
@@ -21,6 +23,14 @@ _WIDTH, _LINES = 88, 6
 def unit(text: str) -> dict[str, str]:
     """Return the metadata of a dataclass field in this unit: ``field(metadata=unit("kg"))``."""
     return {"unit": text}
+
+
+def check_numbers(record: Any) -> None:
+    """Raise ValueError unless each number with a unit is finite and above zero, or zero if that is its default."""
+    for one in fields(record):
+        if one.type is float and "unit" in one.metadata:
+            check = checks.not_negative if one.default == 0 else checks.positive
+            check(one.name, getattr(record, one.name), one.metadata["unit"])
 
 
 def frozen_array(values: ArrayLike, dtype: type = float) -> NDArray[Any]:
@@ -55,8 +65,9 @@ class FrozenMapping(Mapping[K, V]):
 class Record:
     """A frozen dataclass without its own ``==`` and ``repr`` (``eq=False, repr=False``), which come from here.
 
-    Two records are equal if they are of one class and all fields are, arrays element by element. Arrays stay
-    read-only when a record is pickled.
+    Two records are equal if they are of one class and all fields are, arrays element by element. A record is
+    pickled by its fields, without what a cached property holds; arrays stay read-only. The metadata of a field
+    may name its ``unit`` and a function ``show`` from the value to the text in `repr`.
     """
 
     def __eq__(self, other: object) -> bool:
@@ -66,6 +77,9 @@ class Record:
 
     def __hash__(self) -> int:
         return hash((type(self), self._values()))
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {f.name: self.__dict__[f.name] for f in self._fields()}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         for value in state.values():
@@ -103,6 +117,8 @@ def _is_default(one: Field[Any], value: object) -> bool:
 
 
 def _shown(value: object, one: Field[Any]) -> str:
+    if "show" in one.metadata:
+        return str(one.metadata["show"](value))
     if isinstance(value, np.ndarray) and value.size > 2 and value.dtype.kind in "if":
         text = f"{value.shape} from {value.min():.6g} to {value.max():.6g}"
     elif isinstance(value, float):
@@ -123,15 +139,7 @@ def signal_unit(signal: str) -> str:
         return "rad/s^2"
     if signal.endswith("acceleration") or signal.startswith("acceleration_at"):
         return "m/s^2"
-    return {"travel": "m", "deflection": "m", "load": "N"}.get(signal.rsplit("_", 1)[-1], "")
-
-
-_UNITS = {"mass": "kg", "inertia": "kg m^2", "stiffness": "N/m", "damping": "N s/m"}
-
-
-def unit_of(parameter: str) -> str:
-    """Return the unit of a vehicle's parameter, which its name tells: ``"body_mass"`` is in kg, a length in m."""
-    return _UNITS.get(parameter.rsplit("_", 1)[-1], "m")
+    return {"travel": "m", "deflection": "m", "displacement": "m", "load": "N"}.get(signal.rsplit("_", 1)[-1], "")
 
 
 def column_headers(names: Sequence[str], units: Mapping[str, str]) -> list[str]:

@@ -170,7 +170,7 @@ def test_bode_of_a_half_car(called, tmp_path):
     f = curves["frequency [Hz]"].to_numpy()
     np.testing.assert_allclose(f[[0, -1]], [0.5, 20.0], rtol=1e-12)
     file = load_vehicle("minaker_half")
-    h = garage.from_roads(file.vehicle, file.struts, ["pitch_acceleration"], f)[:, 0]
+    h = garage.from_roads(file.vehicle, file.setting, ["pitch_acceleration"], f)[:, 0]
     lag = np.exp(-2j * np.pi * f * (1.189 + 1.696) / 15)  # of the rear wheel on the same track
     met = np.abs(h[:, 0] + h[:, 1] * lag)
     density = Iso8608Road("C").psd(f, 15.0) * met**2
@@ -181,7 +181,7 @@ def test_bode_of_a_half_car(called, tmp_path):
         density * weightings.by_name("Wk").factor(f) ** 2,
         rtol=1e-8,
     )
-    assert_natural(tmp_path / "out", file.vehicle.modes(file.struts))
+    assert_natural(tmp_path / "out", file.vehicle.modes(file.setting))
 
 
 def assert_natural(out, modes):

@@ -202,10 +202,10 @@ def test_rms_of_a_realisation_is_that_of_its_own_lines(name):
     """Parseval over the lines of this very road; images are far below what a damper wrong by 3 % does."""
     vehicle, settings = CASES[name]
     profile = ROAD.profile(51.2, STEP, 5, tracks_of(vehicle))
-    found = values(simulate(vehicle.with_struts(settings), profile, SPEED, vehicle.contact_points, periodic=True))
+    found = values(simulate(vehicle.closed(settings), profile, SPEED, vehicle.contact_points, periodic=True))
     rms = np.sqrt((found**2).mean(axis=0))
     error, error_if_wrong = (
-        np.sqrt(2 * (np.abs(lines(vehicle.with_struts(s), vehicle, profile)) ** 2).sum(axis=0)) / 512 / rms - 1
+        np.sqrt(2 * (np.abs(lines(vehicle.closed(s), vehicle, profile)) ** 2).sum(axis=0)) / 512 / rms - 1
         for s in (settings, with_damper(settings, 1.03))
     )
     assert np.abs(error).max() < 3e-4
@@ -215,7 +215,7 @@ def test_rms_of_a_realisation_is_that_of_its_own_lines(name):
 def line_powers(vehicle, settings, road, length: float) -> np.ndarray:
     """Expected mean square (n, m) of every response in each line of a profile of this length."""
     f, x = np.arange(1, (round(length / STEP) + 1) // 2) * SPEED / length, vehicle.contact_points[:, 0]
-    h = passed_on(vehicle.with_struts(settings), f, np.zeros(len(x)), x)  # the lead is in the cross-spectra
+    h = passed_on(vehicle.closed(settings), f, np.zeros(len(x)), x)  # the lead is in the cross-spectra
     spectra = road.cross_spectrum(f, SPEED, vehicle.contact_points) * SPEED / length
     return np.einsum("nmi,nij,nmj->nm", h, spectra, h.conj()).real
 
@@ -241,7 +241,7 @@ def driven() -> dict[str, np.ndarray]:
     found = {}
     with single_thread():
         for i, (name, (vehicle, settings)) in enumerate(CASES.items()):
-            rng, closed = np.random.default_rng([7, i]), vehicle.with_struts(settings)
+            rng, closed = np.random.default_rng([7, i]), vehicle.closed(settings)
             profiles = (ROAD.profile(LENGTH, STEP, rng, tracks_of(vehicle)) for _ in range(REALISATIONS))
             tables = (simulate(closed, p, SPEED, vehicle.contact_points, periodic=True) for p in profiles)
             found[name] = np.array([(values(table) ** 2).mean(axis=0) for table in tables])
@@ -283,7 +283,7 @@ def repeated(profile: Profile, times: int) -> Profile:
 def test_going_round_settles_to_the_periodic_steady_state():
     """After eight rounds of 1.28 s the start has died away as the slowest mode does in that time."""
     vehicle, settings = CASES["full, damped tyres and a bar"]
-    closed, profile = vehicle.with_struts(settings), ROAD.profile(25.6, STEP, 6, tracks_of(vehicle))
+    closed, profile = vehicle.closed(settings), ROAD.profile(25.6, STEP, 6, tracks_of(vehicle))
     driven_on = simulate(closed, repeated(profile, 10), SPEED, vehicle.contact_points)
     begin = driven_on["distance [m]"].iloc[0]
     assert begin == pytest.approx(1.44)
@@ -298,7 +298,7 @@ def test_going_round_settles_to_the_periodic_steady_state():
 def test_finer_samples_of_the_same_road():
     """The road is straight between its points: points in between change nothing where there were some before."""
     vehicle, settings = CASES["full, damped tyres and a bar"]
-    closed, profile = vehicle.with_struts(settings), ROAD.profile(12.8, STEP, 9, tracks_of(vehicle))
+    closed, profile = vehicle.closed(settings), ROAD.profile(12.8, STEP, 9, tracks_of(vehicle))
     at = np.arange(4 * 127 + 1) * STEP / 4
     fine = Profile(at, profile.at(np.minimum(at, profile.distance[-1])), profile.tracks)
     coarse, finer = (values(simulate(closed, p, SPEED, vehicle.contact_points)) for p in (profile, fine))
@@ -340,7 +340,7 @@ def test_rest_until_the_bump():
     vehicle, settings = CASES["half, damped tyres"]
     x = STEP * np.arange(200)
     height = 3.0 + np.where((x > 10) & (x < 10.5), 0.05, 0.0)
-    table = simulate(vehicle.with_struts(settings), Profile(x, height[:, None]), SPEED, vehicle.contact_points)
+    table = simulate(vehicle.closed(settings), Profile(x, height[:, None]), SPEED, vehicle.contact_points)
     before = table["distance [m]"] + vehicle.contact_points[:, 0].max() < 10.0 - STEP
     size = np.abs(values(table)).max(axis=0)
     assert np.abs(values(table)[before] / size).max() < 1e-9
@@ -349,7 +349,7 @@ def test_rest_until_the_bump():
 
 
 def test_points_of_the_body_and_other_outputs():
-    closed = HALF.closed(STRUTS, [("acceleration", 0.5, 0.0), "front_tyre_load"])
+    closed = HALF.closed(STRUTS, responses=[("acceleration", 0.5, 0.0), "front_tyre_load"])
     profile = ROAD.profile(12.8, STEP, 8)
     columns = list(simulate(closed, profile, SPEED, HALF.contact_points))[2:]
     assert columns == ["acceleration_at_500_0_mm [m/s^2]", "front_tyre_load [N]"]

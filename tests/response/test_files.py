@@ -128,7 +128,7 @@ def test_vehicles_of_the_package(name):
         weighting="Wd",
     )
     assert problem.variables == tuple(file.bounds)
-    assert struts == file.vehicle.coefficients(file.struts)
+    assert struts == file.vehicle.coefficients(file.setting)
     assert struts == {**problem.struts, **{name: struts[name] for name in problem.variables}}
     assert np.isfinite(problem.evaluate([[struts[name] for name in problem.variables]])).all()
 
@@ -196,7 +196,7 @@ def test_the_full_car_study_is_the_one_made_by_hand(full_car):
 
 
 def test_only_the_third_case_of_the_full_car_is_loaded(full_car):
-    assert [case.vehicle.assembly().payload for case in full_car.cases] == [(), (), [(225.0, (-0.9, 0.0))]]
+    assert [case.vehicle.assembly.payload for case in full_car.cases] == [(), (), ((225.0, (-0.9, 0.0)),)]
 
 
 def front_of(problem: RideProblem, optimiser: object) -> np.ndarray:
@@ -363,7 +363,7 @@ FIRST = '[[cases]]\nvehicle = "minaker_half"\nroad = "C"\nspeed_m_per_s = 15\n'
         (
             'measures = ["ACC", "SWS"]\n[bounds]\nspring_N_per_m = [1e4, 3e4]\n'
             + FIRST.replace("minaker_half", "car.toml") + FIRST,
-            r"struts must be .*",
+            r"setting must be .*",
         ),
     ],
 )  # fmt: skip

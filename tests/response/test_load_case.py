@@ -193,9 +193,9 @@ PLAIN = {"vehicle": FULL, "road": ROAD, "speed": 30.0}
         ({**PLAIN, "bounds": None, "lower": (1e4, 1e3), "upper": (2e4, 2e3)},
          "lower and upper must bound front.spring, front.damper, rear.spring, rear.damper, got (10000.0, 1000.0)"),
         ({**PLAIN, "struts": {"front": (2e4, 1500.0)}},
-         "struts must have front.spring, front.damper, rear.spring, rear.damper, front_antiroll, rear_antiroll, "
+         "setting must have front.spring, front.damper, rear.spring, rear.damper, front_antiroll, rear_antiroll, "
          "got none for rear.spring"),
-        ({**PLAIN, "struts": STRUTS | {"middle.spring": 1.0}}, "struts must be one of front.spring, "),
+        ({**PLAIN, "struts": STRUTS | {"middle.spring": 1.0}}, "setting must be one of front.spring, "),
         ({**PLAIN, "measures": ("ACC",)}, "measures must be 2 or more with different names, got ('ACC',)"),
         ({**PLAIN, "measures": "ACC"}, "measures must be a list, got 'ACC'"),
         ({**PLAIN, "measures": ("ACC", "ACC")},
@@ -215,7 +215,7 @@ PLAIN = {"vehicle": FULL, "road": ROAD, "speed": 30.0}
         ({**PLAIN, "nodes": 20}, "nodes must resolve every resonance in the box to 1e-06, got 20, which is off"),
         ({**PLAIN, "nodes": 2.5}, "nodes must be a whole number >= 2, got 2.5"),
         ({"cases": [CASES[0], replace(CASES[0], vehicle=HALF)]},
-         "struts must be one of front.spring, front.damper, rear.spring, rear.damper, got 'front_antiroll'"),
+         "setting must be one of front.spring, front.damper, rear.spring, rear.damper, got 'front_antiroll'"),
     ],
 )  # fmt: skip
 def test_rejects_bad_settings(changes, message):

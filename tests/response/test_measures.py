@@ -12,7 +12,6 @@ from suspension_ctrl import LoadCase, RideProblem, RollGeometry, Seat
 from suspension_ctrl.response.limits import limit
 from suspension_ctrl.response.measures import Term, measure, name_of
 from suspension_ctrl.vehicles.assembly import GRAVITY
-from suspension_ctrl.vehicles.handling import Mechanics
 from suspension_ctrl.vehicles.vehicle import Vehicle
 
 BAND, NODES = (0.1, 20.0), 256
@@ -82,7 +81,7 @@ def test_points_may_be_written_in_any_way():
 
 def test_the_dynamic_load_coefficient_is_over_each_tyre_s_own_load():
     """The worst share, not the worst load over some load; static loads on struts in the middle of the box."""
-    static = Mechanics.of(SEATED.assembly()).static_loads(
+    static = SEATED.statics.static_loads(
         np.array([list(SEATED.coefficients(struts_of(SEATED)).values())])
     )[0]
     shares = [root(SEATED, f"{corner}_tyre_load") / load for corner, load in zip(CORNERS, static, strict=True)]
@@ -241,7 +240,7 @@ def test_measures_of_handling_are_those_of_the_mechanics():
     assert p.kernel is None
     assert [p.units[name] for name in names] == ["deg/g", "-", "-"]
     found = p.evaluate([[1e4, 1500.0], [2e4, 2500.0]])
-    mechanics = Mechanics.of(FULL.assembly())
+    mechanics = FULL.statics
     for row, (bar, damper) in zip(found, ((1e4, 1500.0), (2e4, 2500.0)), strict=True):
         values = np.array([list(FULL.coefficients(
             {"front": (2e4, 1500.0), "rear": (2e4, damper), "front_antiroll": bar}).values())])  # fmt: skip

@@ -64,14 +64,14 @@ def test_spectra_have_nulls(name, null):
     np.testing.assert_allclose(wheels[:, :, None] * wheels[:, None, :].conj(), road, rtol=1e-12)
     h = garage.from_roads(CAR, STRUTS, [name], f)[:, 0]
     assert over_neighbours(np.abs((h * wheels).sum(axis=1)) ** 2) < NONE
-    spectrum = responses.response_psds(CAR.with_struts(STRUTS, [name]), f, road)[name]
+    spectrum = responses.response_psds(CAR.closed(STRUTS, responses=[name]), f, road)[name]
     assert abs(over_neighbours(spectrum)) < ROUNDED
 
 
 @pytest.mark.parametrize(("name", "null"), [(name, null) for name, nulls in NULLS.items() for null in nulls])
 def test_frequency_responses_with_delays_have_nulls(name, null):
     f = around(null)
-    h = responses.frequency_responses(CAR.with_struts(STRUTS, [name]), f, (0.0, BASE / SPEED))[name]
+    h = responses.frequency_responses(CAR.closed(STRUTS, responses=[name]), f, (0.0, BASE / SPEED))[name]
     assert over_neighbours(np.abs(h) ** 2) < NONE
 
 
@@ -79,13 +79,13 @@ def test_frequency_responses_with_delays_have_nulls(name, null):
 def test_each_response_is_full_where_the_other_has_its_nulls(name, other):
     """Front and rear then add up: twice what either wheel alone makes, to rounding."""
     h = garage.from_roads(CAR, STRUTS, [name], other)[:, 0]
-    both = responses.frequency_responses(CAR.with_struts(STRUTS, [name]), other, (0.0, BASE / SPEED))[name]
+    both = responses.frequency_responses(CAR.closed(STRUTS, responses=[name]), other, (0.0, BASE / SPEED))[name]
     np.testing.assert_allclose(np.abs(both), 2 * np.abs(h[:, 0]), rtol=1e-10)
 
 
 def test_a_car_of_unlike_ends_has_no_nulls():
     struts = STRUTS | {"rear": (26e3, 1500.0)}
     for name, nulls in NULLS.items():
-        h = responses.frequency_responses(CAR.with_struts(struts, [name]), nulls, (0.0, BASE / SPEED))[name]
+        h = responses.frequency_responses(CAR.closed(struts, responses=[name]), nulls, (0.0, BASE / SPEED))[name]
         either = garage.from_roads(CAR, struts, [name], nulls)[:, 0, 0]
         assert (np.abs(h) > 1e-3 * np.abs(either)).all()

@@ -17,7 +17,6 @@ from suspension_ctrl.datafiles import stems
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.quantities import key_of
 from suspension_ctrl.vehicles.files import VehicleFile, load_vehicle
-from suspension_ctrl.vehicles.handling import Mechanics
 
 QUARTER = """
 kind = "quarter-car"
@@ -81,8 +80,8 @@ def written(folder: Path, text: str | bytes) -> Path:
 
 def matrices(file: VehicleFile) -> tuple[np.ndarray, np.ndarray]:
     """Masses and stiffnesses of the package's own assembly."""
-    mechanics = Mechanics.of(file.vehicle.assembly())
-    coefficients = file.vehicle.coefficients(file.struts)
+    mechanics = file.vehicle.statics
+    coefficients = file.vehicle.coefficients(file.setting)
     return mechanics.mass, mechanics.stiffness_of(np.array([list(coefficients.values())]))[0]
 
 
@@ -99,7 +98,7 @@ def by_energy(masses: list[float], springs: list[tuple[float, list[float]]]) -> 
 def test_the_papers_car():
     file, problem = load_vehicle("yuen_ramli_2010"), paper.ride_problem()
     assert file.vehicle == problem.vehicle
-    assert (file.struts["spring"], file.struts["damper"]) == paper.reference_design()
+    assert (file.setting["spring"], file.setting["damper"]) == paper.reference_design()
     assert file.bounds == dict(zip(problem.variables, zip(problem.lower, problem.upper, strict=True), strict=True))
     assert file.roll_geometry is None
 
@@ -134,7 +133,7 @@ def test_full_car_has_the_frequencies_of_its_matrices(bar, computed):
     k/2 ((travel left - travel right) / track)^2. Five decimals of `computed`; the third road to rounding.
     """
     file = load_vehicle("jian_2022_full")
-    file = replace(file, struts={**file.struts, "front_antiroll": bar})
+    file = replace(file, setting={**file.setting, "front_antiroll": bar})
     corners = [(1.5, 0.9), (1.5, -0.9), (-1.5, 0.9), (-1.5, -0.9)]
     travel = [[1, y, -x, *(-np.eye(4)[i])] for i, (x, y) in enumerate(corners)]
     springs = list(zip([10e3, 10e3, 13e3, 13e3], travel, strict=True))
@@ -162,7 +161,7 @@ def test_full_car_in_full():
         front_track=1.8,
         rear_track=1.8,
     )
-    assert file.struts["front_antiroll"] == 25e3
+    assert file.setting["front_antiroll"] == 25e3
     assert file.bounds["rear_antiroll"] == (0.0, 50e3)
     assert isinstance(file.roll_geometry, RollGeometry)
 
@@ -176,9 +175,9 @@ def test_files_of_the_package_say_where_they_are_from(checkout):
         file = load_vehicle(str(path))
         assert file.source
         assert file == load_vehicle(name)
-        assert set(file.bounds) <= set(file.vehicle.coefficients(file.struts))
+        assert set(file.bounds) <= set(file.vehicle.coefficients(file.setting))
         assert all(
-            low <= file.vehicle.coefficients(file.struts)[key] <= b for key, (low, b) in file.bounds.items()
+            low <= file.vehicle.coefficients(file.setting)[key] <= b for key, (low, b) in file.bounds.items()
         )
 
 
@@ -198,7 +197,7 @@ def test_seats_and_bending(tmp_path):
     bends = FlexibleBody(frequencies=(18.0, 25.5), damping_ratios=(0.02, 0.03), shapes=shapes).on(car)
     seat = Seat(name="driver", mass=60.0, spring=8000.0, damper=500.0, position=(0.1, 0.0))
     assert file.vehicle == seat.on(bends)
-    assert file.struts == {"front.spring": 2e4, "front.damper": 1e3, "rear.spring": 2.2e4, "rear.damper": 1.1e3}
+    assert file.setting == {"front.spring": 2e4, "front.damper": 1e3, "rear.spring": 2.2e4, "rear.damper": 1.1e3}
     assert file.bounds == {"rear.spring": (1e4, 4e4), "driver.damper": (100.0, 1000.0)}
 
 
@@ -382,7 +381,7 @@ def test_whatever_the_text_of_a_file_it_is_read_or_refused(tmp_path_factory, tex
     content = text if isinstance(text, bytes) else text.encode(errors="surrogatepass")
     path = written(tmp_path_factory.getbasetemp(), content)
     try:
-        load_vehicle(str(path)).vehicle.assembly()
+        load_vehicle(path).vehicle.plant()
         refusal = f"{path}: "
     except ValueError as error:
         refusal = str(error)

@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 from garage import BENDING, DRIVER, FULL, HALF, PASSENGER, QUARTER, axle_struts, axles, inertias, lengths, masses
 from suspension_ctrl import FullCar, Payload, RollGeometry, Seat
 from suspension_ctrl.vehicles.assembly import GRAVITY
-from suspension_ctrl.vehicles.handling import Mechanics
 from suspension_ctrl.vehicles.vehicle import Vehicle
 
 GEOMETRY = RollGeometry(roll_arm=0.5, front_roll_centre=0.05, rear_roll_centre=0.12, wheel_centre=0.31)
@@ -82,7 +81,7 @@ def cars(draw: st.DrawFn) -> tuple[FullCar, dict, RollGeometry]:
 def test_roll_gradient_and_load_transfer_are_those_by_hand(case):
     """Solved directly to some 1e-13 of conditions up to 1e3; where it leans less than it falls over."""
     car, struts, geometry = case
-    mechanics, values = Mechanics.of(car.assembly()), coefficients(car, struts)
+    mechanics, values = car.statics, coefficients(car, struts)
     levers = {"front": car.cg_to_rear, "rear": car.cg_to_front}
     weights = {axle: car.body_mass * GRAVITY * lever / sum(levers.values()) for axle, lever in levers.items()}
     roll, share = cornering(car, struts, geometry, car.body_mass, weights)
@@ -96,7 +95,7 @@ def test_with_stiff_tyres_and_low_roll_centres_the_gradient_is_the_textbook_s():
     struts = {"front": (2e4, 1500.0), "rear": (2e4, 1500.0), "front_antiroll": 1e4, "rear_antiroll": 0.0}
     stiffness = sum(axle_stiffness(car, axle, struts) for axle in ("front", "rear"))
     moment = car.body_mass * GRAVITY * GEOMETRY.roll_arm
-    found = Mechanics.of(car.assembly()).roll_gradient(coefficients(car, struts), GEOMETRY)
+    found = car.statics.roll_gradient(coefficients(car, struts), GEOMETRY)
     np.testing.assert_allclose(found, np.degrees(moment / (stiffness - moment)), rtol=1e-5)
 
 
@@ -106,7 +105,7 @@ def test_a_body_that_topples_leans_by_180_degrees():
     struts = [{"front": (k, 1500.0), "rear": (k, 1500.0)} for k in (2e3, 8e4)]
     rows = np.vstack([coefficients(car, strut) for strut in struts])
     high = replace(GEOMETRY, roll_arm=1.0)
-    soft, stiff = Mechanics.of(car.assembly()).roll_gradient(rows, high)
+    soft, stiff = car.statics.roll_gradient(rows, high)
     assert soft == 180.0
     assert 0 < stiff < 180
 
@@ -123,7 +122,7 @@ def test_what_is_carried_counts_where_it_is(case, mass, x, y, seated):
         loaded = Seat(mass=mass, spring=1e4, damper=500.0, position=(x, y)).on(car)
     else:
         loaded = Payload(mass=mass, position=(x, y)).on(car)
-    mechanics, values = Mechanics.of(loaded.assembly()), coefficients(loaded, struts)
+    mechanics, values = loaded.statics, coefficients(loaded, struts)
     wheelbase = car.cg_to_front + car.cg_to_rear
     levers = {"front": (car.cg_to_rear, x + car.cg_to_rear), "rear": (car.cg_to_front, car.cg_to_front - x)}
     weights = {axle: GRAVITY * (car.body_mass * own + mass * of) / wheelbase for axle, (own, of) in levers.items()}
@@ -136,7 +135,7 @@ def test_what_is_carried_counts_where_it_is(case, mass, x, y, seated):
 
 def test_a_bar_takes_load_transfer_to_its_axle():
     struts = {"front": (2e4, 1500.0), "rear": (2e4, 1500.0)}
-    mechanics = Mechanics.of(FULL.assembly())
+    mechanics = FULL.statics
 
     def share(**bar: float) -> float:
         return float(mechanics.front_load_transfer(coefficients(FULL, struts | bar), GEOMETRY)[0])
@@ -164,15 +163,13 @@ VEHICLES = {
 @pytest.mark.parametrize("name", VEHICLES)
 def test_static_loads_sum_to_the_weight(name):
     car, struts, mass = VEHICLES[name]
-    loads = Mechanics.of(car.assembly()).static_loads(coefficients(car, struts))
+    loads = car.statics.static_loads(coefficients(car, struts))
     assert loads.sum() == pytest.approx(mass * GRAVITY, rel=1e-10)
     assert (loads > 0).all()
 
 
 def test_static_loads_of_a_half_car_follow_the_lever_rule():
-    loads = Mechanics.of(HALF.assembly()).static_loads(
-        coefficients(HALF, {"front": (2e4, 1.0), "rear": (1e4, 1.0)})
-    )
+    loads = HALF.statics.static_loads(coefficients(HALF, {"front": (2e4, 1.0), "rear": (1e4, 1.0)}))
     expected = [(650 * 1.5 / 2.7 + 40) * GRAVITY, (650 * 1.2 / 2.7 + 45) * GRAVITY]
     np.testing.assert_allclose(loads, [expected], rtol=1e-10)
 
@@ -181,7 +178,7 @@ def test_static_loads_of_a_full_car_with_a_seat_balance_moments():
     """About both axes; what left and right carry of it depends on the springs."""
     car = DRIVER.on(FULL)
     struts = {"front": (2e4, 1.0), "rear": (1e4, 1.0), "front_antiroll": 5e3}
-    loads = Mechanics.of(car.assembly()).static_loads(coefficients(car, struts))[0]
+    loads = car.statics.static_loads(coefficients(car, struts))[0]
     wheels = GRAVITY * np.array([40, 40, 45, 45])
     x, y = FULL.contact_points.T
     assert loads @ x == pytest.approx(wheels @ x + 80 * GRAVITY * 0.3, rel=1e-9)
@@ -194,9 +191,9 @@ def test_roll_damping_is_that_of_the_closed_model(case):
     """Of the modes of python-control, the one whose velocities have the most energy in roll."""
     car, struts, _ = case
     closed = car.closed(struts)
-    found = Mechanics.of(car.assembly()).roll_damping(coefficients(car, struts))[0]
-    energies = np.diag(car.assembly().mass_matrix())
-    roll = car.assembly().coordinates.index("roll")
+    found = car.statics.roll_damping(coefficients(car, struts))[0]
+    energies = np.diag(car.assembly.mass_matrix)
+    roll = car.assembly.coordinates.index("roll")
     poles, vectors = np.linalg.eig(closed.A)
     kinetic = energies[:, None] * np.abs(vectors[1::2]) ** 2
     pole = poles[(kinetic[roll] / kinetic.sum(axis=0)).argmax()]
@@ -214,20 +211,20 @@ def test_roll_damping_on_stiff_tyres_is_that_of_one_mass():
     )  # fmt: skip
     struts = {"front": (2e4, 800.0), "rear": (2e4, 800.0), "front_antiroll": 1e4, "rear_antiroll": 1e4}
     k, c = 4 * 2e4 * 0.75**2 + 2e4, 4 * 800.0 * 0.75**2
-    found = Mechanics.of(car.assembly()).roll_damping(coefficients(car, struts))
+    found = car.statics.roll_damping(coefficients(car, struts))
     np.testing.assert_allclose(found, [c / (2 * np.sqrt(480.0 * k))], rtol=1e-5)
 
 
 def test_roll_that_creeps_has_damping_1():
     struts = {"front": (2e3, 6e3), "rear": (2e3, 6e3)}
-    assert Mechanics.of(FULL.assembly()).roll_damping(coefficients(FULL, struts)).tolist() == [1.0]
+    assert FULL.statics.roll_damping(coefficients(FULL, struts)).tolist() == [1.0]
 
 
 def test_designs_are_worked_out_together_as_alone():
     rng = np.random.default_rng(0)
     rows = np.vstack([coefficients(FULL, {"front": (k, 1500.0), "rear": (2e4, c)})
                       for k, c in rng.uniform((1e4, 1e3), (3e4, 3e3), (6, 2))])  # fmt: skip
-    mechanics = Mechanics.of(FULL.assembly())
+    mechanics = FULL.statics
     for function in (
         mechanics.static_loads,
         mechanics.roll_damping,

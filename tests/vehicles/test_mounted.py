@@ -212,9 +212,10 @@ def test_rejects_names_of_seats_that_are_taken(car, name):
         Seat(**SEAT, name=name).on(DRIVER.on(car))
 
 
-def test_rejects_the_name_of_a_road():
-    with pytest.raises(ValueError, match=r"^name must be one that the vehicle does not have yet, got 'road'$"):
-        Seat(**SEAT, name="road").on(QUARTER)
+@pytest.mark.parametrize("name", ["responses", "road", "speed"])
+def test_rejects_the_names_of_keywords(name):
+    with pytest.raises(ValueError, match=rf"^name must not be called responses, road, speed, got '{name}'$"):
+        Seat(**SEAT, name=name)
 
 
 BODY = {"frequencies": [5.0], "damping_ratios": [0.02], "shapes": dict.fromkeys(CORNERS, (0.01,))}

@@ -20,6 +20,7 @@ from ..quantities import column_headers, signal_unit
 from ..response import figures, responses, weightings
 from ..response.figures import DesignCurves
 from ..response.problem import RideProblem
+from ..vehicles.vehicle import assembled
 from . import results, terminal
 
 LOWEST = 0.1  # Hz, of a band from 0 on
@@ -117,7 +118,7 @@ def design_curves(
     problem: RideProblem, label: str, values: list[float], shown: list[str], points: int
 ) -> DesignCurves:
     case = problem.cases[0]
-    closed = case.vehicle.with_struts(settings_of(problem, values), shown)
+    closed = case.vehicle.closed(settings_of(problem, values), responses=shown)
     f = frequencies(problem.band, points)
     densities = responses.response_psds(closed, f, case.cross_spectrum(f))
     factor = weightings.by_name(problem.weighting).factor(f)
@@ -130,7 +131,7 @@ def design_curves(
 
 
 def natural_frequencies(problem: RideProblem, label: str, values: list[float]) -> pd.DataFrame:
-    modes = problem.cases[0].vehicle.modes(settings_of(problem, values))
+    modes = assembled(problem.cases[0].vehicle).modes(settings_of(problem, values))
     swinging = modes[modes["damping ratio [-]"] < 1]
     shown = swinging.rename(columns={"name": "mode", "frequency [Hz]": "natural frequency [Hz]"})
     shown.insert(0, "design", label)

@@ -119,6 +119,6 @@ def chosen(
         raise ValueError(f"vehicle must be a file with bounds, got {vehicle!r}")
     if "bounds" not in settings:
         changes["bounds"] = file.bounds
-    struts = file.vehicle.coefficients(file.struts)
+    struts = file.vehicle.coefficients(file.setting)
     fixed = {name: value for name, value in struts.items() if name not in changes["bounds"]}
     return papers.replace(vehicle=file.vehicle, struts=fixed, **changes), struts

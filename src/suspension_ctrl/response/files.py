@@ -13,9 +13,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ..documents import Table, keyed, naming, read_toml, under
+from ..documents import Table, keyed, made, naming, read_toml, under
 from ..roads.files import load_road
-from ..vehicles.files import VehicleFile, load_vehicle, read_bounds, read_roll_geometry, read_struts, with_seats
+from ..vehicles.files import VehicleFile, load_vehicle, read_bounds, read_roll_geometry, read_setting, with_seats
 from ..vehicles.mounted import Payload
 from ..vehicles.vehicle import Vehicle
 from . import weightings
@@ -28,7 +28,6 @@ _KEYS = (
     "title", "measures", "constraints", "weighting", "band_Hz", "worst_case", "bounds", "struts", "seats", "cases",
 )  # fmt: skip
 _CASE = ("vehicle", "road", "speed_m_per_s", "share", "payload", "roll_geometry")
-_PAYLOAD = {"mass_kg": "mass", "position_m": "position"}
 
 
 def load_problem(path: Path) -> RideProblem:
@@ -77,7 +76,7 @@ def _bounds_and_struts(
     bounds = read_bounds(table.table("bounds").flat(), vehicle) if own else dict(file.bounds)
     if not bounds:
         raise ValueError("bounds must be given, one at least, where the first case's vehicle has none, got none")
-    struts = read_struts(table.table("struts").flat(), vehicle) if "struts" in table.content else file.struts
+    struts = read_setting(table.table("struts").flat(), vehicle) if "struts" in table.content else file.setting
     return bounds, {name: value for name, value in struts.items() if name not in bounds}
 
 
@@ -107,10 +106,8 @@ def _case(table: Table, case: Table, folder: Path) -> tuple[VehicleFile, LoadCas
         road = load_road(names["road"])
     vehicle = with_seats(file.vehicle, table)
     for load in case.tables("payload"):
-        load.check_keys(_PAYLOAD, ["mass_kg"])
-        with keyed(load.name, _PAYLOAD):
-            position = load.pair("position_m") if "position_m" in load.content else (0.0, 0.0)
-            vehicle = Payload(mass=load.number("mass_kg"), position=position).on(vehicle)
+        with keyed(load.name, {"position_m": "position"}):
+            vehicle = made(load, Payload).on(vehicle)
     with keyed(case.name, {"speed_m_per_s": "speed", "share": "share"}):
         return file, LoadCase(
             vehicle=vehicle,

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..quantities import Real
 from ..vehicles.handling import Mechanics, RollGeometry
-from ..vehicles.vehicle import Settings
+from ..vehicles.vehicle import Setting, assembled
 from .load_case import LoadCase, RideCase, ride_case
 from .many_struts import StrutBlock
 from .measures import Measure, Term
@@ -51,13 +51,12 @@ class Judge:
         cases: Sequence[LoadCase],
         scores: Sequence[Score],
         variables: Mapping[str, float],
-        fixed: Settings,
+        fixed: Setting,
         band: tuple[float, float],
     ) -> None:
         self.cases, self.scores, self.variables, self.band = cases, scores, variables, band
         self.coefficients = [case.vehicle.coefficients({**fixed, **variables}) for case in cases]
         self._ready: dict[int, tuple[RideCase, ...]] = {}
-        self._mechanics: dict[int, Mechanics] = {}
         for name in {score.measures[0].handling for score in scores} - {"", "roll_damping"}:
             for case in cases:
                 _geometry(case, name)
@@ -136,18 +135,16 @@ class Judge:
         )
 
     def _statics(self, c: int) -> Mechanics:
-        if c not in self._mechanics:
-            self._mechanics[c] = Mechanics.of(self.cases[c].vehicle.assembly())
-        return self._mechanics[c]
+        return assembled(self.cases[c].vehicle).statics
 
     def _static_load(self, c: int, term: Term) -> float:
         """Return the load of the term's tyre on level ground [N], on struts in the middle of their range.
 
         Of a vehicle with left and right alike that is its load on any struts.
         """
-        assembly, mechanics = self.cases[c].vehicle.assembly(), self._statics(c)
+        vehicle, mechanics = self.cases[c].vehicle, self._statics(c)
         loads = mechanics.static_loads(np.array([list(self.coefficients[c].values())]))[0]
-        return float(loads[mechanics.tyres.index(str(assembly.responses[str(term.response)].where))])
+        return float(loads[mechanics.tyres.index(str(vehicle.meanings[str(term.response)].where))])
 
     def _handling(self, designs: Real, score: Score) -> Real:
         """Return a measure of handling (p,): its mean over the cases by their shares, or the worst."""

@@ -22,7 +22,8 @@ from dataclasses import dataclass
 from .. import checks
 from ..quantities import signal_unit
 from ..vehicles.assembly import ResponseName, label
-from ..vehicles.vehicle import Vehicle
+from ..vehicles.handling import check_cornering
+from ..vehicles.vehicle import Vehicle, assembled
 from . import weightings
 from .weightings import Weighting
 
@@ -88,10 +89,9 @@ def measure(text: str, vehicle: Vehicle, weighting: Weighting | None) -> Measure
     sign = -1.0 if body.startswith("-") else 1.0
     body = body.removeprefix("-").strip()
     if body in HANDLING or body.startswith("DLC"):
-        vehicle.assembly()  # whether its masses are known
+        assembled(vehicle)
     if body in HANDLING:
-        if "roll" not in (coordinates := vehicle.assembly().coordinates):
-            raise ValueError(f"{body} must be of a vehicle that rolls, got one with {', '.join(coordinates)}")
+        check_cornering(body, assembled(vehicle).assembly)
         return Measure(name, HANDLING[body], sign=sign, handling=body)
     kind, _, where = body.partition(" ")
     if kind in _KINDS:

@@ -5,11 +5,10 @@ from typing import NamedTuple, Protocol
 
 import control
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from ..quantities import Complex, Real
 from ..vehicles.assembly import ResponseName, StrutParameter
-from ..vehicles.vehicle import around, check_measured
+from ..vehicles.feedback import around
 
 
 class Plant(Protocol):
@@ -73,8 +72,5 @@ class Ports(NamedTuple):
 
 
 def _response(plant: control.StateSpace | control.FrequencyResponseData, omega: Real) -> Complex:
-    """Return the frequency response (outputs, inputs, n), of a table by the spline that python-control has."""
-    if isinstance(plant, control.StateSpace):
-        return plant.frequency_response(omega, squeeze=False).frdata
-    check_measured(omega, plant.omega)
-    return np.asarray(CubicSpline(plant.omega, plant.frdata, axis=2)(omega))
+    """Return the frequency response (outputs, inputs, n)."""
+    return plant.frequency_response(omega, squeeze=False).frdata

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from .. import checks
 from ..quantities import FrozenMapping, Real, Record
-from ..vehicles.vehicle import Settings, Vehicle
+from ..vehicles.vehicle import Setting, Vehicle
 from .judges import NODES, RESOLVED, Judge, Score
 from .limits import limit
 from .load_case import LoadCase, Road
@@ -75,7 +75,7 @@ class RideProblem(Record):
 
     cases: tuple[LoadCase, ...]
     bounds: Mapping[str, tuple[float, float]]
-    struts: Settings
+    struts: Setting
     weighting: Weighting | None
     band: tuple[float, float]
     measures: tuple[str, ...]
@@ -94,7 +94,7 @@ class RideProblem(Record):
         lower: Sequence[float] = (),
         upper: Sequence[float] = (),
         bounds: Mapping[str, tuple[float, float]] | None = None,
-        struts: Settings | None = None,
+        struts: Setting | None = None,
         measures: Sequence[str] = ("ACC", "SWS", "DTL"),
         constraints: Sequence[str] = (),
         cases: Sequence[LoadCase] = (),
@@ -286,7 +286,7 @@ def _checked_bounds(
     bounds: Mapping[str, tuple[float, float]] | None,
     lower: Sequence[float],
     upper: Sequence[float],
-    fixed: Settings,
+    fixed: Setting,
 ) -> FrozenMapping[str, tuple[float, float]]:
     """Return the bounds by name, with `lower` and `upper` (d,) in place of theirs where given."""
     known = {parameter.name: parameter for parameter in vehicle.parameters}

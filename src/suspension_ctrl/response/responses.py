@@ -9,7 +9,7 @@ import numpy as np
 from .. import checks
 from ..quantities import Complex, Real, signal_unit
 from ..vehicles.assembly import ResponseName
-from ..vehicles.vehicle import Settings, Vehicle
+from ..vehicles.vehicle import Setting, Vehicle
 from .judges import NODES, RESOLVED, Judge, Score
 from .load_case import LoadCase, Road
 from .measures import Measure, Term, measure
@@ -24,7 +24,7 @@ _LOWEST = np.array([1e-3, 2e-3])
 
 def ride(
     vehicle: Vehicle,
-    setting: Settings | tuple[float, float],
+    setting: Setting | tuple[float, float],
     road: Road,
     speed: float,
     *,
@@ -68,7 +68,7 @@ def ride(
     judged = [measure(text, vehicle, known) for text in measures]
     own = {one.name for one in judged}
     judged += [Measure(name, signal_unit(name), (Term(name),)) for name in vehicle.responses if name not in own]
-    values = vehicle.coefficients(setting if isinstance(setting, Mapping) else {"": setting})
+    values = vehicle.coefficients(setting)
     judge = Judge([case], [Score((one,), False, one.sign) for one in judged], values, {}, band)
     design = np.array([list(values.values())])
     diverging = _diverging(case, values, judge.terms[0]) if band[0] == 0 else set()
@@ -79,10 +79,10 @@ def ride(
     return pd.DataFrame({"value": found, "unit": [one.unit for one in judged], "note": notes}, index=index)
 
 
-def _diverging(case: LoadCase, setting: Settings, terms: Iterable[Term]) -> set[ResponseName]:
+def _diverging(case: LoadCase, setting: Setting, terms: Iterable[Term]) -> set[ResponseName]:
     """Return the responses whose spectrum rises towards 0 Hz as 1/f or faster."""
     responses = list(dict.fromkeys(term.response for term in terms))
-    closed = case.vehicle.with_struts(setting, responses)
+    closed = case.vehicle.closed(setting, responses=responses)
     spectra = np.array(list(response_psds(closed, _LOWEST, case.cross_spectrum(_LOWEST)).values()))
     rising = spectra[:, 0] >= spectra[:, 1] * _LOWEST[1] / _LOWEST[0]
     return {name for name, is_rising in zip(responses, rising & (spectra[:, 0] > 0), strict=True) if is_rising}

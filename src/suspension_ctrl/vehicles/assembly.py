@@ -4,18 +4,32 @@ Axes as in ISO 8855: x forward, y to the left, z up from the centre of gravity o
 down, roll positive left side up. Deflections are positive in extension, forces in tension.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 import control
 import numpy as np
-from numpy.typing import NDArray
 
 from .. import checks
+from ..quantities import FrozenMapping, Real, Record, frozen_array, unit
+
+Position = tuple[float, float]
+"""A point (x, y) of the body [m]."""
 
 ResponseName = str | tuple[str, float, float]
 """One of a vehicle's named responses, or ``("acceleration", x, y)``, vertical, at a point of the body."""
+
+End = str | Position | None
+"""Where a link ends: a coordinate or a road by name, a point of the body, or the inertial frame."""
+
+GRAVITY = 9.80665
+"""Standard acceleration of gravity [m/s^2]."""
+
+_RESERVED = ("responses", "road", "speed")
+"""Keywords beside which struts are given by name."""
+_SAME_PLACE = 1e-3  # m
 
 
 def label(response: ResponseName) -> str:
@@ -30,19 +44,15 @@ def joined(*parts: str) -> str:
     return "_".join(part for part in parts if part)
 
 
-Position = tuple[float, float]
-"""A point (x, y) of the body [m]."""
-
-End = str | Position | None
-"""Where a link ends: a coordinate or a road by name, a point of the body, or nothing that moves."""
-
-_SAME_PLACE = 1e-3  # m
-GRAVITY = 9.80665
-"""Standard acceleration of gravity [m/s^2]."""
+def check_strut_names(parameter: str, names: Iterable[str]) -> None:
+    """Raise ValueError if a strut has the name of another keyword."""
+    for name in names:
+        if name in _RESERVED:
+            raise ValueError(f"{parameter} must not be called {', '.join(_RESERVED)}, got {name!r}")
 
 
 class Link(NamedTuple):
-    """A spring [N/m] and a damper [N s/m] in parallel between two ends; as a strut only its ends count."""
+    """A spring [N/m] and a damper [N s/m] in parallel between two ends; of a strut only the ends count."""
 
     name: str
     lower: End
@@ -51,45 +61,49 @@ class Link(NamedTuple):
     damping: float = 0.0
 
 
-class StrutParameter(NamedTuple):
-    """A coefficient of the struts, by name.
-
-    Parameters
-    ----------
-    name, unit : str
-    gain : (q, q) ndarray
-        Tension of each strut by deflection of each (`order` 0) or its rate (`order` 1), at a coefficient of 1.
-    order : int
-    default : float, optional
-        What it is where it is not given; it has to be given if None.
-    """
-
-    name: str
-    unit: str
-    gain: NDArray[np.float64]
-    order: int
-    default: float | None = None
-
-
 class Response(NamedTuple):
-    """What is to be known of a vehicle: ``acceleration`` of an end, ``travel`` of a strut, ``load`` of a tyre."""
+    """The ``acceleration`` of an end, ``travel`` of a strut or ``load`` of a tyre; ``signal``: of unknown kind."""
 
     kind: str
     where: End
 
 
-@dataclass(frozen=True, kw_only=True)
-class Assembly:
-    """A vehicle taken apart.
+@dataclass(frozen=True, eq=False, repr=False)
+class StrutParameter(Record):
+    """A coefficient of the struts.
+
+    Parameters
+    ----------
+    name, unit : str
+    gain : (q, q) array_like
+        Tension of each strut by deflection of each (`order` 0) or its rate (`order` 1), at a coefficient of 1.
+    order : int
+    default : float, optional
+        Value of a coefficient that is not given; required if None.
+    """
+
+    name: str
+    unit: str
+    gain: Real
+    order: int
+    default: float | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "gain", frozen_array(self.gain))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Assembly(Record):
+    """The masses and links of a vehicle.
 
     Parameters
     ----------
     masses : mapping of str to float
-        Coordinates that move up and down, and what weighs on them [kg]; ``body`` is the body's centre of gravity.
+        Coordinates that move vertically, and their masses [kg]; ``body`` is the body's centre of gravity.
     inertias : mapping of str to float
-        The others: ``pitch`` and ``roll`` [kg m^2] and elastic modes, whose modal mass is 1 [-].
+        The others: ``pitch`` and ``roll`` [kg m^2] and elastic modes, of modal mass 1 [-].
     contacts : mapping of str to Position
-        Where each road input touches the ground.
+        Where each road touches the tyre.
     tyres : sequence of Link
         From a road to a wheel.
     struts : sequence of Link
@@ -101,45 +115,61 @@ class Assembly:
         By point of the body, the share of each elastic mode in its displacement [kg^-1/2]; empty if rigid.
     payload : sequence of (float, Position)
         Masses fixed to points of the body [kg].
+
+    Raises
+    ------
+    ValueError
+        If a strut or a payload is at a point of the body without mode shapes, or a strut is called as a keyword.
     """
 
-    masses: Mapping[str, float]
-    inertias: Mapping[str, float] = field(default_factory=dict)
-    contacts: Mapping[str, Position]
-    tyres: Sequence[Link]
-    struts: Sequence[Link]
-    parameters: Sequence[StrutParameter]
+    masses: Mapping[str, float] = field(metadata=unit("kg"))
+    inertias: Mapping[str, float] = field(default_factory=lambda: FrozenMapping[str, float]({}))
+    contacts: Mapping[str, Position] = field(metadata=unit("m"))
+    tyres: tuple[Link, ...]
+    struts: tuple[Link, ...]
+    parameters: tuple[StrutParameter, ...]
     responses: Mapping[str, Response]
-    supports: Sequence[Link] = ()
-    bending: Mapping[Position, Mapping[str, float]] = field(default_factory=dict)
-    payload: Sequence[tuple[float, Position]] = ()
+    supports: tuple[Link, ...] = ()
+    bending: Mapping[Position, Mapping[str, float]] = field(default_factory=lambda: FrozenMapping({}))
+    payload: tuple[tuple[float, Position], ...] = ()
 
-    @property
-    def coordinates(self) -> list[str]:
+    def __post_init__(self) -> None:
+        for name in ("masses", "inertias", "contacts", "responses", "bending"):
+            object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
+        for name in ("tyres", "struts", "parameters", "supports", "payload"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
+        check_strut_names("struts", (strut.name for strut in self.struts))
+        for end in (*(end for strut in self.struts for end in strut[1:3]), *(place for _, place in self.payload)):
+            if isinstance(end, tuple):
+                self._bending_at(end)
+
+    @cached_property
+    def coordinates(self) -> tuple[str, ...]:
         """Names of the coordinates."""
-        return [*self.masses, *self.inertias]
+        return (*self.masses, *self.inertias)
 
-    def mass_matrix(self) -> NDArray[np.float64]:
-        """Return the masses and inertias (n, n) of the coordinates, payload included."""
+    @cached_property
+    def mass_matrix(self) -> Real:
+        """Masses and inertias (n, n) of the coordinates, payload included."""
         matrix = np.diag(np.array([*self.masses.values(), *self.inertias.values()], dtype=float))
         for mass, position in self.payload:
             matrix += mass * np.outer(self.shape(position), self.shape(position))
-        return matrix
+        return frozen_array(matrix)
 
-    def weights(self) -> NDArray[np.float64]:
-        """Return the mass that weighs on each coordinate (n,): kg, or kg m where it turns the body."""
+    @cached_property
+    def weights(self) -> Real:
+        """Mass that loads each coordinate by gravity (n,): kg, or kg m of one that turns the body."""
         weights = np.array([self.masses.get(name, 0.0) for name in self.coordinates])
-        return weights + sum(
-            (mass * self.shape(position) for mass, position in self.payload), np.zeros_like(weights)
-        )
+        return frozen_array(weights + sum(mass * self.shape(position) for mass, position in self.payload))
 
+    @property
     def sprung_mass(self) -> float:
-        """Return the mass of all that the wheels carry, payload included [kg]."""
+        """Mass carried by the wheels, payload included [kg]."""
         wheels = [tyre.upper for tyre in self.tyres]
         carried = sum(mass for name, mass in self.masses.items() if name not in wheels)
         return carried + sum(mass for mass, _ in self.payload)
 
-    def shape(self, end: End) -> NDArray[np.float64]:
+    def shape(self, end: End) -> Real:
         """Return the share (n,) of each coordinate in the displacement of an end."""
         shares: Mapping[str, float] = {}
         if isinstance(end, str):
@@ -149,14 +179,14 @@ class Assembly:
         return np.array([shares.get(name, 0.0) for name in self.coordinates])
 
     def _bending_at(self, position: Position) -> Mapping[str, float]:
-        if not self.bending:
-            return {}
         for known, shares in self.bending.items():
             if np.hypot(known[0] - position[0], known[1] - position[1]) < _SAME_PLACE:
                 return shares
-        raise ValueError(f"position must be one with known mode shapes, {list(self.bending)}, got {position}")
+        if self.bending:
+            raise ValueError(f"position must be one with known mode shapes, {list(self.bending)}, got {position}")
+        return {}
 
-    def elongations(self, links: Sequence[Link]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def elongations(self, links: Sequence[Link]) -> tuple[Real, Real]:
         """Return the elongation of links by unit of each coordinate (l, n) and by metre of each road (l, r)."""
         by_coordinate = [self.shape(link.upper) - self.shape(link.lower) for link in links]
         by_road = [[-float(link.lower == road) for road in self.contacts] for link in links]
@@ -166,72 +196,70 @@ class Assembly:
         )
 
     def plant(self, responses: Sequence[ResponseName]) -> control.StateSpace:
-        """Return the vehicle without its struts.
+        """Return the vehicle without its struts; `Vehicle.plant` names the inputs and outputs.
 
         With coordinates z and roads x, links of stiffness k and damping c that are E z + R x longer, and struts
         under tensions F that are P z longer, the masses M move by
         ``M z'' = -E^T (k (E z + R x) + c (E z' + R x')) - P^T F``.
 
-        Parameters
-        ----------
-        responses : sequence of str or tuple
-            Which responses, in which order.
-
-        Returns
-        -------
-        control.StateSpace
-            Inputs: roads [m], where a tyre is damped their rates [m/s], struts [N]; outputs: the responses,
-            deflections [m] of the struts and their rates [m/s].
-
         Raises
         ------
         ValueError
-            If a response is none of the vehicle's, or there twice.
+            If a response is unknown, or given twice.
         """
-        links = [*self.tyres, *self.supports]
-        e, road = self.elongations(links)
-        p, _ = self.elongations(self.struts)
-        k, c = (np.array([getattr(link, name) for link in links]) for name in ("stiffness", "damping"))
         n, r, q = len(self.coordinates), len(self.contacts), len(self.struts)
-        # columns: coordinates, their rates, roads, their rates, struts
-        tension = np.hstack([k[:, None] * e, c[:, None] * e, k[:, None] * road, c[:, None] * road])
-        inverse = np.linalg.inv(self.mass_matrix())
-        motion = -inverse @ np.hstack([e.T @ tension, p.T])
-        rows = {
-            "travel": np.pad(p, ((0, 0), (0, n + 2 * r + q))),
-            "load": np.pad(tension[: len(self.tyres)], ((0, 0), (0, q))),
-        }
-        outputs = {}
-        for name, (kind, where) in self.resolved(responses).items():
-            if kind == "acceleration":
-                outputs[label(name)] = self.shape(where) @ motion
-            else:
-                outputs[label(name)] = rows[kind][_index(self.struts if kind == "travel" else self.tyres, where)]
-        for strut, row in zip(self.struts, p, strict=True):
-            outputs[joined(strut.name, "deflection")] = np.pad(row, (0, n + 2 * r + q))
-        for strut, row in zip(self.struts, p, strict=True):
-            outputs[joined(strut.name, "deflection_rate")] = np.pad(row, (n, 2 * r + q))
+        motion, tension = self._motion()
+        outputs = self._outputs(responses, motion, tension)
         if len(outputs) < len(responses) + 2 * q:
             raise ValueError(f"responses must differ, points by a millimetre or more, got {list(responses)}")
-        read = np.array(list(outputs.values()))
-        kept = np.arange(2 * n, 2 * n + 2 * r + q)
-        rates = [f"{name}_rate" for name in self.contacts]
-        if not (c[:, None] * road).any():
-            kept, rates = np.delete(kept, slice(r, 2 * r)), []
+        damped = tension[: len(self.tyres), 2 * n + r : 2 * n + 2 * r].any()
+        kept = np.delete(np.arange(2 * n, 2 * n + 2 * r + q), [] if damped else slice(r, 2 * r))
         states = np.arange(2 * n).reshape(2, n).T.ravel()  # a coordinate and its rate beside each other
-        moved = np.vstack([np.eye(n, 2 * n + 2 * r + q, n), motion])
+        moved, read = np.vstack([np.eye(n, 2 * n + 2 * r + q, n), motion]), np.array(list(outputs.values()))
         return control.ss(
             moved[np.ix_(states, states)],
             moved[np.ix_(states, kept)],
             read[:, states],
             read[:, kept],
             states=[f"{z}_{what}" for z in self.coordinates for what in ("displacement", "velocity")],
-            inputs=[*self.contacts, *rates, *(joined(strut.name, "strut") for strut in self.struts)],
+            inputs=[
+                *self.contacts,
+                *(f"{road}_rate" for road in self.contacts if damped),
+                *(joined(strut.name, "strut") for strut in self.struts),
+            ],
             outputs=list(outputs),
+            name="plant",
         )
 
+    def _motion(self) -> tuple[Real, Real]:
+        """Accelerations (n, c) and tensions of tyres and supports (l, c) by z, z', x, x' and F, c in all."""
+        links = [*self.tyres, *self.supports]
+        e, road = self.elongations(links)
+        p, _ = self.elongations(self.struts)
+        k, c = (np.array([getattr(link, name) for link in links])[:, None] for name in ("stiffness", "damping"))
+        tension = np.hstack([k * e, c * e, k * road, c * road])
+        inverse = np.linalg.inv(self.mass_matrix).astype(float)
+        motion = -inverse @ np.hstack([e.T @ tension, p.T])
+        return motion, np.pad(tension, ((0, 0), (0, len(p))))
+
+    def _outputs(self, responses: Sequence[ResponseName], motion: Real, tension: Real) -> dict[str, Real]:
+        """Rows (c,) of the responses, then of deflections and their rates, by label; columns as of `_motion`."""
+        p, _ = self.elongations(self.struts)
+        n, width = len(self.coordinates), motion.shape[1]
+        deflections, rates = np.pad(p, ((0, 0), (0, width - n))), np.pad(p, ((0, 0), (n, width - 2 * n)))
+        outputs = {}
+        for name, (kind, where) in self.resolved(responses).items():
+            if kind == "acceleration":
+                outputs[label(name)] = self.shape(where) @ motion
+            else:
+                links, rows = (self.struts, deflections) if kind == "travel" else (self.tyres, tension)
+                outputs[label(name)] = rows[[link.name for link in links].index(str(where))]
+        for end, rows in (("deflection", deflections), ("deflection_rate", rates)):
+            outputs |= {joined(strut.name, end): row for strut, row in zip(self.struts, rows, strict=True)}
+        return outputs
+
     def resolved(self, responses: Sequence[ResponseName]) -> dict[ResponseName, Response]:
-        """Return what each response is; ValueError for one that the vehicle does not have."""
+        """Return the meaning of each response; ValueError for one that the vehicle does not have."""
         found: dict[ResponseName, Response] = {}
         for name in responses:
             if isinstance(name, tuple) and len(name) == 3 and name[0] == "acceleration":
@@ -240,7 +268,3 @@ class Assembly:
                 checks.one_of("response", name, self.responses)
                 found[name] = self.responses[str(name)]
         return found
-
-
-def _index(links: Sequence[Link], where: End) -> int:
-    return [link.name for link in links].index(str(where))

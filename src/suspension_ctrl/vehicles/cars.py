@@ -1,17 +1,19 @@
 """Quarter, half and full car."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import NamedTuple
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
 
 import control
 
-from .assembly import Assembly, Link, Position, Response
-from .vehicle import Car, Vehicle, anti_roll_bar, check_parameters, spring_and_damper
+from ..quantities import Record, check_numbers, unit
+from .assembly import Assembly, Link, Position, Response, ResponseName, StrutParameter
+from .vehicle import AssembledVehicle, Pair, Setting, anti_roll_bar, spring_and_damper
 
 
-@dataclass(frozen=True, kw_only=True)
-class QuarterCar(Vehicle):
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class QuarterCar(Record, AssembledVehicle):
     """Two-degree-of-freedom quarter vehicle model [1]_, equations (1) and (2).
 
     Parameters
@@ -28,7 +30,7 @@ class QuarterCar(Vehicle):
     Raises
     ------
     ValueError
-        If a parameter is not finite and above zero; a tyre may have no damping.
+        If a parameter is not finite and above zero; the tyre's damping may be zero.
 
     References
     ----------
@@ -36,22 +38,23 @@ class QuarterCar(Vehicle):
        passive vehicle suspension optimization", 2010.
     """
 
-    body_mass: float
-    wheel_mass: float
-    tyre_stiffness: float
-    tyre_damping: float = 0.0
+    body_mass: float = field(metadata=unit("kg"))
+    wheel_mass: float = field(metadata=unit("kg"))
+    tyre_stiffness: float = field(metadata=unit("N/m"))
+    tyre_damping: float = field(default=0.0, metadata=unit("N s/m"))
 
     def __post_init__(self) -> None:
-        check_parameters(self)
+        check_numbers(self)
 
+    @cached_property
     def assembly(self) -> Assembly:
-        """Return the vehicle taken apart."""
+        """Its masses and links."""
         return Assembly(
             masses={"wheel": self.wheel_mass, "body": self.body_mass},
             contacts={"road": (0.0, 0.0)},
-            tyres=[Link("", "road", "wheel", self.tyre_stiffness, self.tyre_damping)],
-            struts=[Link("", "wheel", (0.0, 0.0))],
-            parameters=spring_and_damper("", [1.0]),
+            tyres=(Link("", "road", "wheel", self.tyre_stiffness, self.tyre_damping),),
+            struts=(Link("", "wheel", (0.0, 0.0)),),
+            parameters=tuple(spring_and_damper("", [1.0])),
             responses={
                 "body_acceleration": Response("acceleration", "body"),
                 "suspension_travel": Response("travel", ""),
@@ -59,35 +62,77 @@ class QuarterCar(Vehicle):
             },
         )
 
-    def closed(self, spring: float, damper: float) -> control.StateSpace:
-        """Return the vehicle with its strut.
+    def closed(
+        self,
+        setting: Setting | Pair | float | None = None,
+        damper: float | None = None,
+        /,
+        *,
+        responses: Sequence[ResponseName] | None = None,
+        **struts: Any,
+    ) -> control.StateSpace:
+        """Return the vehicle with its strut: ``closed(spring, damper)``, or as `Vehicle.closed`.
 
-        Parameters
-        ----------
-        spring : float
-            Spring stiffness K_s [N/m].
-        damper : float
-            Damping coefficient C_s [N s/m].
-
-        Returns
-        -------
-        control.StateSpace
-            From ``road`` [m] to ``body_acceleration`` [m/s^2], ``suspension_travel`` [m] and
-            ``tyre_load`` [N].
-
-        Raises
-        ------
-        ValueError
-            If a coefficient is not finite and above zero.
+        The spring stiffness K_s is in N/m, the damping coefficient C_s in N s/m.
         """
-        return self.with_struts({"spring": spring, "damper": damper})
+        if isinstance(setting, int | float):
+            setting, struts = None, {"spring": setting, **struts}
+        if damper is not None:
+            struts = {**struts, "damper": damper}
+        return super().closed(setting, responses=responses, **struts)
 
 
-@dataclass(frozen=True, kw_only=True)
-class HalfCar(Car):
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class _TwoAxleCar(Record, AssembledVehicle):
+    """A body on a front and a rear axle."""
+
+    body_mass: float = field(metadata=unit("kg"))
+    pitch_inertia: float = field(metadata=unit("kg m^2"))
+    front_wheel_mass: float = field(metadata=unit("kg"))
+    rear_wheel_mass: float = field(metadata=unit("kg"))
+    front_tyre_stiffness: float = field(metadata=unit("N/m"))
+    rear_tyre_stiffness: float = field(metadata=unit("N/m"))
+    cg_to_front: float = field(metadata=unit("m"))
+    cg_to_rear: float = field(metadata=unit("m"))
+    front_tyre_damping: float = field(default=0.0, metadata=unit("N s/m"))
+    rear_tyre_damping: float = field(default=0.0, metadata=unit("N s/m"))
+
+    def __post_init__(self) -> None:
+        check_numbers(self)
+
+    def _assembly(
+        self,
+        corners: Mapping[str, Position],
+        inertias: Mapping[str, float],
+        parameters: Sequence[StrutParameter],
+    ) -> Assembly:
+        """Return the body on a wheel under each of its corners, whose names begin with the axle's."""
+
+        def tyre(corner: str, axle: str) -> Link:
+            stiffness, damping = (getattr(self, f"{axle}_tyre_{what}") for what in ("stiffness", "damping"))
+            return Link(corner, f"{corner}_road", f"{corner}_wheel", stiffness, damping)
+
+        axles = {corner: corner.split("_")[0] for corner in corners}
+        wheels = {f"{corner}_wheel": getattr(self, f"{axle}_wheel_mass") for corner, axle in axles.items()}
+        accelerations = {f"{name}_acceleration": Response("acceleration", name) for name in ("body", *inertias)}
+        travels = {f"{corner}_suspension_travel": Response("travel", corner) for corner in corners}
+        loads = {f"{corner}_tyre_load": Response("load", corner) for corner in corners}
+        return Assembly(
+            masses={"body": self.body_mass, **wheels},
+            inertias=inertias,
+            contacts={f"{corner}_road": position for corner, position in corners.items()},
+            tyres=tuple(tyre(corner, axle) for corner, axle in axles.items()),
+            struts=tuple(Link(corner, f"{corner}_wheel", position) for corner, position in corners.items()),
+            parameters=tuple(parameters),
+            responses=accelerations | travels | loads,
+        )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class HalfCar(_TwoAxleCar):
     """Four-degree-of-freedom half car: heave and pitch of the body, a front and a rear wheel.
 
-    Masses and stiffnesses are those of what the model stands for: one side of a car, or a whole axle to a wheel.
+    Masses and stiffnesses are those of one side of a car, or of a car whose axles count as one wheel each.
 
     Parameters
     ----------
@@ -107,40 +152,21 @@ class HalfCar(Car):
     Raises
     ------
     ValueError
-        If a parameter is not finite and above zero; tyres may have no damping.
+        If a parameter is not finite and above zero; a tyre's damping may be zero.
     """
 
-    body_mass: float
-    pitch_inertia: float
-    front_wheel_mass: float
-    rear_wheel_mass: float
-    front_tyre_stiffness: float
-    rear_tyre_stiffness: float
-    cg_to_front: float
-    cg_to_rear: float
-    front_tyre_damping: float = 0.0
-    rear_tyre_damping: float = 0.0
-
-    def __post_init__(self) -> None:
-        check_parameters(self)
-
+    @cached_property
     def assembly(self) -> Assembly:
-        """Return the vehicle taken apart."""
-        corners = {"front": (self.cg_to_front, 0.0), "rear": (-self.cg_to_rear, 0.0)}
-        return Assembly(
-            masses={
-                "body": self.body_mass,
-                "front_wheel": self.front_wheel_mass,
-                "rear_wheel": self.rear_wheel_mass,
-            },
-            inertias={"pitch": self.pitch_inertia},
-            parameters=[*spring_and_damper("front", [1.0, 0.0]), *spring_and_damper("rear", [0.0, 1.0])],
-            **_Corners.of(self, corners, ("body", "pitch"))._asdict(),
+        """Its masses and links."""
+        return self._assembly(
+            {"front": (self.cg_to_front, 0.0), "rear": (-self.cg_to_rear, 0.0)},
+            {"pitch": self.pitch_inertia},
+            [*spring_and_damper("front", [1.0, 0.0]), *spring_and_damper("rear", [0.0, 1.0])],
         )
 
 
-@dataclass(frozen=True, kw_only=True)
-class FullCar(Car):
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class FullCar(_TwoAxleCar):
     """Seven-degree-of-freedom full car: heave, pitch and roll of the body, four wheels; left and right are alike.
 
     Parameters
@@ -164,7 +190,7 @@ class FullCar(Car):
     Raises
     ------
     ValueError
-        If a parameter is not finite and above zero; tyres may have no damping.
+        If a parameter is not finite and above zero; a tyre's damping may be zero.
 
     Notes
     -----
@@ -172,70 +198,25 @@ class FullCar(Car):
     track t, an angle: it pulls with k/t^2 times that difference on the one side and pushes on the other.
     """
 
-    body_mass: float
-    roll_inertia: float
-    pitch_inertia: float
-    front_wheel_mass: float
-    rear_wheel_mass: float
-    front_tyre_stiffness: float
-    rear_tyre_stiffness: float
-    cg_to_front: float
-    cg_to_rear: float
-    front_track: float
-    rear_track: float
-    front_tyre_damping: float = 0.0
-    rear_tyre_damping: float = 0.0
+    roll_inertia: float = field(metadata=unit("kg m^2"))
+    front_track: float = field(metadata=unit("m"))
+    rear_track: float = field(metadata=unit("m"))
 
-    def __post_init__(self) -> None:
-        check_parameters(self)
-
+    @cached_property
     def assembly(self) -> Assembly:
-        """Return the vehicle taken apart."""
-        half = {"front": self.front_track / 2, "rear": self.rear_track / 2}
-        place = {"front": self.cg_to_front, "rear": -self.cg_to_rear}
-        corners = {
-            f"{axle}_{side}": (place[axle], sign * half[axle])
-            for axle in ("front", "rear")
-            for side, sign in (("left", 1), ("right", -1))
+        """Its masses and links."""
+        place = {
+            "front": (self.cg_to_front, self.front_track / 2),
+            "rear": (-self.cg_to_rear, self.rear_track / 2),
         }
-        wheels = {f"{corner}_wheel": getattr(self, f"{corner.split('_')[0]}_wheel_mass") for corner in corners}
-        return Assembly(
-            masses={"body": self.body_mass, **wheels},
-            inertias={"roll": self.roll_inertia, "pitch": self.pitch_inertia},
-            parameters=[
+        sides = (("left", 1), ("right", -1))
+        return self._assembly(
+            {f"{axle}_{side}": (x, sign * y) for axle, (x, y) in place.items() for side, sign in sides},
+            {"roll": self.roll_inertia, "pitch": self.pitch_inertia},
+            [
                 *spring_and_damper("front", [1.0, 1.0, 0.0, 0.0]),
                 *spring_and_damper("rear", [0.0, 0.0, 1.0, 1.0]),
                 anti_roll_bar("front_antiroll", [1.0, -1.0, 0.0, 0.0], self.front_track),
                 anti_roll_bar("rear_antiroll", [0.0, 0.0, 1.0, -1.0], self.rear_track),
             ],
-            **_Corners.of(self, corners, ("body", "roll", "pitch"))._asdict(),
-        )
-
-
-class _Corners(NamedTuple):
-    """What a body on a wheel at each of its corners has: parts of an `Assembly`."""
-
-    contacts: Mapping[str, Position]
-    tyres: Sequence[Link]
-    struts: Sequence[Link]
-    responses: Mapping[str, Response]
-
-    @classmethod
-    def of(cls, vehicle: Vehicle, corners: Mapping[str, Position], body: Sequence[str]) -> "_Corners":
-        """Put wheels under the corners of a vehicle whose body has these coordinates."""
-
-        def tyre(corner: str) -> Link:
-            axle = corner.split("_")[0]
-            properties = (getattr(vehicle, f"{axle}_tyre_{what}") for what in ("stiffness", "damping"))
-            return Link(corner, f"{corner}_road", f"{corner}_wheel", *properties)
-
-        return cls(
-            contacts={f"{corner}_road": position for corner, position in corners.items()},
-            tyres=[tyre(corner) for corner in corners],
-            struts=[Link(corner, f"{corner}_wheel", position) for corner, position in corners.items()],
-            responses={
-                **{f"{coordinate}_acceleration": Response("acceleration", coordinate) for coordinate in body},
-                **{f"{corner}_suspension_travel": Response("travel", corner) for corner in corners},
-                **{f"{corner}_tyre_load": Response("load", corner) for corner in corners},
-            },
         )

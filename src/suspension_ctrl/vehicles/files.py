@@ -15,39 +15,36 @@ Only ``[struts]`` has to be there. Files that come with the package are known by
 """
 
 from collections.abc import Mapping
-from dataclasses import MISSING, dataclass, fields
-from pathlib import Path
-from typing import Any
+from dataclasses import dataclass
+from os import PathLike
 
 from .. import checks, datafiles
-from ..documents import Table, keyed, naming, read_toml
-from ..quantities import key_of, unit_of
+from ..documents import Table, keyed, made, naming, read_toml
+from ..quantities import FrozenMapping, Record, key_of
 from .assembly import Position
 from .cars import FullCar, HalfCar, QuarterCar
 from .handling import RollGeometry
 from .mounted import FlexibleBody, Seat
-from .vehicle import Vehicle
+from .vehicle import AssembledVehicle, Vehicle
 
-_KINDS = {"quarter-car": QuarterCar, "half-car": HalfCar, "full-car": FullCar}
+_KINDS: dict[str, type[AssembledVehicle]] = {"quarter-car": QuarterCar, "half-car": HalfCar, "full-car": FullCar}
 _TEXTS = ("kind", "name", "source")
 _TABLES = ("flexible_body", "seats", "struts", "bounds", "roll_geometry")
-_SEAT = {"mass_kg": "mass", "spring_N_per_m": "spring", "damper_N_s_per_m": "damper"}
-_SEAT_WANTED = {"position_m": "position", "name": "name"}
 _BENDING = {"frequencies_Hz": "frequencies", "damping_ratios": "damping_ratios", "shapes": "shapes"}
 _SHAPE = {"position_m": "position", "shape_per_sqrt_kg": "shape"}
 
 
-@dataclass(frozen=True, kw_only=True)
-class VehicleFile:
-    """What a file says.
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class VehicleFile(Record):
+    """The content of a vehicle file.
 
     Parameters
     ----------
     name, source : str
-        What it is called and where its numbers are from.
-    vehicle : Vehicle
+        Name of the vehicle, and origin of its numbers.
+    vehicle : AssembledVehicle
         With its seats and its elastic modes.
-    struts : mapping of str to float
+    setting : mapping of str to float
         Coefficients of the struts by name.
     bounds : mapping of str to (float, float)
         By name, the bounds of those that are to vary; empty if the file has none.
@@ -57,25 +54,23 @@ class VehicleFile:
 
     name: str
     source: str
-    vehicle: Vehicle
-    struts: Mapping[str, float]
+    vehicle: AssembledVehicle
+    setting: Mapping[str, float]
     bounds: Mapping[str, tuple[float, float]]
-    roll_geometry: RollGeometry | None
+    roll_geometry: RollGeometry | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("setting", "bounds"):
+            object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
 
 
-def load_vehicle(text: str) -> VehicleFile:
-    """Return the vehicle that a text names.
+def load_vehicle(source: str | PathLike[str]) -> VehicleFile:
+    """Return the vehicle of a file.
 
     Parameters
     ----------
-    text : str
-        The path of a TOML file (see `vehicle_files`), or the name of one that comes with the package,
-        ``"yuen_ramli_2010"``.
-
-    Returns
-    -------
-    VehicleFile
-        What the file says.
+    source : str or path-like
+        The path of a TOML file, or the name of one that comes with the package, ``"yuen_ramli_2010"``.
 
     Raises
     ------
@@ -84,65 +79,41 @@ def load_vehicle(text: str) -> VehicleFile:
     OSError
         If the file cannot be read.
     """
-    path = Path(text)
-    if path.suffix != ".toml":
-        known = datafiles.stems("vehicles")
-        if text not in known:
-            raise ValueError(
-                f"vehicle must be one of {', '.join(known)} or the path of a .toml file, got {text!r}"
-            )
-        path = datafiles.path(f"vehicles/{text}.toml")
+    path = datafiles.named("vehicle", "vehicles", source)
     with naming(path):
         return _read(read_toml(path))
 
 
 def _read(table: Table) -> VehicleFile:
     checks.one_of("kind", table.content.get("kind"), tuple(_KINDS))
-    texts = [table.text(name) for name in _TEXTS]
-    vehicle = _vehicle(table, _KINDS[texts[0]])
-    struts = read_struts(table.table("struts").flat(), vehicle)
-    bounds = read_bounds(table.table("bounds").flat(), vehicle)
-    geometry = read_roll_geometry(table)
-    return VehicleFile(
-        name=texts[1], source=texts[2], vehicle=vehicle, struts=struts, bounds=bounds, roll_geometry=geometry
-    )
-
-
-def _vehicle(table: Table, kind: type[Any]) -> Vehicle:
-    """Return the vehicle with what is on it."""
-    vehicle: Vehicle = _made(table, kind, beside=(*_TEXTS, *_TABLES))
+    kind, name, source = (table.text(key) for key in _TEXTS)
+    vehicle = made(table, _KINDS[kind], beside=(*_TEXTS, *_TABLES))
     if "flexible_body" in table.content:
         body = table.table("flexible_body")
         with keyed(body.name, _BENDING | {"shapes.position_m": "position"}):
             vehicle = _flexible_body(body).on(vehicle)
-    return with_seats(vehicle, table)
+    vehicle = with_seats(vehicle, table)
+    return VehicleFile(
+        name=name,
+        source=source,
+        vehicle=vehicle,
+        setting=read_setting(table.table("struts").flat(), vehicle),
+        bounds=read_bounds(table.table("bounds").flat(), vehicle),
+        roll_geometry=read_roll_geometry(table),
+    )
 
 
-def with_seats(vehicle: Vehicle, table: Table) -> Vehicle:
+def with_seats(vehicle: AssembledVehicle, table: Table) -> AssembledVehicle:
     """Return the vehicle with the seats of the array ``seats`` in a table."""
     for seat in table.tables("seats"):
-        with keyed(seat.name, _SEAT | _SEAT_WANTED):
-            vehicle = _seat(seat).on(vehicle)
+        with keyed(seat.name, {"name": "name", "position_m": "position"}):
+            vehicle = made(seat, Seat).on(vehicle)
     return vehicle
-
-
-def _made(table: Table, kind: type[Any], beside: tuple[str, ...] = ()) -> Any:
-    """Make a dataclass of numbers from a table that may have further keys `beside` its own."""
-    keys = {key_of(field.name, unit_of(field.name)): field.name for field in fields(kind)}
-    optional = [field.name for field in fields(kind) if field.default is not MISSING]
-    table.check_keys(
-        keys | dict(zip(beside, beside, strict=True)), [key for key in keys if keys[key] not in optional]
-    )
-    with keyed(table.name, keys):
-        return kind(**{name: table.number(key) for key, name in keys.items() if key in table.content})
 
 
 def read_roll_geometry(table: Table) -> RollGeometry | None:
     """Return what the table ``roll_geometry`` in a table says, None if there is none."""
-    if "roll_geometry" not in table.content:
-        return None
-    geometry: RollGeometry = _made(table.table("roll_geometry"), RollGeometry)
-    return geometry
+    return made(table.table("roll_geometry"), RollGeometry) if "roll_geometry" in table.content else None
 
 
 def _flexible_body(table: Table) -> FlexibleBody:
@@ -161,30 +132,20 @@ def _flexible_body(table: Table) -> FlexibleBody:
     )
 
 
-def _seat(table: Table) -> Seat:
-    table.check_keys(_SEAT | _SEAT_WANTED, _SEAT)
-    values: dict[str, Any] = {name: table.number(key) for key, name in _SEAT.items()}
-    if "position_m" in table.content:
-        values["position"] = table.pair("position_m")
-    if "name" in table.content:
-        values["name"] = table.text("name")
-    return Seat(**values)
-
-
 def _coefficients(vehicle: Vehicle) -> dict[str, str]:
     """Return the names of a vehicle's coefficients by their keys."""
     return {key_of(parameter.name, parameter.unit): parameter.name for parameter in vehicle.parameters}
 
 
-def read_struts(table: Table, vehicle: Vehicle) -> dict[str, float]:
+def read_setting(table: Table, vehicle: Vehicle) -> dict[str, float]:
     """Return the coefficients of a flat table by name; all must be there but those that have defaults."""
     coefficients = _coefficients(vehicle)
     default = {parameter.name: parameter.default for parameter in vehicle.parameters}
     table.check_keys(coefficients, [key for key, name in coefficients.items() if default[name] is None])
-    struts = {name: table.number(key) for key, name in coefficients.items() if key in table.content}
+    setting = {name: table.number(key) for key, name in coefficients.items() if key in table.content}
     with keyed(table.name, coefficients):
-        vehicle.coefficients(struts)
-    return struts
+        vehicle.coefficients(setting)
+    return setting
 
 
 def read_bounds(table: Table, vehicle: Vehicle) -> dict[str, tuple[float, float]]:

@@ -1,34 +1,34 @@
 """Statics and roll of a vehicle on its struts: static tyre loads, roll gradient, load transfer, roll damping.
 
 In steady cornering the body leans by a moment m h a_y about the roll axis, which lies h below its centre of
-gravity, and its weight leans with it. What springs, bars and tyres carry of that moment is the elastic part of the
-lateral load transfer; forces through the roll centres and at the wheels carry the rest (W. F. Milliken and
-D. L. Milliken, "Race Car Vehicle Dynamics", SAE 1995, chapter 18).
+gravity, and its weight leans with it. Springs, bars and tyres carry the elastic part of that lateral load
+transfer; forces through the roll centres and at the wheels carry the rest (W. F. Milliken and D. L. Milliken,
+"Race Car Vehicle Dynamics", SAE 1995, chapter 18).
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .. import checks
+from ..quantities import Real, Record, unit
 from .assembly import GRAVITY, Assembly
 
-Real = NDArray[np.float64]
-
 _TOPPLED = 180.0
-"""Roll gradient of a body that nothing holds up [deg/g]."""
+"""Roll gradient of a body that its struts and tyres do not hold upright [deg/g]."""
+_AXLES = ("front", "rear")
+_SIDES = ("left", "right")
 
 
-@dataclass(frozen=True, kw_only=True)
-class RollGeometry:
-    """Heights that matter in cornering.
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class RollGeometry(Record):
+    """Heights of a vehicle for cornering.
 
     Parameters
     ----------
     roll_arm : float
-        Height of the body's centre of gravity above the roll axis [m]; what sits in it is taken to be as high.
+        Height of the body's centre of gravity above the roll axis [m], also of its occupants and payload.
     front_roll_centre, rear_roll_centre : float
         Height of the roll centres above the ground [m].
     wheel_centre : float
@@ -40,44 +40,57 @@ class RollGeometry:
         If the arm or the height of the wheels is not above zero, or a roll centre not from -10 to 10 m.
     """
 
-    roll_arm: float
-    front_roll_centre: float
-    rear_roll_centre: float
-    wheel_centre: float
+    roll_arm: float = field(metadata=unit("m"))
+    front_roll_centre: float = field(metadata=unit("m"))
+    rear_roll_centre: float = field(metadata=unit("m"))
+    wheel_centre: float = field(metadata=unit("m"))
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if field.name.endswith("roll_centre"):
-                checks.within(field.name, value, -10, 10)
+        for one in fields(self):
+            value = getattr(self, one.name)
+            if one.name.endswith("roll_centre"):
+                checks.within(one.name, value, -10, 10)
             else:
-                checks.positive(field.name, value, "m")
+                checks.positive(one.name, value, "m")
+
+
+def check_cornering(measure: str, assembly: Assembly) -> None:
+    """Raise ValueError unless a measure of handling is defined on this vehicle."""
+    if "roll" not in assembly.coordinates:
+        coordinates = ", ".join(assembly.coordinates)
+        raise ValueError(f"{measure} must be of a vehicle that rolls, got one with {coordinates}")
+    corners = [f"{axle}_{side}" for axle in _AXLES for side in _SIDES]
+    tyres = [tyre.name for tyre in assembly.tyres]
+    wheels = {f"{corner}_wheel" for corner in corners}
+    if measure != "roll_damping" and not (set(tyres) == set(corners) and wheels <= set(assembly.coordinates)):
+        raise ValueError(
+            f"{measure} must be of a vehicle with tyres {', '.join(corners)} on wheels of these names, "
+            f"got tyres {', '.join(tyres)}"
+        )
 
 
 class Mechanics(NamedTuple):
-    """Matrices of a vehicle with n coordinates and v coefficients of struts.
+    """Matrices of a vehicle with n coordinates, t tyres and v coefficients of struts.
 
     Parameters
     ----------
-    coordinates : list of str
-    mass : (n, n) ndarray
-    stiffness, damping : (n, n) ndarray
-        Of tyres and supports.
+    coordinates : (n,) tuple of str
+    mass, stiffness, damping : (n, n) ndarray
+        Stiffness and damping of tyres and supports.
     by_stiffness, by_damping : (v, n, n) ndarray
-        Of the struts, for coefficients of 1.
+        Those of the struts, for coefficients of 1.
     weights : (n,) ndarray
-        Mass that weighs on each coordinate: kg, or kg m where it turns the body.
+        Mass that loads each coordinate by gravity: kg, or kg m of one that turns the body.
     tyre_loads : (t, n) ndarray
         Tension of each tyre by coordinate.
-    tyres : list of str
-        Their names.
+    tyres : (t,) list of str
     contacts : (t, 2) ndarray
         Where they touch the ground [m].
     sprung_mass : float
-        Mass of all but the wheels [kg].
+        [kg].
     """
 
-    coordinates: list[str]
+    coordinates: tuple[str, ...]
     mass: Real
     stiffness: Real
     damping: Real
@@ -95,23 +108,22 @@ class Mechanics(NamedTuple):
         links = [*assembly.tyres, *assembly.supports]
         e, _ = assembly.elongations(links)
         p, _ = assembly.elongations(assembly.struts)
-        k, c = (np.array([getattr(link, name) for link in links]) for name in ("stiffness", "damping"))
+        k, c = (np.array([getattr(link, name) for link in links])[:, None] for name in ("stiffness", "damping"))
         by_stiffness, by_damping = (
             np.array([p.T @ (q.gain * (q.order == order)) @ p for q in assembly.parameters]) for order in (0, 1)
         )
-        coordinates = assembly.coordinates
         return cls(
-            coordinates,
-            assembly.mass_matrix(),
-            e.T @ (k[:, None] * e),
-            e.T @ (c[:, None] * e),
+            assembly.coordinates,
+            assembly.mass_matrix,
+            e.T @ (k * e),
+            e.T @ (c * e),
             by_stiffness,
             by_damping,
-            assembly.weights(),
-            (k[:, None] * e)[: len(assembly.tyres)],
+            assembly.weights,
+            (k * e)[: len(assembly.tyres)],
             [tyre.name for tyre in assembly.tyres],
             np.array([assembly.contacts[str(tyre.lower)] for tyre in assembly.tyres]),
-            assembly.sprung_mass(),
+            assembly.sprung_mass,
         )
 
     def stiffness_of(self, coefficients: Real) -> Real:
@@ -125,25 +137,22 @@ class Mechanics(NamedTuple):
         return loads
 
     def roll_gradient(self, coefficients: Real, geometry: RollGeometry) -> Real:
-        """Return the angle (p,) by which the body leans in a steady curve [deg/g], 180 at most.
+        """Return the roll angle (p,) per lateral acceleration [deg/g], at most 180.
 
-        180 is also where the body topples: where struts and tyres do not hold its weight against leaning further.
+        A body topples, at 180, if struts and tyres do not hold its weight against leaning further.
         """
         lean = np.degrees(self._lean(coefficients, geometry)[:, self.coordinates.index("roll")])
         topples = np.linalg.eigvalsh(self._leaning(coefficients, geometry))[:, 0] <= 0
         return np.where(topples, _TOPPLED, np.minimum(lean, _TOPPLED))
 
     def front_load_transfer(self, coefficients: Real, geometry: RollGeometry) -> Real:
-        """Return the share (p,) of the lateral load transfer that the front axle carries [-].
-
-        It says nothing of a design that topples, see `roll_gradient`.
-        """
+        """Return the share (p,) of the lateral load transfer on the front axle [-], void for one that topples."""
         loads = (self.tyre_loads @ self._lean(coefficients, geometry)[..., None])[..., 0]
-        front, rear = (loads[:, self.tyres.index(f"{axle}_left")] for axle in ("front", "rear"))
+        front, rear = (loads[:, self.tyres.index(f"{axle}_left")] for axle in _AXLES)
         return front / (front + rear)
 
     def roll_damping(self, coefficients: Real) -> Real:
-        """Return the damping ratio (p,) of the mode with most of its kinetic energy in roll, 1 if it creeps."""
+        """Return the damping ratio (p,) of the mode with most of its kinetic energy in roll, 1 if overdamped."""
         n = len(self.coordinates)
         k = self.stiffness_of(coefficients)
         c = self.damping + np.tensordot(coefficients, self.by_damping, axes=1)
@@ -158,28 +167,27 @@ class Mechanics(NamedTuple):
         return ratio
 
     def _lean(self, coefficients: Real, geometry: RollGeometry) -> Real:
-        """Return the displacement of each coordinate (p, n) at 1 g to the left.
+        """Displacement of each coordinate (p, n) at 1 g to the left.
 
-        The body is turned by its weight at the roll arm; what goes through the roll centres and acts at the
-        wheels themselves turns the axles, whose tyres carry it.
+        The body is turned by its weight at the roll arm; forces through the roll centres and at the wheels turn
+        the axles on their tyres.
         """
         load = np.zeros((len(coefficients), len(self.coordinates)))
         load[:, self.coordinates.index("roll")] = self.sprung_mass * GRAVITY * geometry.roll_arm
         static = self.static_loads(coefficients)
-        for axle, centre in (("front", geometry.front_roll_centre), ("rear", geometry.rear_roll_centre)):
-            left, right = (self.tyres.index(f"{axle}_{side}") for side in ("left", "right"))
+        for axle, centre in zip(_AXLES, (geometry.front_roll_centre, geometry.rear_roll_centre), strict=True):
+            left, right = (self.tyres.index(f"{axle}_{side}") for side in _SIDES)
             wheels = 2 * self.weights[self.coordinates.index(f"{axle}_left_wheel")] * GRAVITY
             body = static[:, left] + static[:, right] - wheels
-            force = (body * centre + wheels * geometry.wheel_centre) / (
-                self.contacts[left] - self.contacts[right]
-            )[1]
+            track = (self.contacts[left] - self.contacts[right])[1]
+            force = (body * centre + wheels * geometry.wheel_centre) / track
             load[:, self.coordinates.index(f"{axle}_left_wheel")] = force
             load[:, self.coordinates.index(f"{axle}_right_wheel")] = -force
         leaning = self._leaning(coefficients, geometry)
         return np.asarray(np.linalg.solve(leaning, load[..., None])[..., 0], dtype=float)
 
     def _leaning(self, coefficients: Real, geometry: RollGeometry) -> Real:
-        """Return the stiffness matrices (p, n, n) less what the leaning weight takes from roll."""
+        """Stiffness matrices (p, n, n) less the moment of the leaning weight."""
         stiffness = self.stiffness_of(coefficients)
         roll = self.coordinates.index("roll")
         stiffness[:, roll, roll] -= self.sprung_mass * GRAVITY * geometry.roll_arm

@@ -1,18 +1,20 @@
-"""What can be put on a vehicle: seats with their occupants, payload, and elastic modes of the body."""
+"""Parts on a vehicle: seats with their occupants, payload, and elastic modes of the body."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
 from .. import checks
-from .assembly import Assembly, Link, Position, Response
-from .vehicle import Car, Vehicle, spring_and_damper
+from ..quantities import FrozenMapping, Record, check_numbers, unit
+from .assembly import Assembly, Link, Position, Response, check_strut_names
+from .vehicle import AssembledVehicle, Vehicle, assembled, spring_and_damper
 
 
-class Part(ABC):
-    """Something that can be put on a vehicle."""
+class Part(Record, ABC):
+    """A part to put on a vehicle."""
 
     @abstractmethod
     def added_to(self, assembly: Assembly) -> Assembly:
@@ -20,38 +22,42 @@ class Part(ABC):
 
     def on(self, vehicle: Vehicle) -> "Mounted":
         """Return the vehicle with this part on it."""
-        return Mounted(vehicle=vehicle, part=self)
+        return Mounted(vehicle=assembled(vehicle), part=self)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Mounted(Car):
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Mounted(Record, AssembledVehicle):
     """A vehicle with a part on it.
 
     Parameters
     ----------
-    vehicle : Vehicle
+    vehicle : AssembledVehicle
     part : Seat, Payload or FlexibleBody
+
+    Raises
+    ------
+    ValueError
+        If the part does not fit the vehicle.
     """
 
-    vehicle: Vehicle
+    vehicle: AssembledVehicle
     part: Part
 
     def __post_init__(self) -> None:
-        assembly = self.assembly()
-        assembly.elongations(assembly.struts)  # whether a body that bends has shapes at each,
-        assembly.mass_matrix()  # and where loads lie
+        _ = self.assembly  # a part that does not fit is refused here
 
+    @cached_property
     def assembly(self) -> Assembly:
-        """Return the vehicle taken apart."""
-        return self.part.added_to(self.vehicle.assembly())
+        """Its masses and links."""
+        return self.part.added_to(self.vehicle.assembly)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Seat(Part):
     """A seat with its occupant: a mass on a spring and a damper of its own, on any vehicle.
 
     Its responses are ``<name>_acceleration`` and ``<name>_suspension_travel``; ``<name>.spring`` and
-    ``<name>.damper`` are coefficients like those of other struts, with these values where they are not given.
+    ``<name>.damper`` are coefficients of a strut, with these values as defaults.
 
     Parameters
     ----------
@@ -62,31 +68,30 @@ class Seat(Part):
     damper : float
         Damping coefficient [N s/m].
     position : (float, float)
-        Where it stands from the body's centre of gravity, x forward and y to the left [m]; what a vehicle does
-        not do, as a half car does not roll, makes no difference there.
+        Place from the body's centre of gravity, x forward and y to the left [m]. A coordinate that the vehicle
+        lacks, as a half car lacks roll, has no part in it.
     name : str
-        By which several seats are told apart: letters, digits and underscores.
+        Letters, digits and underscores; different for each seat.
 
     Raises
     ------
     ValueError
-        If a parameter is out of range, or the vehicle has something of that name already or bends in a way that
-        is not known where the seat stands.
+        If a parameter is out of range; from `on`, if the name is taken or the mode shapes at the place are
+        unknown.
     """
 
-    mass: float
-    spring: float
-    damper: float
-    position: Position = (0.0, 0.0)
+    mass: float = field(metadata=unit("kg"))
+    spring: float = field(metadata=unit("N/m"))
+    damper: float = field(metadata=unit("N s/m"))
+    position: Position = field(default=(0.0, 0.0), metadata=unit("m"))
     name: str = "seat"
 
     def __post_init__(self) -> None:
-        checks.positive("mass", self.mass, "kg")
-        checks.positive("spring", self.spring, "N/m")
-        checks.positive("damper", self.damper, "N s/m")
-        checks.position("position", self.position)
+        check_numbers(self)
+        object.__setattr__(self, "position", _position(self.position))
         if not (isinstance(self.name, str) and self.name.isidentifier()):
             raise ValueError(f"name must be of letters, digits and underscores, got {self.name!r}")
+        check_strut_names("name", [self.name])
 
     def added_to(self, assembly: Assembly) -> Assembly:
         """Return the vehicle with this seat."""
@@ -95,24 +100,22 @@ class Seat(Part):
         if self.name in {"pitch", "roll", *assembly.coordinates, *assembly.contacts, *struts, *coefficients}:
             raise ValueError(f"name must be one that the vehicle does not have yet, got {self.name!r}")
         others = len(assembly.struts)
-        parameters = [p._replace(gain=np.pad(p.gain, (0, 1))) for p in assembly.parameters]
+        parameters = [replace(p, gain=np.pad(p.gain, (0, 1))) for p in assembly.parameters]
         own = spring_and_damper(self.name, [0.0] * others + [1.0], (self.spring, self.damper))
-        seated = replace(
+        return replace(
             assembly,
             masses={**assembly.masses, self.name: self.mass},
-            struts=[*assembly.struts, Link(self.name, self.position, self.name)],
-            parameters=[*parameters, *own],
+            struts=(*assembly.struts, Link(self.name, self.position, self.name)),
+            parameters=(*parameters, *own),
             responses={
                 **assembly.responses,
                 f"{self.name}_acceleration": Response("acceleration", self.name),
                 f"{self.name}_suspension_travel": Response("travel", self.name),
             },
         )
-        seated.elongations(seated.struts)  # whether there is a shape where it stands
-        return seated
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Payload(Part):
     """A load fixed to the body.
 
@@ -121,7 +124,7 @@ class Payload(Part):
     mass : float
         [kg].
     position : (float, float)
-        Where it lies from the body's centre of gravity without it, x forward and y to the left [m]. Coordinates
+        Place from the centre of gravity of the body without it, x forward and y to the left [m]. Coordinates
         stay those of that point.
 
     Raises
@@ -130,19 +133,19 @@ class Payload(Part):
         If the mass is not finite and above zero, or the position is not two numbers.
     """
 
-    mass: float
-    position: Position = (0.0, 0.0)
+    mass: float = field(metadata=unit("kg"))
+    position: Position = field(default=(0.0, 0.0), metadata=unit("m"))
 
     def __post_init__(self) -> None:
-        checks.positive("mass", self.mass, "kg")
-        checks.position("position", self.position)
+        check_numbers(self)
+        object.__setattr__(self, "position", _position(self.position))
 
     def added_to(self, assembly: Assembly) -> Assembly:
         """Return the vehicle with this load."""
-        return replace(assembly, payload=[*assembly.payload, (self.mass, self.position)])
+        return replace(assembly, payload=(*assembly.payload, (self.mass, self.position)))
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class FlexibleBody(Part):
     """Elastic modes of a free body, beside its rigid motion; put it on a vehicle before seats.
 
@@ -154,20 +157,20 @@ class FlexibleBody(Part):
         [-].
     shapes : mapping of (float, float) to (k,) sequence of float
         By point of the body, x forward and y to the left of its centre of gravity [m], the vertical displacement
-        in each mode at a modal mass of 1 [kg^-1/2]: at all struts, and wherever else a seat is to stand, a load to
-        lie or an acceleration to be known. Elastic modes of a free body leave its centre of gravity and its
-        principal axes in their places, so that the rigid coordinates stay those of the mean motion.
+        in each mode at a modal mass of 1 [kg^-1/2]: at all struts, and at further seats, payloads and points of
+        acceleration. Elastic modes of a free body leave its centre of gravity and its principal axes in their
+        places, and the rigid coordinates stay those of the mean motion.
 
     Raises
     ------
     ValueError
         If the parts do not fit together, a frequency is not above zero or a damping ratio not from 0 to 1; from
-        `on`, if the vehicle bends already or a strut stands where no shapes are given.
+        `on`, if the vehicle is flexible already or the mode shapes at a strut are unknown.
     """
 
-    frequencies: Sequence[float]
-    damping_ratios: Sequence[float]
-    shapes: Mapping[Position, Sequence[float]]
+    frequencies: tuple[float, ...] = field(metadata=unit("Hz"))
+    damping_ratios: tuple[float, ...]
+    shapes: Mapping[Position, tuple[float, ...]] = field(metadata=unit("kg^-1/2"))
 
     def __post_init__(self) -> None:
         modes = len(self.frequencies)
@@ -175,20 +178,21 @@ class FlexibleBody(Part):
             checks.positive("frequencies", frequency, "Hz")
         for ratio in self.damping_ratios:
             checks.within("damping_ratios", ratio, 0, 1)
-        for position, shape in self.shapes.items():
-            checks.position("shapes", position)
-            if len(shape) != modes or not np.isfinite(shape).all():
-                raise ValueError(
-                    f"shapes must be {modes} finite numbers at each point, got {shape!r} at {position}"
-                )
         if modes == 0 or len(self.damping_ratios) != modes:
             raise ValueError(
                 f"frequencies and damping_ratios must be of one length, 1 or more, got {modes} and "
                 f"{len(self.damping_ratios)}"
             )
+        shapes = {_position(place, "shapes"): tuple(map(float, shape)) for place, shape in self.shapes.items()}
+        for place, shape in shapes.items():
+            if len(shape) != modes or not np.isfinite(shape).all():
+                raise ValueError(f"shapes must be {modes} finite numbers at each point, got {shape} at {place}")
+        object.__setattr__(self, "shapes", FrozenMapping(shapes))
+        for name in ("frequencies", "damping_ratios"):
+            object.__setattr__(self, name, tuple(map(float, getattr(self, name))))
 
     def added_to(self, assembly: Assembly) -> Assembly:
-        """Return the vehicle with a body that bends like this."""
+        """Return the vehicle with this flexible body."""
         if assembly.bending:
             raise ValueError(f"vehicle must have a rigid body, got one with modes at {list(assembly.bending)}")
         names = [f"bending_{i + 1}" for i in range(len(self.frequencies))]
@@ -199,9 +203,16 @@ class FlexibleBody(Part):
         return replace(
             assembly,
             inertias={**assembly.inertias, **dict.fromkeys(names, 1.0)},
-            supports=[
+            supports=(
                 *assembly.supports,
                 *(Link(name, None, name, w**2, c) for name, w, c in zip(names, omega, damping, strict=True)),
-            ],
-            bending={place: dict(zip(names, shape, strict=True)) for place, shape in self.shapes.items()},
+            ),
+            bending={
+                place: FrozenMapping(dict(zip(names, shape, strict=True))) for place, shape in self.shapes.items()
+            },
         )
+
+
+def _position(value: Position, name: str = "position") -> Position:
+    checks.position(name, value)
+    return float(value[0]), float(value[1])

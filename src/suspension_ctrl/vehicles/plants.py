@@ -1,249 +1,139 @@
-"""Vehicles known by their measured frequency responses in place of masses and links."""
+"""Vehicles known without their struts as one system: imported A, B, C, D or measured frequency responses."""
 
 import re
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, TypeAlias
 
+import control
 import numpy as np
 from numpy.typing import NDArray
 
-from ..quantities import signal_unit
-from ..tables import read_table
-from .assembly import Response
-
-if TYPE_CHECKING:
-    from os import PathLike
-
-from collections.abc import Mapping
-from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING, Any
-
-import control
-from numpy.typing import ArrayLike
-
 from .. import checks
-from .assembly import Assembly, Position, ResponseName, StrutParameter, joined, label
-from .vehicle import Car, Settings, around, check_measured, spring_and_damper
+from ..quantities import FrozenMapping, Real, Record, frozen_array, unit
+from .assembly import Position, Response, ResponseName, StrutParameter, check_strut_names, joined, label
+from .feedback import MeasuredResponse
+from .vehicle import Vehicle, spring_and_damper
 
 if TYPE_CHECKING:
     from os import PathLike
 
-
-Transfer = dict[tuple[str, str], NDArray[np.complex128]]
-"""Frequency responses (n,) by output and input."""
-
-FREQUENCY = "frequency [Hz]"
-_COLUMN = re.compile(r"([\w-]+)/(\w+) (real|imag) \[(.*)\]", re.ASCII)
-_INPUT = re.compile(r"(?:(\w+)_)?(road|strut)", re.ASCII)
-_OUTPUT = re.compile(r"(?:(\w+)_)?(acceleration|tyre_load|deflection)", re.ASCII)
-_POINT = re.compile(r"acceleration_at_(-?\d{1,6})_(-?\d{1,6})_mm", re.ASCII)
-_KINDS = {"acceleration": "acceleration", "tyre_load": "load", "deflection": "travel"}
-
-
-class Input(NamedTuple):
-    """A ``road`` or a ``strut``, and its name."""
-
-    kind: str
-    where: str
-
-    @property
-    def unit(self) -> str:
-        """Its unit."""
-        return {"road": "m", "strut": "N"}[self.kind]
-
-
-def input_of(name: str) -> Input:
-    """Return which input a name means; ValueError if none."""
-    found = _INPUT.fullmatch(name)
-    if not found:
-        raise ValueError(f"input must be like 'front_road' or 'front_strut', got {name!r}")
-    return Input(found[2], found[1] or "")
-
-
-def output_of(name: str) -> Response:
-    """Return which output a name means, of a deflection the travel; ValueError if none."""
-    if point := _POINT.fullmatch(name):
-        return Response("acceleration", (int(point[1]) / 1e3, int(point[2]) / 1e3))
-    found = _OUTPUT.fullmatch(name)
-    if not found or name == "acceleration":
-        raise ValueError(
-            "output must be like 'body_acceleration', 'acceleration_at_1200_-400_mm', 'front_tyre_load' or "
-            f"'front_deflection', got {name!r}"
-        )
-    return Response(_KINDS[found[2]], found[1] or "")
-
-
-def read_plant(path: "str | PathLike[str]") -> tuple[NDArray[np.float64], Transfer]:
-    """Read a table.
-
-    Parameters
-    ----------
-    path : path-like
-        CSV file (see `plant_tables`).
-
-    Returns
-    -------
-    (n,) ndarray, dict of (str, str) to (n,) complex ndarray
-        Lines [Hz], and frequency responses by output and input.
-
-    Raises
-    ------
-    ValueError
-        Naming the file, if columns are missing, unknown, there twice or of another unit, or a cell is no finite
-        number.
-    OSError
-        If the file cannot be read.
-    """
-    names, values = read_table(path)
-    if names[0] != FREQUENCY:
-        raise ValueError(f"{path}: first column must be {FREQUENCY!r}, got {names[0]!r}")
-    try:
-        return values[:, 0], _transfer(names[1:], values[:, 1:])
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None
-
-
-def _transfer(names: Sequence[str], values: NDArray[np.float64]) -> Transfer:
-    parts = {}
-    for name, column in zip(names, values.T, strict=True):
-        part = _part(name)
-        if part in parts:
-            raise ValueError(f"column must be there once, got {name!r} twice")
-        parts[part] = column
-    for output, given, which in parts:
-        other = "imag" if which == "real" else "real"
-        if (output, given, other) not in parts:
-            raise ValueError(f"column {output}/{given} {which} must have one beside it called {other}, got none")
-    pairs = dict.fromkeys((output, given) for output, given, _ in parts)
-    return {pair: parts[*pair, "real"] + 1j * parts[*pair, "imag"] for pair in pairs}
-
-
-def _part(name: str) -> tuple[str, str, str]:
-    """Return what is in a column: output, input and whether the real or the imaginary part."""
-    found = _COLUMN.fullmatch(name)
-    if not found:
-        raise ValueError(f"column must be like 'body_acceleration/front_road real [m/s^2/m]', got {name!r}")
-    output, given, part, unit = found.groups()
-    output_of(output)  # whether it is one
-    right = f"{signal_unit(output)}/{input_of(given).unit}"
-    if unit != right:
-        raise ValueError(f"column {output}/{given} {part} must be in {right}, got {unit!r}")
-    return output, given, part
-
+System: TypeAlias = control.StateSpace | control.FrequencyResponseData
 
 _LEAST = 4
 """Lines that a cubic spline needs."""
 _CLOSEST = 1e-6
-"""Least distance of lines [Hz], of which no power is beyond what numbers can be."""
+"""Least distance of lines [Hz], of which all powers in a spline are finite."""
+_POINT = re.compile(r"acceleration_at_(-?\d{1,6})_(-?\d{1,6})_mm", re.ASCII)
+_OUTPUT = re.compile(r"(?:(\w+)_)?(acceleration|tyre_load|suspension_travel)", re.ASCII)
+_KINDS = {"acceleration": "acceleration", "tyre_load": "load", "suspension_travel": "travel"}
 
 
-class MeasuredResponse(control.FrequencyResponseData):  # type: ignore[misc]  # python-control has no types
-    """Frequency responses that do not go on beyond the lines that were measured."""
-
-    def eval(self, omega: Any, squeeze: bool | None = None) -> Any:
-        """Return them at angular frequencies [rad/s]; ValueError if one of these lies beyond."""
-        check_measured(np.atleast_1d(omega).real, self.omega)
-        return super().eval(omega, squeeze=squeeze)
+def _brief(system: System) -> str:
+    if isinstance(system, control.StateSpace):
+        return f"StateSpace of {system.nstates} states"
+    f = system.omega / (2 * np.pi)
+    return f"FrequencyResponseData of {f.size} lines from {f[0]:.6g} to {f[-1]:.6g} Hz"
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class MeasuredPlant(Car):
-    """A vehicle that is known, without its struts, by a table of frequency responses.
+@dataclass(frozen=True, eq=False, repr=False)
+class Plant(Record, Vehicle):
+    """A vehicle without its struts as a python-control system: imported from a multibody program, or measured.
 
-    Between the lines of the table real and imaginary parts are cubic splines over frequency, beyond them they are
-    not known. Where the vehicle without its struts has little damping, as a wheel on its tyre, lines have to be
-    close: with lines h apart the spline is off by up to (h/b)^4/3 of a resonance of half width b.
+    Inputs of the system are ``<wheel>_road`` [m], of a damped tyre ``<wheel>_road_rate`` [m/s] beside it, and the
+    tensions ``<strut>_strut`` [N]; outputs are the responses, ``<strut>_deflection`` [m] and, if known,
+    ``<strut>_deflection_rate`` [m/s]. With one wheel nothing stands before the underscore. Outputs such as
+    ``body_acceleration``, ``acceleration_at_1200_-400_mm`` (point of the body) and ``front_tyre_load`` are known
+    to the measures by their names. The travel of a strut is its deflection.
 
-    Its struts have the coefficients ``<strut>.spring`` and ``<strut>.damper``. What takes masses is not known:
-    static loads (DLC), roll and modes, and seats cannot be put on it.
+    Each strut has the coefficients ``<strut>.spring`` and ``<strut>.damper``. Masses are unknown, and with them
+    static loads, roll and modes; a seat cannot be put on.
+
+    Between the lines of a frequency response real and imaginary parts are cubic splines over frequency; beyond
+    them it is unknown. At a resonance of half width b the spline errs by up to (h/b)^4/3 of the peak, with lines
+    h apart: a plant without struts has little damping, and needs close lines.
 
     Parameters
     ----------
-    frequency : (n,) array_like
-        Lines, four or more, above zero and ascending by 1e-6 Hz or more [Hz].
-    transfer : mapping of (str, str) to (n,) array_like
-        Complex frequency response of each output by each input, with names and units as in `plant_tables`.
-        What is in files of other formats, such as universal files read by pyuff, is given here.
-    contacts : mapping of str to Position
-        Where each road among the inputs touches the ground, x forward and y to the left [m].
+    system : control.StateSpace or control.FrequencyResponseData
+        In continuous time, or of four lines or more that ascend by 1e-6 Hz or more.
+    contacts : mapping of str to (float, float)
+        By name of the wheel the point where it touches the road, x forward and y to the left [m]. If not given,
+        one wheel without a name.
+    struts : sequence of str
+        Names of the struts; if not given, all that the system has as inputs.
 
     Raises
     ------
     ValueError
-        If lines or values are not as above, a name means nothing, a pair is missing, deflections are not those of
-        the struts, contacts not those of the roads, or there is no road or no strut.
+        If the system, its lines or its signals are not as above, or the rate of a deflection is neither given nor
+        defined, because an input acts on the deflection directly.
     """
 
-    frequency: ArrayLike
-    transfer: Mapping[tuple[str, str], ArrayLike]
-    contacts: Mapping[str, Position]
+    system: System = field(metadata={"show": _brief})
+    contacts: Mapping[str, Position] = field(
+        default_factory=lambda: FrozenMapping({"": (0.0, 0.0)}), metadata=unit("m")
+    )
+    struts: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        lines = np.array(self.frequency, dtype=float)
-        if lines.ndim != 1 or lines.size < _LEAST or not np.isfinite(lines).all():
-            raise ValueError(f"frequency must be {_LEAST} finite values or more, got {lines.size}")
-        if not (steps := np.diff(lines, prepend=0.0)).min() >= _CLOSEST:
-            raise ValueError(
-                f"frequency must ascend from 0 Hz in steps >= {_CLOSEST:g} Hz, got {steps.min():g} Hz"
-            )
-        object.__setattr__(self, "frequency", lines)
-        values = {pair: np.array(h, dtype=complex) for pair, h in self.transfer.items()}
-        for (output, given), h in values.items():
-            if h.shape != lines.shape or not np.isfinite(h).all():
-                raise ValueError(f"transfer must be {lines.size} finite values, got others for {output}/{given}")
-        object.__setattr__(self, "transfer", values)
-        self._check_names()
+        system = self.system
+        if not isinstance(system, control.StateSpace | control.FrequencyResponseData):
+            raise ValueError(f"system must be a control.StateSpace or FrequencyResponseData, got {system!r}")
+        if system.isdtime(strict=True):
+            raise ValueError(f"system must be in continuous time, got a time step of {system.dt}")
+        if isinstance(system, control.FrequencyResponseData):
+            _check_lines(system)
+        contacts = _checked_contacts(self.contacts)
+        tensions = [name for name in system.input_labels if re.fullmatch("(.*_)?strut", name)]
+        struts = tuple(self.struts) or tuple(name[: -len("_strut")] for name in tensions)
+        check_strut_names("struts", struts)
+        _check_signals(system, contacts, struts, tensions)
+        object.__setattr__(self, "contacts", contacts)
+        object.__setattr__(self, "struts", struts)
+        object.__setattr__(self, "system", _ported(system, contacts, struts))
 
     @classmethod
-    def from_csv(cls, path: "str | PathLike[str]", contacts: Mapping[str, Position]) -> "MeasuredPlant":
-        """Read a table.
+    def from_csv(
+        cls,
+        path: "str | PathLike[str]",
+        contacts: Mapping[str, Position] | None = None,
+        struts: Sequence[str] = (),
+    ) -> "Plant":
+        """Read a table of frequency responses.
 
-        Parameters
-        ----------
-        path : path-like
-            CSV file (see `plant_tables`).
-        contacts : mapping of str to Position
-            As above.
+        The first column is ``frequency [Hz]``; two more for each output and input are called as in
+        ``body_acceleration/front_road real [m/s^2/m]`` and ``body_acceleration/front_road imag [m/s^2/m]``.
 
         Raises
         ------
         ValueError
-            Naming the file, if it is no such table or what it holds is not a plant.
+            Naming the file, if it is no such table or the table is no plant.
         OSError
             If the file cannot be read.
         """
-        frequency, transfer = read_plant(path)
+        from .plant_tables import read_plant
+
+        system = read_plant(path)
         try:
-            return cls(frequency=frequency, transfer=transfer, contacts=contacts)
+            return cls(system, {"": (0.0, 0.0)} if contacts is None else contacts, tuple(struts))
         except ValueError as error:
             raise ValueError(f"{path}: {error}") from None
 
-    def assembly(self) -> Assembly:
-        """Raise ValueError: masses and links are not known."""
-        raise ValueError(
-            "vehicle must be one of masses and links for static loads, roll, modes and seats, got a measured plant"
-        )
-
     @property
     def meanings(self) -> Mapping[str, Response]:
-        """What each response is, by name."""
-        return {response: output_of(output) for response, output in self._measured.items()}
-
-    @property
-    def struts(self) -> tuple[str, ...]:
-        """Names of the struts."""
-        return tuple(input_of(name).where for name in self._inputs if input_of(name).kind == "strut")
+        """Meaning of each response, by name."""
+        return {name: _meaning(name) for name in self.system.output_labels[: -2 * len(self.struts)]}
 
     @property
     def tyres(self) -> tuple[str, ...]:
-        """Names of the tyres; struts over them are called the same."""
-        return tuple(input_of(road).where for road in self._roads)
+        """Names of the tyres; a strut over a tyre has its name."""
+        return tuple(self.contacts)
 
     @property
-    def contact_points(self) -> NDArray[np.float64]:
-        """Where each road input touches the ground, x forward and y to the left [m], (r, 2)."""
-        return np.array([self.contacts[road] for road in self._roads], dtype=float)
+    def contact_points(self) -> Real:
+        """Where each road touches its tyre, x forward and y to the left [m], (r, 2)."""
+        return frozen_array(list(self.contacts.values()))
 
     @property
     def parameters(self) -> tuple[StrutParameter, ...]:
@@ -252,88 +142,133 @@ class MeasuredPlant(Car):
         pairs = (spring_and_damper(strut, share) for strut, share in zip(self.struts, shares, strict=True))
         return tuple(parameter for pair in pairs for parameter in pair)
 
-    def plant(self, responses: Sequence[ResponseName] | None = None) -> control.FrequencyResponseData:
-        """Return the vehicle without its struts, each of which has a port here instead.
-
-        Parameters
-        ----------
-        responses : sequence of str or ("acceleration", x, y), optional
-            Its first outputs, points of the body to the millimetre; all there are if not given.
-
-        Returns
-        -------
-        control.FrequencyResponseData
-            Inputs and outputs as of any `Vehicle`; it refuses frequencies that were not measured.
-        """
+    def plant(self, responses: Sequence[ResponseName] | None = None) -> System:
+        """Return the vehicle without its struts, see `Vehicle.plant`; points of the body to the millimetre."""
         names = [label(response) for response in (self.responses if responses is None else responses)]
         for name in names:
-            checks.one_of("response", name, self.meanings)
-        deflections = [joined(strut, "deflection") for strut in self.struts]
-        rows = [*(self._measured[name] for name in names), *deflections]
-        h = np.array([[self.transfer[row, name] for name in self._inputs] for row in rows], dtype=complex)
-        omega = 2 * np.pi * np.asarray(self.frequency)
-        return MeasuredResponse(
-            np.concatenate([h, 1j * omega * h[len(names) :]]),
-            omega,
-            smooth=True,
-            inputs=self._inputs,
-            outputs=[*names, *deflections, *(f"{deflection}_rate" for deflection in deflections)],
-            name="plant",
-        )
+            checks.one_of("response", name, self.responses)
+        ports = self.system.output_labels[-2 * len(self.struts) :]
+        return _selected(self.system, {name: name for name in (*names, *ports)}, self.system.input_labels)
 
-    def with_struts(
-        self, settings: Settings, responses: Sequence[ResponseName] | None = None
-    ) -> control.FrequencyResponseData:
-        """Return the vehicle with its struts, from roads to responses, as of any `Vehicle`."""
-        plant, roads = self.plant(responses), len(self._roads)
-        measured = plant.noutputs - 2 * len(self.struts)
-        return MeasuredResponse(
-            around(plant, np.hstack(self.strut_gains(settings))).frdata[:measured, :roads],
-            plant.omega,
-            smooth=True,
-            inputs=plant.input_labels[:roads],
-            outputs=plant.output_labels[:measured],
-            name="vehicle",
-        )
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the numbers and names alone: a system of python-control cannot be."""
+        names = {"inputs": self.system.input_labels, "outputs": self.system.output_labels}
+        if isinstance(self.system, control.StateSpace):
+            names["states"] = self.system.state_labels
+        return _unpickled, (_arrays(self.system), names, self.contacts, self.struts)
 
-    def _check_names(self) -> None:
-        deflections = {str(output_of(output).where) for output in self._outputs if output.endswith("deflection")}
-        if not self._roads or not self.struts or deflections != set(self.struts):
+    def _values(self) -> tuple[object, ...]:
+        labels = (*self.system.input_labels, *self.system.output_labels)
+        return (*(a.tobytes() for a in _arrays(self.system)), labels, self.contacts, self.struts)
+
+
+def _arrays(system: System) -> tuple[NDArray[Any], ...]:
+    if isinstance(system, control.StateSpace):
+        return system.A, system.B, system.C, system.D
+    return system.frdata, system.omega
+
+
+def _unpickled(
+    arrays: Sequence[NDArray[Any]],
+    names: Mapping[str, list[str]],
+    contacts: Mapping[str, Position],
+    struts: tuple[str, ...],
+) -> Plant:
+    make = control.ss if len(arrays) == 4 else control.frd
+    return Plant(make(*arrays, **names), contacts, struts)
+
+
+def _check_lines(system: control.FrequencyResponseData) -> None:
+    f = system.omega / (2 * np.pi)
+    if f.size < _LEAST or not np.isfinite(f).all():
+        raise ValueError(f"frequency must be {_LEAST} finite values or more, got {f.size}")
+    if not (steps := np.diff(f, prepend=0.0)).min() >= _CLOSEST * (1 - 1e-6):
+        raise ValueError(f"frequency must ascend from 0 Hz in steps >= {_CLOSEST:g} Hz, got {steps.min():g} Hz")
+
+
+def _checked_contacts(contacts: Mapping[str, Position]) -> FrozenMapping[str, Position]:
+    if not (isinstance(contacts, Mapping) and contacts):
+        raise ValueError(f"contacts must be a mapping of wheels to points, got {contacts!r}")
+    for wheel, position in contacts.items():
+        checks.position(f"contact of {wheel or 'the wheel'}", position)
+    return FrozenMapping({wheel: (float(x), float(y)) for wheel, (x, y) in contacts.items()})
+
+
+def _check_signals(
+    system: System, contacts: Mapping[str, Position], struts: Sequence[str], tensions: Sequence[str]
+) -> None:
+    """Raise ValueError unless the system has a road for each wheel, a port for each strut, and finite values."""
+    roads = [joined(wheel, "road") for wheel in contacts]
+    if not struts:
+        raise ValueError(f"system must have an input like 'front_strut', got {', '.join(system.input_labels)}")
+    for kind, needed, labels in (
+        ("input", [*roads, *(joined(strut, "strut") for strut in struts)], system.input_labels),
+        ("output", [joined(strut, "deflection") for strut in struts], system.output_labels),
+    ):
+        for name in needed:
+            if name not in labels:
+                raise ValueError(f"system must have the {kind} {name!r}, got {', '.join(labels)}")
+    for name in system.input_labels:
+        if name.removesuffix("_rate") not in roads and name not in tensions:
+            raise ValueError(f"input must be {', '.join(roads)}, its rate, or like 'front_strut', got {name!r}")
+    if not all(np.isfinite(array).all() for array in _arrays(system)):
+        raise ValueError("system must hold finite values throughout, got others")
+
+
+def _ported(system: System, contacts: Mapping[str, Position], struts: Sequence[str]) -> System:
+    """Return the system with the outputs and inputs of `Vehicle.plant`, read-only."""
+    roads = [joined(wheel, "road") for wheel in contacts]
+    rates = [f"{road}_rate" for road in roads]
+    inputs = [*roads, *(rates if {*rates} & {*system.input_labels} else ()), *(joined(s, "strut") for s in struts)]
+    deflections = [joined(strut, "deflection") for strut in struts]
+    ports = [*deflections, *(f"{deflection}_rate" for deflection in deflections)]
+    responses = {name: name for name in system.output_labels if name not in ports}
+    travels = {joined(strut, "suspension_travel"): joined(strut, "deflection") for strut in struts}
+    outputs = travels | responses
+    sources = {name: outputs[name] for name in (*responses, *travels)} | {name: name for name in ports}
+    ported = _selected(_with_rates(system, deflections), sources, inputs)
+    for array in _arrays(ported):
+        array.flags.writeable = False
+    return ported
+
+
+def _with_rates(system: System, deflections: Sequence[str]) -> System:
+    """Return the system with the rates of the deflections that it lacks as further outputs."""
+    lacking = [name for name in deflections if f"{name}_rate" not in system.output_labels]
+    row = [system.output_labels.index(name) for name in lacking]
+    names = {
+        "inputs": system.input_labels,
+        "outputs": [*system.output_labels, *(f"{name}_rate" for name in lacking)],
+    }
+    if not isinstance(system, control.StateSpace):
+        rates = 1j * system.omega * system.frdata[row]
+        return control.frd(np.concatenate([system.frdata, rates]), system.omega, **names)
+    for name, direct in zip(lacking, system.D[row], strict=True):
+        if direct.any():
+            given = system.input_labels[int(np.flatnonzero(direct)[0])]
             raise ValueError(
-                "transfer must have roads, struts and the deflection of each strut, got "
-                f"{', '.join(self._inputs) or 'no inputs'} and deflections of {', '.join(deflections) or 'none'}"
+                f"system must have the output '{name}_rate' where an input acts on {name}, got {given}"
             )
-        for output in self._outputs:
-            for given in self._inputs:
-                if (output, given) not in self.transfer:
-                    raise ValueError(f"transfer must have each output by each input, got no {output}/{given}")
-        if set(self.contacts) != set(self._roads):
-            raise ValueError(
-                f"contacts must be of {', '.join(self._roads)}, got {', '.join(self.contacts) or 'none'}"
-            )
-        for road, position in self.contacts.items():
-            checks.position(f"contact of {road}", position)
+    c, d = system.C[row] @ system.A, system.C[row] @ system.B
+    return control.ss(system.A, system.B, np.vstack([system.C, c]), np.vstack([system.D, d]), **names)
 
-    @property
-    def _outputs(self) -> list[str]:
-        return list(dict.fromkeys(output for output, _ in self.transfer))
 
-    @cached_property
-    def _inputs(self) -> list[str]:
-        """Names of the roads, then of the struts."""
-        names = dict.fromkeys(name for _, name in self.transfer)
-        return sorted(names, key=lambda name: input_of(name).kind)
+def _selected(system: System, sources: Mapping[str, str], inputs: Sequence[str]) -> System:
+    """Return the system with outputs by their names there, and inputs, of which unknown ones have no effect."""
+    row = [system.output_labels.index(name) for name in sources.values()]
+    known = system.input_labels
+    column = [known.index(name) if name in known else len(known) for name in inputs]
+    names = {"inputs": list(inputs), "outputs": list(sources), "name": "plant"}
+    if isinstance(system, control.StateSpace):
+        b, d = (np.pad(matrix, ((0, 0), (0, 1)))[:, column] for matrix in (system.B, system.D))
+        return control.ss(system.A.copy(), b, system.C[row], d[row], states=system.state_labels, **names)
+    h = np.pad(system.frdata, ((0, 0), (0, 1), (0, 0)))[row][:, column]
+    return MeasuredResponse(h, system.omega.copy(), **names)
 
-    @property
-    def _roads(self) -> list[str]:
-        return [name for name in self._inputs if input_of(name).kind == "road"]
 
-    @cached_property
-    def _measured(self) -> dict[str, str]:
-        """Outputs by the names of the responses that they are: a travel is the deflection of its strut."""
-        return {
-            joined(str(output_of(output).where), "suspension_travel")
-            if output.endswith("deflection")
-            else output: output
-            for output in self._outputs
-        }
+def _meaning(name: str) -> Response:
+    """Return the meaning of an output, of which the name tells it."""
+    if point := _POINT.fullmatch(name):
+        return Response("acceleration", (int(point[1]) / 1e3, int(point[2]) / 1e3))
+    found = _OUTPUT.fullmatch(name)
+    return Response(_KINDS[found[2]], found[1] or "") if found else Response("signal", name)

@@ -1,0 +1,70 @@
+"""Tables of measured frequency responses as CSV files.
+
+The first column is ``frequency [Hz]``; two more for each output and input are called as in
+``body_acceleration/front_road real [m/s^2/m]`` and ``body_acceleration/front_road imag [m/s^2/m]``.
+"""
+
+import re
+from typing import TYPE_CHECKING
+
+import control
+import numpy as np
+
+from ..quantities import Real, signal_unit
+from ..tables import read_table
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+FREQUENCY = "frequency [Hz]"
+_COLUMN = re.compile(r"([\w-]+)/(\w+) (real|imag) \[(.*)\]", re.ASCII)
+_INPUT = re.compile(r"(?:\w+_)?(road|road_rate|strut)", re.ASCII)
+_INPUT_UNITS = {"road": "m", "road_rate": "m/s", "strut": "N"}
+
+
+def read_plant(path: "str | PathLike[str]") -> control.FrequencyResponseData:
+    """Return the frequency responses of a table; ValueError that names the file, OSError if it cannot be read."""
+    names, values = read_table(path)
+    if names[0] != FREQUENCY:
+        raise ValueError(f"{path}: first column must be {FREQUENCY!r}, got {names[0]!r}")
+    try:
+        return _system(2 * np.pi * values[:, 0], names[1:], values[:, 1:])
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+
+
+def _system(omega: Real, names: list[str], values: Real) -> control.FrequencyResponseData:
+    parts = dict(zip(map(_part, names), values.T, strict=True))
+    if len(parts) < len(names):
+        raise ValueError(f"columns must differ, got {max(names, key=names.count)!r} twice")
+    if not parts:
+        raise ValueError("there must be columns of responses, got none")
+    outputs, inputs = (list(dict.fromkeys(part[i] for part in parts)) for i in (0, 1))
+    h = np.zeros((len(outputs), len(inputs), omega.size), dtype=complex)
+    for o, output in enumerate(outputs):
+        for i, given in enumerate(inputs):
+            for part, factor in (("real", 1.0), ("imag", 1j)):
+                if (output, given, part) not in parts:
+                    raise ValueError(f"columns must include {output}/{given} {part}, got none")
+                h[o, i] += factor * parts[output, given, part]
+    return control.frd(h, omega, inputs=inputs, outputs=outputs)
+
+
+def _part(name: str) -> tuple[str, str, str]:
+    """Return what is in a column: output, input and whether the real or the imaginary part."""
+    found = _COLUMN.fullmatch(name)
+    if not found:
+        raise ValueError(f"column must be like 'body_acceleration/front_road real [m/s^2/m]', got {name!r}")
+    output, given, part, unit = found.groups()
+    kind = _INPUT.fullmatch(given)
+    if not kind:
+        raise ValueError(f"input must be like 'front_road' or 'front_strut', got {given!r}")
+    if not signal_unit(output):
+        raise ValueError(
+            "output must be like 'body_acceleration', 'acceleration_at_1200_-400_mm', 'front_tyre_load' or "
+            f"'front_deflection', got {output!r}"
+        )
+    right = f"{signal_unit(output)}/{_INPUT_UNITS[kind[1]]}"
+    if unit != right:
+        raise ValueError(f"column {output}/{given} {part} must be in {right}, got {unit!r}")
+    return output, given, part
