@@ -12,7 +12,6 @@ from .roads.coherence import Exponential as Exponential
 from .roads.coherence import Isotropic as Isotropic
 from .roads.coherence import Tabulated as Tabulated
 from .roads.files import load_road as load_road
-from .roads.files import load_road as load_road
 from .roads.measured import MeasuredRoad as MeasuredRoad
 from .roads.profiles import Profile as Profile
 from .roads.spectra import Iso8608Road as Iso8608Road
@@ -32,7 +31,6 @@ from .study.study import Study as Study
 from .vehicles.cars import FullCar as FullCar
 from .vehicles.cars import HalfCar as HalfCar
 from .vehicles.cars import QuarterCar as QuarterCar
-from .vehicles.files import load_vehicle as load_vehicle
 from .vehicles.files import load_vehicle as load_vehicle
 from .vehicles.handling import RollGeometry as RollGeometry
 from .vehicles.mounted import FlexibleBody as FlexibleBody

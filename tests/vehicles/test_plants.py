@@ -223,20 +223,6 @@ def test_a_strut_that_meets_a_spring_without_a_mass_between_closes_too():
     np.testing.assert_allclose(closed(s), 1e5 / (m * s**2 + force), rtol=1e-9)
 
 
-def test_a_loop_with_feedthrough_closes_as_its_frequency_response():
-    """A deflection that a strut moves at once, with its rate given: state space and response agree."""
-    rng = np.random.default_rng(4)
-    a = rng.normal(size=(4, 4)) - 6 * np.eye(4)
-    names = {"inputs": ["road", "strut"], "outputs": ["x", "deflection", "deflection_rate"]}
-    system = control.ss(
-        a, rng.normal(size=(4, 2)), rng.normal(size=(3, 4)), 0.1 * rng.normal(size=(3, 2)), **names
-    )
-    omega = np.linspace(1.0, 50.0, 60)
-    table = control.frd(system(1j * omega), omega, **names)
-    here, there = (Plant(one).closed((0.7, 0.3), responses=["x"]) for one in (system, table))
-    np.testing.assert_allclose(here(1j * omega), there(1j * omega), rtol=1e-12)
-
-
 def test_a_plant_in_load_cases():
     """The mean over two speeds is the root mean square of those at each."""
     plant, design = measured(CAR, LINES), [[20e3, 1500.0]]
