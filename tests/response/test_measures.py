@@ -81,9 +81,7 @@ def test_points_may_be_written_in_any_way():
 
 def test_the_dynamic_load_coefficient_is_over_each_tyre_s_own_load():
     """The worst share, not the worst load over some load; static loads on struts in the middle of the box."""
-    static = SEATED.statics.static_loads(
-        np.array([list(SEATED.coefficients(struts_of(SEATED)).values())])
-    )[0]
+    static = SEATED.statics.static_loads(np.array([list(SEATED.coefficients(struts_of(SEATED)).values())]))[0]
     shares = [root(SEATED, f"{corner}_tyre_load") / load for corner, load in zip(CORNERS, static, strict=True)]
     assert judged(SEATED, "DLC")[0] == pytest.approx(max(shares), rel=1e-9)
     assert judged(SEATED, "DLC front_left")[0] == pytest.approx(shares[0], rel=1e-9)

@@ -106,7 +106,7 @@ def test_a_diverging_integral_is_none_and_gives_its_reason():
         ({"weighting": control.frd([1, 1, 1, 1], [10, 20, 30, 40])}, "band must lie within what was measured, "),
         ({"vehicle": HALF, "road": Spectrum(2.0)}, "road must have a cross_spectrum for 2 wheels, got "),
         ({"road": "C"}, "road must be a road such as Iso8608Road('C'), got 'C'"),
-        ({"setting": {"spring": 1e4}}, "struts must have spring, damper, got none for damper"),
+        ({"setting": {"spring": 1e4}}, "setting must have spring, damper, got none for damper"),
     ],
 )
 def test_the_ride_rejects(changes, message):

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from .. import checks, datafiles
 from ..quantities import Real, Record, frozen_array
-from ..vehicles.vehicle import check_measured
+from ..vehicles.feedback import check_measured
 
 
 @dataclass(frozen=True)

@@ -15,12 +15,7 @@ class MeasuredResponse(control.FrequencyResponseData):  # type: ignore[misc]  # 
     def eval(self, omega: Any, squeeze: bool | None = None) -> Complex:
         """Return it at angular frequencies [rad/s]; ValueError beyond the lines."""
         at = np.atleast_1d(omega).real
-        found, known = (np.array([x.min(), x.max()]) / (2 * np.pi) for x in (at, self.omega))
-        if not known[0] <= found[0] <= found[1] <= known[1]:
-            raise ValueError(
-                "band must lie within what was measured, {:g} to {:g} Hz, got frequencies from {:g} to {:g} "
-                "Hz".format(*known, *found)
-            )
+        check_measured(at, self.omega)
         return control.frd(self._spline(at), at).eval(omega, squeeze=squeeze)
 
     @cached_property
@@ -28,6 +23,17 @@ class MeasuredResponse(control.FrequencyResponseData):  # type: ignore[misc]  # 
         from scipy.interpolate import CubicSpline
 
         return CubicSpline(self.omega, self.frdata, axis=2)
+
+
+def check_measured(omega: Real, lines: Real) -> None:
+    """Raise ValueError unless angular frequencies [rad/s] lie within the ascending `lines` of a table."""
+    found, known = (np.array([x.min(), x.max()]) / (2 * np.pi) for x in (omega, lines))
+    if not known[0] <= found[0] <= found[1] <= known[1]:
+        raise ValueError(
+            "band must lie within what was measured, {:g} to {:g} Hz, got frequencies from {:g} to {:g} Hz".format(
+                *known, *found
+            )
+        )
 
 
 def around(
