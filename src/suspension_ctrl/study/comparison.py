@@ -51,11 +51,6 @@ class Comparison(Record):
     seeds : int
         Runs of each algorithm that are judged, from `seed` on.
     seed : int
-
-    Raises
-    ------
-    ValueError
-        If an algorithm is not one of `ALGORITHMS` or a number is too small.
     """
 
     problem: Described

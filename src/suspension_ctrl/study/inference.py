@@ -1,4 +1,4 @@
-"""Is a difference real, and how large: rank tests, effect sizes and intervals over repeated runs."""
+"""Rank tests, effect sizes and bootstrap intervals over repeated runs, and their verdict in words."""
 
 from collections.abc import Hashable, Mapping, Sequence
 from itertools import combinations, product
@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..checks import installed
+from ..quantities import Real
 
 SIGNIFICANCE = 0.05
 CONFIDENCE = 0.95
@@ -16,21 +17,9 @@ RESAMPLES = 9999
 
 
 def quartiles(table: pd.DataFrame, by: Sequence[str], values: Sequence[str]) -> pd.DataFrame:
-    """Return the number of runs, and median and quartiles of each of the values, by group.
+    """Return by group the number of runs, and of each value the median, ``<value> q1`` and ``<value> q3``.
 
-    Parameters
-    ----------
-    table : DataFrame
-        One row per run.
-    by : sequence of str
-        Columns that make a group.
-    values : sequence of str
-        Columns of which the median is taken.
-
-    Returns
-    -------
-    DataFrame
-        A row per group in order of appearance: `by`, runs, then ``<value>``, ``<value> q1``, ``<value> q3``.
+    `table` has a row per run; groups are in order of appearance.
     """
     groups = table.groupby(list(by), sort=False)
     columns: dict[str, Any] = {"runs": groups.size()}
@@ -57,7 +46,7 @@ def a12(first: ArrayLike, second: ArrayLike) -> float:
 
 
 def size_in_words(effect: float) -> str:
-    """Return what Vargha and Delaney call an effect A12: negligible, small (0.56), medium (0.64), large (0.71)."""
+    """Return Vargha and Delaney's word for an A12: negligible, small (0.56), medium (0.64), large (0.71)."""
     distance = abs(effect - 0.5)
     for word, least in (("large", 0.21), ("medium", 0.14), ("small", 0.06)):
         if distance >= least - 1e-12:  # 0.71 - 0.5 is a little less than 0.21 in binary
@@ -65,8 +54,8 @@ def size_in_words(effect: float) -> str:
     return "negligible"
 
 
-def holm(p_values: ArrayLike) -> NDArray[np.float64]:
-    """Return p-values (n,) adjusted by Holm for all n tests being made at once; NaN where there is none."""
+def holm(p_values: ArrayLike) -> Real:
+    """Return p-values (n,) adjusted by Holm for n tests at once; NaN where there is none."""
     with installed("study"):
         from statsmodels.stats.multitest import multipletests
 
@@ -81,20 +70,20 @@ def holm(p_values: ArrayLike) -> NDArray[np.float64]:
 def ratio_of_medians(first: ArrayLike, second: ArrayLike, seed: int = 0) -> tuple[float, float, float]:
     """Return the ratio of the first sample's median to the second's and its 95 % bootstrap interval.
 
-    All NaN where the second sample has values that are not positive or either has infinite ones, the interval
-    where a sample has one value.
+    All are NaN if a value of the second is not positive or one of either is infinite, the interval if a sample has
+    one value.
     """
     from scipy import stats
 
     first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
 
-    def ratio(x: NDArray[np.float64], y: NDArray[np.float64], axis: int = -1) -> NDArray[np.float64]:
+    def ratio(x: Real, y: Real, axis: int = -1) -> Real:
         return np.median(x, axis=axis) / np.median(y, axis=axis)
 
     if not ((second > 0).all() and np.isfinite([*first, *second]).all()):
         return np.nan, np.nan, np.nan
+    value = float(ratio(first, second))
     if min(first.size, second.size) < 2:
-        value = float(ratio(first, second))
         return value, np.nan, np.nan
     interval = stats.bootstrap(
         (first, second),
@@ -104,7 +93,7 @@ def ratio_of_medians(first: ArrayLike, second: ArrayLike, seed: int = 0) -> tupl
         method="percentile",  # quantiles have no jackknife, which other methods use
         rng=np.random.default_rng(seed),
     ).confidence_interval
-    return float(ratio(first, second)), float(interval.low), float(interval.high)
+    return value, float(interval.low), float(interval.high)
 
 
 def pairwise(
@@ -116,18 +105,16 @@ def pairwise(
     ----------
     table : DataFrame
         One row per run, with a column ``algorithm``.
-    by : sequence of str
-        Columns that make a group.
-    values : sequence of str
-        Columns that are compared.
+    by, values : sequence of str
+        Columns that make a group, and columns that are compared.
     algorithms : sequence of str
-        The algorithms, in the order in which they stand in pairs.
+        The algorithms in the order of a pair.
 
     Returns
     -------
     DataFrame
-        A row per value, group and pair: value, `by`, first, second, both medians, ratio of the medians with its
-        bootstrap interval (ratio, low, high), p of the two-sided Mann-Whitney test, p_holm adjusted for all
+        A row per value, group and pair: value, `by`, first, second, both medians, their ratio with its bootstrap
+        interval (ratio, ratio_low, ratio_high), p of the two-sided Mann-Whitney test, p_holm adjusted for all
         tests of the table, a12 of the first over the second and its effect in words.
     """
     rows: list[dict[str, Any]] = []
@@ -160,21 +147,10 @@ def _compared(first: "pd.Series[float]", second: "pd.Series[float]") -> dict[str
 
 
 def verdict(compared: pd.DataFrame, first: str, second: str, value: str) -> str:
-    """Return a paragraph on two algorithms: who is ahead at which configurations under each lens.
+    """Return a paragraph on two algorithms: which is ahead in a value, by lens and configuration.
 
-    Parameters
-    ----------
-    compared : DataFrame
-        From `statistics.pairwise`: rows of one value of which more is better, by lens, population, iterations.
-    first, second : str
-        The algorithms, in the order in which the table has them.
-    value : str
-        What is compared, in words.
-
-    Notes
-    -----
-    An algorithm is ahead where Holm's p-value is below 0.05 and the effect is not negligible; otherwise there is
-    no difference.
+    An algorithm is ahead where Holm's p-value is below 0.05 and the effect is not negligible. `compared` holds
+    rows of one value, of which more is better, from `pairwise` by lens, population and iterations.
     """
     pairs = compared[(compared["first"] == first) & (compared["second"] == second)]
     if pairs.empty:

@@ -1,4 +1,4 @@
-"""What a comparison holds equal: iterations, evaluations, time, or the quality to be reached."""
+"""A comparison at equal iterations, evaluations or time, and the effort up to a given quality."""
 
 from collections.abc import Mapping, Sequence
 
@@ -6,29 +6,20 @@ import numpy as np
 import pandas as pd
 
 ITERATIONS, EVALUATIONS, TIME = "equal iterations", "equal evaluations", "equal time"
-LENSES = (ITERATIONS, EVALUATIONS, TIME)
 RUN = ["population", "algorithm", "seed", "set"]
 
 
 def with_seconds(quality: pd.DataFrame, clock: pd.DataFrame) -> pd.DataFrame:
-    """Return the quality with the seconds that its evaluations take when timed.
+    """Return `quality`, rows of `Study.table`, with the seconds that its evaluations take when timed.
 
-    Parameters
-    ----------
-    quality : DataFrame
-        One row per run, budget and set, from `Study`; its ``seconds``, if any, are not timings and are replaced.
-    clock : DataFrame
-        Median time to each number of evaluations by algorithm and population, from
-        `experiments.seconds_by_evaluations`; between two of them in proportion.
+    They are interpolated in the `clock` of `timing.seconds_by_evaluations`.
     """
-    parts = []
     by = ["algorithm", "population"]
-    timed = dict(list(clock.groupby(by)))
-    for key, part in quality.groupby(by, sort=False):
-        known = timed[key].sort_values("evaluations")
-        seconds = np.interp(part.evaluations, known.evaluations, known.seconds)
-        parts.append(part.assign(seconds=seconds))
-    return pd.concat(parts).sort_index()
+    timed = {key: part.sort_values("evaluations") for key, part in clock.groupby(by)}
+    seconds = pd.Series(np.nan, index=quality.index)
+    for key, part in quality.groupby(by):
+        seconds[part.index] = np.interp(part.evaluations, timed[key].evaluations, timed[key].seconds)
+    return quality.assign(seconds=seconds)
 
 
 def at_equal(
@@ -37,25 +28,24 @@ def at_equal(
     iterations: Sequence[int],
     cost: Mapping[tuple[str, int], int],
 ) -> pd.DataFrame:
-    """Return what each run has reached where the algorithms have the same iterations, evaluations or time.
+    """Return the last row of each run within equal iterations, evaluations and time.
+
+    Evaluations are those of the algorithm that spends the most in that many iterations, time is that of the first
+    algorithm for them. A run that finished early keeps its final state.
 
     Parameters
     ----------
     quality : DataFrame
         From `with_seconds`.
-    algorithms : sequence of str
-        Those that are compared; the first sets the time.
-    iterations : sequence of int
-        Numbers of iterations that are compared.
+    algorithms, iterations : sequence
+        Those that are compared.
     cost : mapping
         Evaluations of an iteration by algorithm and population.
 
     Returns
     -------
     DataFrame
-        Rows of `quality`, the last one of each run within the limit, with columns ``lens`` and ``iterations``.
-        Evaluations are those of whoever spends the most in that many iterations, time is the time that the
-        first algorithm takes for them. Who has spent all its evaluations in less time stands there with them.
+        Rows of `quality` with the columns ``lens`` and ``iterations``.
     """
     parts = []
     for population in quality.population.unique():
@@ -75,19 +65,9 @@ def at_equal(
 
 
 def to_reach(quality: pd.DataFrame, target: float) -> pd.DataFrame:
-    """Return evaluations and seconds at which each run is first seen with a relative hypervolume of `target`.
+    """Return by run and set the evaluations and seconds to a relative hypervolume of `target`, NaN if not reached.
 
-    Parameters
-    ----------
-    quality : DataFrame
-        From `with_seconds`.
-    target : float
-        Relative hypervolume.
-
-    Returns
-    -------
-    DataFrame
-        A row per population, algorithm, seed and set, NaN where it was not reached.
+    `quality` is from `with_seconds`.
     """
     runs = quality[RUN].drop_duplicates()
     reached = quality[quality.relative_hypervolume >= target].groupby(RUN, sort=False).head(1)
@@ -95,19 +75,14 @@ def to_reach(quality: pd.DataFrame, target: float) -> pd.DataFrame:
 
 
 def reached_by(reached: pd.DataFrame) -> pd.DataFrame:
-    """Return by population, set and algorithm how many runs reached the target, and the medians of those that did.
+    """Return by population, set and algorithm the number of runs that reached the target, and their medians.
 
-    A median is given where more than half of the runs got there; the others count as later than all of them.
+    A run that did not counts as later than all others: there is a median where more than half of the runs did.
     """
     by = ["population", "set", "algorithm"]
     late = reached.fillna({"evaluations": np.inf, "seconds": np.inf})
     groups = late.groupby(by, sort=False)
-    table = pd.DataFrame(
-        {
-            "runs": groups.size(),
-            "reached": reached.groupby(by, sort=False).evaluations.count(),
-            "evaluations": groups.evaluations.median(),
-            "seconds": groups.seconds.median(),
-        }
-    )
-    return table.replace(np.inf, np.nan).reset_index()
+    table = groups[["evaluations", "seconds"]].median().replace(np.inf, np.nan)
+    table.insert(0, "runs", groups.size())
+    table.insert(1, "reached", reached.groupby(by, sort=False).evaluations.count())
+    return table.reset_index()

@@ -9,24 +9,23 @@ from typing import NamedTuple
 from zipfile import BadZipFile
 
 import numpy as np
-from numpy.typing import NDArray
 
-from .. import checks
-from .. import tables as files
+from .. import checks, tables
+from ..quantities import Real
 from ..search.constraints import feasible_objectives
 from ..search.indicators import ReferenceFront, non_dominated
 from ..search.problem import Minimisable
 from .machine import provenance
 
 TOLERANCE = 1e-4
+FIRST, MOST = 100, 20_000_000
+"""Values per variable of the coarsest grid, and designs of the finest."""
 
-_FIRST = 100  # values per variable of the coarsest grid
-_MOST = 20_000_000  # designs of the finest grid
 _CHUNK = 500_000  # designs at a time
 
 
 class Refined(NamedTuple):
-    """A reference front and what it was made from.
+    """A reference front and the grid it was made from.
 
     Parameters
     ----------
@@ -46,7 +45,7 @@ class Refined(NamedTuple):
     second: float
 
 
-def refined(problem: Minimisable, tolerance: float = TOLERANCE) -> Refined:
+def refined(problem: Minimisable, tolerance: float = TOLERANCE, most: int = MOST) -> Refined:
     """Return the front of a grid fine enough that neither half as many values nor a second grid changes it.
 
     Parameters
@@ -55,16 +54,18 @@ def refined(problem: Minimisable, tolerance: float = TOLERANCE) -> Refined:
         The problem, of few variables.
     tolerance : float
         Largest relative change of the hypervolume.
+    most : int
+        Designs of the finest grid.
 
     Raises
     ------
     ValueError
-        If that would take more than 20 million designs, also where none of them is feasible.
+        If that would take more designs, also where none of them is feasible.
     """
     checks.positive("tolerance", tolerance)
     variables = len(problem.lower)
-    points, before = _FIRST, None
-    while points**variables <= _MOST:
+    points, before = FIRST, None
+    while points**variables <= most:
         objectives = grid_front(problem, points)
         if len(objectives) and np.ptp(objectives, axis=0).all():  # otherwise there is nothing to scale by
             front = ReferenceFront.of(objectives)
@@ -77,16 +78,13 @@ def refined(problem: Minimisable, tolerance: float = TOLERANCE) -> Refined:
         points *= 2
     none = " (no front of feasible designs found)" if problem.constraints and before is None else ""
     raise ValueError(
-        f"problem must have a front that a grid of {_MOST} designs settles to {tolerance:g}, got one of "
+        f"problem must have a front that a grid of {most} designs settles to {tolerance:g}, got one of "
         f"{variables} variables that does not{none}; give a reference front"
     )
 
 
-def grid_front(problem: Minimisable, points: int) -> NDArray[np.float64]:
-    """Return the non-dominated objectives (n, m) on a regular grid with `points` values in each variable.
-
-    Those of feasible designs only; there may be none.
-    """
+def grid_front(problem: Minimisable, points: int) -> Real:
+    """Return the non-dominated objectives (n, m) of feasible designs on a grid of `points` values per variable."""
     checks.at_least("points", points, 2)
     axes = [np.linspace(a, b, points) for a, b in zip(problem.lower, problem.upper, strict=True)]
     m = len(problem.objectives)
@@ -100,11 +98,11 @@ def grid_front(problem: Minimisable, points: int) -> NDArray[np.float64]:
     return front
 
 
-def _best(objectives: NDArray[np.float64]) -> NDArray[np.float64]:
+def _best(objectives: Real) -> Real:
     return objectives[non_dominated(objectives)]
 
 
-def best_known(found: Sequence[NDArray[np.float64]]) -> ReferenceFront:
+def best_known(found: Sequence[Real]) -> ReferenceFront:
     """Return the front of the best of several sets of feasible objectives (n, m).
 
     Raises
@@ -136,7 +134,7 @@ def kept(path: Path, problem: Minimisable, tolerance: float = TOLERANCE) -> Refi
     found = refined(problem, tolerance)
     content = {"key": wanted, **vars(found.front), **found._asdict()}
     del content["front"]
-    files.write_whole(path, lambda temporary: np.savez(temporary, **content))
+    tables.write_whole(path, lambda temporary: np.savez(temporary, **content))
     return found
 
 
@@ -150,21 +148,18 @@ def _read(path: Path, wanted: str) -> Refined:
 
 
 def key(problem: Minimisable, tolerance: float) -> str:
-    """Return a digest of all that the front depends on: versions, bounds, tolerance, and sample values.
+    """Return a digest of all that the front depends on: versions, bounds, tolerance, values of some designs.
 
-    The objectives and constraints of some designs stand for the whole function: any parameter or line of code
-    that changes them makes another key.
+    These stand for the whole function: any parameter or line of code that changes them makes another key.
     """
     rng = np.random.default_rng(0)
     lower, upper = (np.asarray(bound, dtype=float) for bound in (problem.lower, problem.upper))
     probes = problem.evaluate(lower + (upper - lower) * rng.random((64, lower.size)))
     settings = {
         "versions": provenance(),
-        "objectives": list(problem.objectives),
+        "outputs": [list(problem.objectives), list(problem.constraints)],
         "bounds": [lower.tolist(), upper.tolist()],
-        "grid": [tolerance, _FIRST, _MOST],
+        "grid": [tolerance, FIRST, MOST],
         "front": [ReferenceFront.SAMPLE, ReferenceFront.HYPERVOLUME_REFERENCE],
     }
-    if problem.constraints:  # not otherwise: fronts kept so far keep their names
-        settings["constraints"] = list(problem.constraints)
     return hashlib.sha256(json.dumps(settings, sort_keys=True).encode() + probes.tobytes()).hexdigest()[:32]

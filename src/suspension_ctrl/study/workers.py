@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from uuid import uuid4
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .. import checks
 from ..checks import installed
+from ..quantities import Real
 from ..search.problem import Described, Problem
 
 if TYPE_CHECKING:
@@ -49,20 +49,10 @@ def check_address(address: str) -> None:
 
 @contextmanager
 def scheduler_at(address: str, timeout: float = 10.0) -> Iterator["Client"]:
-    """Connect to a running scheduler.
+    """Connect to a running scheduler that has a worker, within `timeout` [s].
 
-    Parameters
-    ----------
-    address : str
-        For example ``tcp://host:8786``; or ``tls://host:8786``, encrypted with the certificates that Dask's
-        configuration names (``distributed.comm.tls``).
-    timeout : float
-        Seconds after which to give up.
-
-    Raises
-    ------
-    ValueError
-        If the address has another form, no scheduler answers there, or it has no worker.
+    Its address is ``tcp://host:8786``, or ``tls://host:8786`` with the certificates that Dask's configuration
+    names (``distributed.comm.tls``).
     """
     check_address(address)
     with installed("study"):
@@ -83,17 +73,17 @@ def scheduler_at(address: str, timeout: float = 10.0) -> Iterator["Client"]:
 def outcomes(
     function: Callable[..., T], arguments: Mapping[str, tuple[Any, ...]], client: "Client | None" = None
 ) -> Iterator[tuple[str, T | None, str]]:
-    """Call the function with each of the arguments and hand out name, result and error of each as it ends.
+    """Call the function with each of the arguments and yield name, result and error of each as it ends.
 
-    A call that raises has no result and its error in one line, otherwise the error is empty. On a cluster a
-    call whose worker dies is repeated on another one; only where it takes four workers with it is that its
-    error. A scheduler that is lost raises ConnectionError.
+    A call that raises has no result and its error in one line; otherwise the error is empty. On a cluster a call
+    is repeated when its worker dies, up to four times. A scheduler that is lost raises ConnectionError.
     """
     if client is None:
         for name, values in arguments.items():
             yield name, *outcome(function, values)
         return
-    from distributed import as_completed
+    with installed("study"):
+        from distributed import as_completed
 
     futures = {
         client.submit(outcome, function, values, key=f"{name}-{uuid4()}", pure=False): name
@@ -123,22 +113,13 @@ def _line(error: BaseException) -> str:
 
 
 def distributed(problem: Described, client: "Client", chunk: int = 16) -> Problem:
-    """Return the problem with its evaluation spread over a cluster, for one that takes long for each design.
+    """Return a slow problem with its evaluation spread over a cluster, `chunk` designs at a time to a worker.
 
     It has no kernel: MOEA/D-DRA should then make its children in batches (``update="batch"``).
-
-    Parameters
-    ----------
-    problem : Problem or RideProblem
-        What is evaluated.
-    client : distributed.Client
-        A client of the cluster.
-    chunk : int
-        Designs evaluated together by one worker.
     """
     checks.at_least("chunk", chunk, 1)
 
-    def evaluate(designs: NDArray[np.float64]) -> NDArray[np.float64]:
+    def evaluate(designs: Real) -> Real:
         parts = [designs[start : start + chunk] for start in range(0, len(designs), chunk)]
         return np.concatenate(client.gather(client.map(problem.evaluate, parts, pure=False)))
 
