@@ -154,7 +154,7 @@ def write_page(
 ) -> None:
     """Write page and picture."""
     text = report.page(found, settings, machine)
-    files.write_whole(folder / "performance.md", lambda path: path.write_text(text))
+    files.write_whole(folder / "performance.md", lambda path: path.write_text(text, encoding="utf-8"))
     figure = report.picture(found)
     files.write_whole(folder / "performance.png", lambda path: figure.savefig(path, dpi=160))
 

@@ -94,7 +94,7 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> None:
     try:
         write(temporary)
         temporary.chmod(0o644)
-        with temporary.open("rb") as written:
+        with temporary.open("rb+") as written:
             os.fsync(written.fileno())  # the content is on the disk before the name is
         os.replace(temporary, path)
     finally:

@@ -1,7 +1,6 @@
 """Campaigns that are killed, or whose disk gives out, go on where they were: real processes, real signals."""
 
 import os
-import resource
 import signal
 import subprocess
 import sys
@@ -92,7 +91,7 @@ def test_ten_times_killed_and_started_again_is_as_if_never_killed(undisturbed, t
         moment = before + 120 + 53 * kill  # within the first run, or up to two runs later
         while len(log(folder)) < moment and process.poll() is None:
             time.sleep(0.0005)
-        process.send_signal(signal.SIGKILL)
+        process.kill()
         process.wait()
         process.stderr.close()
         assert not (folder / "table.csv").exists()
@@ -108,6 +107,7 @@ def test_ten_times_killed_and_started_again_is_as_if_never_killed(undisturbed, t
 
 def test_a_full_disk_ends_it_in_one_line_and_loses_nothing(undisturbed, tmp_path):
     """Files that may grow to so many bytes and no more stand for a disk that is full: writing fails alike."""
+    resource = pytest.importorskip("resource", reason="the system does not limit the size of files")
     folder = tmp_path / "full"
     assert finish(folder) == (0, "")
     (folder / "table.csv").unlink()
@@ -154,9 +154,10 @@ def test_a_folder_that_turns_read_only_ends_it_in_one_line(undisturbed, tmp_path
     assert len(set(finished(folder))) == len(finished(folder)) == RUNS
 
 
+@pytest.mark.skipif(
+    not hasattr(os, "geteuid") or os.geteuid() == 0, reason="whoever may write anywhere is not refused"
+)
 def test_a_folder_without_permission_is_refused_in_one_line(tmp_path):
-    if os.geteuid() == 0:
-        pytest.skip("the superuser may write anywhere")
     folder = tmp_path / "mine"
     folder.mkdir()
     (folder / "store").mkdir(mode=0o500)
