@@ -37,7 +37,7 @@ UNTESTED = {
     "datafiles.py", "documents.py", "tables.py", "paper/tables.py", "response/many_struts.py",
     "response/limits.py", "response/ports.py", "response/one_strut.py", "response/figures.py",
     "response/judges.py", "response/scores.py", "search/population.py", "search/clock.py", "search/sweep.py",
-    "search/deap_adapter.py", "roads/road.py", "roads/isotropy.py", "roads/curves.py", "study/figures.py",
+    "search/deap_adapter.py", "study/figures.py",
     "study/store.py", "vehicles/assembly.py", "commands/terminal.py", "commands/bode.py", "commands/optimum.py",
     "commands/pictures.py", "commands/campaign.py", "commands/reports.py", "commands/weighting.py",
 }  # fmt: skip

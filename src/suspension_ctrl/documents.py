@@ -12,6 +12,7 @@ from dataclasses import MISSING, dataclass, fields
 from pathlib import Path
 from typing import Any, TypeVar
 
+from . import checks
 from .quantities import key_of
 
 T = TypeVar("T")
@@ -88,6 +89,11 @@ class Table:
             raise ValueError(f"{self.name}{key} must be a text, got {reprlib.repr(value)}")
         return value
 
+    def choice(self, key: str, choices: Mapping[str, T]) -> T:
+        """Return the choice that the key names."""
+        checks.one_of(f"{self.name}{key}", self.content.get(key), tuple(choices))
+        return choices[self.text(key)]
+
     def boolean(self, key: str) -> bool:
         """Return true or false."""
         value = self.content.get(key)
@@ -145,6 +151,7 @@ def made(table: Table, kind: type[T], beside: Collection[str] = (), **given: obj
     """
     read: dict[Any, Callable[[str], object]] = {
         float: table.number,
+        float | None: table.number,
         str: table.text,
         tuple[float, float]: table.pair,
     }

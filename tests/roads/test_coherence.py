@@ -49,21 +49,21 @@ def isotropic_by_quadrature(road, n: float, distance: float) -> float:
 def test_isotropic_coherence_equals_the_integral_over_the_surface(road):
     """Both to 1e-11 or better, the trapezoidal rule of the two slopes exp(-pi^2/0.3) and rounding."""
     by_quadrature = [isotropic_by_quadrature(road, n, 1.5) for n in WAVENUMBERS]
-    np.testing.assert_allclose(Isotropic().between(WAVENUMBERS, 1.5, road), by_quadrature, rtol=0, atol=1e-10)
+    np.testing.assert_allclose(road.isotropic_coherence(WAVENUMBERS, 1.5), by_quadrature, rtol=0, atol=1e-10)
 
 
 def test_isotropic_coherence_of_exponents_with_elementary_bessel_functions():
     """K_1/2(z) = sqrt(pi/2z) exp(-z), so that exponent 1 gives exp(-z) and exponent 3 (1 + z) exp(-z)."""
     z = 2 * np.pi * WAVENUMBERS * 1.6
     for exponent, by_hand in ((1.0, np.exp(-z)), (3.0, (1 + z) * np.exp(-z))):
-        np.testing.assert_allclose(Isotropic(exponent).between(WAVENUMBERS, 1.6, ROAD), by_hand, rtol=1e-12)
+        np.testing.assert_allclose(Isotropic(exponent).between(WAVENUMBERS, 1.6), by_hand, rtol=1e-12)
 
 
 def test_isotropic_coherence_is_that_of_a_two_dimensional_surface():
     """Phi ~ (n^2 + m^2)^-3/2 for exponent 2: int Phi cos(2 pi m d) dm over int Phi dm with u = m/n, to 1e-8."""
     for n in WAVENUMBERS:
         cross, _ = quad(lambda u: (1 + u**2) ** -1.5, 0, np.inf, weight="cos", wvar=2 * np.pi * n * 1.5)
-        assert abs(Isotropic().between(np.array([n]), 1.5, ROAD)[0] - cross) < 1e-8  # int (1 + u^2)^-3/2 du = 1
+        assert abs(ROAD.isotropic_coherence(np.array([n]), 1.5)[0] - cross) < 1e-8  # int (1 + u^2)^-3/2 du = 1
 
 
 @given(st.floats(1e-12, 1e3), st.floats(1e-6, 1e3), st.floats(0.1, 8), st.floats(0.1, 8), st.floats(1e-4, 10))
@@ -71,7 +71,7 @@ def test_coherence_stays_from_zero_to_one(n, distance, lower, upper, corner):
     road = TwoSlopeRoad(
         roughness=1e-6, reference=corner, lower_exponent=lower, upper_exponent=upper, corner=corner
     )
-    gamma = Isotropic().between(np.array([n]), distance, road)
+    gamma = road.isotropic_coherence(np.array([n]), distance)
     assert 0 <= gamma[0] <= 1
     if n * distance < 1e-12 and lower >= 1:
         assert gamma[0] > 1 - 1e-9
@@ -80,25 +80,19 @@ def test_coherence_stays_from_zero_to_one(n, distance, lower, upper, corner):
 def test_alike_slopes_are_one_power_law():
     same = TwoSlopeRoad(roughness=1e-6, reference=0.1, lower_exponent=2, upper_exponent=2, corner=0.2)
     near = TwoSlopeRoad(roughness=1e-6, reference=0.1, lower_exponent=2, upper_exponent=2 + 1e-9, corner=0.2)
-    law = Isotropic().between(WAVENUMBERS, 1.5, ROAD)
-    np.testing.assert_array_equal(Isotropic().between(WAVENUMBERS, 1.5, same), law)
-    np.testing.assert_allclose(Isotropic().between(WAVENUMBERS, 1.5, near), law, rtol=1e-7)
+    law = ROAD.isotropic_coherence(WAVENUMBERS, 1.5)
+    np.testing.assert_array_equal(same.isotropic_coherence(WAVENUMBERS, 1.5), law)
+    np.testing.assert_allclose(near.isotropic_coherence(WAVENUMBERS, 1.5), law, rtol=1e-7)
 
 
 def test_simple_models():
-    np.testing.assert_allclose(
-        Exponential(3.0).between(WAVENUMBERS, 1.5, ROAD), np.exp(-4.5 * WAVENUMBERS), rtol=1e-15
-    )
+    np.testing.assert_allclose(Exponential(3.0).between(WAVENUMBERS, 1.5), np.exp(-4.5 * WAVENUMBERS), rtol=1e-15)
     np.testing.assert_array_equal(
-        Exponential(0.0).between(WAVENUMBERS, 1.5, ROAD), Constant(1).between(WAVENUMBERS, 1.5, ROAD)
+        Exponential(0.0).between(WAVENUMBERS, 1.5), Constant(1).between(WAVENUMBERS, 1.5)
     )
     table = Tabulated((0.1, 0.3), (0.8, 0.2), 1.5)
-    np.testing.assert_allclose(
-        table.between(np.array([0.05, 0.1, 0.2, 0.3, 9.0]), 1.5, ROAD), [0.9, 0.8, 0.5, 0.2, 0.2]
-    )
-    np.testing.assert_allclose(
-        table.between(np.array([0.1]), 3.0, ROAD), table.between(np.array([0.2]), 1.5, ROAD)
-    )
+    np.testing.assert_allclose(table.between(np.array([0.05, 0.1, 0.2, 0.3, 9.0]), 1.5), [0.9, 0.8, 0.5, 0.2, 0.2])
+    np.testing.assert_allclose(table.between(np.array([0.1]), 3.0), table.between(np.array([0.2]), 1.5))
 
 
 @pytest.mark.parametrize(
@@ -122,16 +116,6 @@ def test_rejects_impossible_models(make, message):
         make()
 
 
-class Custom:
-    """A model that returns whatever it was made with."""
-
-    def __init__(self, make):
-        self.make = make
-
-    def between(self, n, distance, road):
-        return self.make(n, distance)
-
-
 @pytest.mark.parametrize(
     "make",
     [
@@ -144,11 +128,10 @@ class Custom:
 )
 def test_rejects_what_is_no_coherence(make):
     with pytest.raises(ValueError, match=r"^coherence must be real, from 0 to 1 and of shape \(5,\), got [^\n]*$"):
-        coherence_matrix(Custom(make), WAVENUMBERS, np.array([0.0, 1.5]), ROAD)
+        coherence_matrix(make, WAVENUMBERS, np.array([0.0, 1.5]))
 
 
 def test_rejects_coherences_of_no_road():
     """Neighbours all alike and the outer two strangers: an eigenvalue of 1 - sqrt(2)."""
-    model = Custom(lambda n, d: np.full(n.shape, 1.0 if d < 1 else 0.0))
     with pytest.raises(ValueError, match=r"^coherence must make a positive semi-definite matrix, got [^\n]*$"):
-        coherence_matrix(model, WAVENUMBERS, np.array([0.0, 0.8, 1.6]), ROAD)
+        coherence_matrix(lambda n, d: np.full(n.shape, float(d < 1)), WAVENUMBERS, np.array([0.0, 0.8, 1.6]))

@@ -1,5 +1,6 @@
 """Roads and profiles by files and names: what is read is what was written, and bad files are one line."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -10,9 +11,12 @@ from hypothesis import strategies as st
 from suspension_ctrl import Iso8608Road, MeasuredRoad, PowerLawRoad, TwoSlopeRoad
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.roads.coherence import Constant, Exponential, Isotropic, Tabulated
-from suspension_ctrl.roads.curves import COHERENCE, PSD, read_curve, read_profile, write_profile
 from suspension_ctrl.roads.files import load_road
+from suspension_ctrl.roads.measured import COHERENCE, PSD, read_curve
+from suspension_ctrl.roads.profiles import read_profile, write_profile
 
+NUMBER = "a number from 1e-12 to 1e+12 in size or 0"
+POWER_LAW, ISO = 'kind = "power-law"\n', 'kind = "iso-8608"\nclass = "A"\n'
 SPECTRUM = "wavenumber [cycle/m],psd [m^3]\n0.01,1e-3\n0.1,1e-5\n2,1e-8\n"
 
 
@@ -22,35 +26,18 @@ def written(folder: Path, name: str, text: str | bytes) -> Path:
     return path
 
 
-@pytest.mark.parametrize("tracks", [(0.0,), (0.75, -0.75), (1.0, 0.125, -1e-5), (0.3,)])
-def test_profiles_come_back_to_the_last_bit(tmp_path, tracks):
-    profile = Iso8608Road("C").profile(32.0, 0.1, 1, tracks)
-    write_profile(tmp_path / "p.csv", profile)
-    back = read_profile(tmp_path / "p.csv")
-    np.testing.assert_array_equal(back.distance, profile.distance)
-    np.testing.assert_array_equal(back.height, profile.height)
-    assert back.tracks == tracks
-
-
-def test_left_and_right_are_half_the_width_from_the_middle(tmp_path):
-    text = "# Source: none\ndistance [m],left [m],right [m]\n\n0,1,2\n0.1,3,4\n0.2,5,6\n"
-    profile = read_profile(written(tmp_path, "p.csv", text), track_width=1.5)
-    assert profile.tracks == (0.75, -0.75)
-    np.testing.assert_array_equal(profile.height, [[1, 2], [3, 4], [5, 6]])
-
-
 def test_a_measured_road_from_a_file_is_that_of_its_profile(tmp_path):
     profile = Iso8608Road("C").profile(409.6, 0.1, 1, (0.75, -0.75))
     path = tmp_path / "p.csv"
     write_profile(path, profile)
-    road, there = load_road(str(path)), MeasuredRoad.from_profile(profile)
+    road, there = load_road(path), MeasuredRoad.from_profile(profile)
     np.testing.assert_array_equal(road.density, there.density)
     assert road.coherence == there.coherence
     assert road.describe().startswith(f"measured, {path}: Gd(0.1 cycle/m) = ")
 
 
 def test_a_spectrum_from_a_file(tmp_path):
-    road = load_road(str(written(tmp_path, "s.csv", "\ufeff# Source: none\n" + SPECTRUM)))
+    road = load_road(written(tmp_path, "s.csv", "\ufeff# Source: none\n" + SPECTRUM))
     np.testing.assert_array_equal(road.density, [1e-3, 1e-5, 1e-8])
     assert road.coherence == Isotropic()
 
@@ -64,11 +51,11 @@ def test_a_spectrum_from_a_file(tmp_path):
     ],
 )
 def test_classes_by_name(text, road):
-    assert load_road(text) == road
+    assert load_road(text) == load_road(Path(text)) == road
 
 
 def test_the_papers_road_by_file(checkout):
-    assert load_road(str(checkout / "data/roads/yuen_ramli_2010.toml")) == paper.ride_problem().road
+    assert load_road(checkout / "data/roads/yuen_ramli_2010.toml") == paper.ride_problem().road
 
 
 def test_example_roads_say_where_they_are_from(checkout):
@@ -76,7 +63,7 @@ def test_example_roads_say_where_they_are_from(checkout):
     assert len(files) >= 2
     for file in files:
         assert file.read_text().startswith("# Source: ")
-        assert load_road(str(file)).describe()
+        assert load_road(file).describe()
 
 
 @pytest.mark.parametrize(
@@ -112,7 +99,7 @@ def test_example_roads_say_where_they_are_from(checkout):
 )
 def test_roads_by_toml(tmp_path, text, road):
     written(tmp_path, "c.csv", "wavenumber [cycle/m],coherence [-]\n0.1,0.5\n0.2,0.25\n")
-    assert load_road(str(written(tmp_path, "r.toml", text))) == road
+    assert load_road(written(tmp_path, "r.toml", text)) == road
 
 
 def test_measured_roads_by_toml(tmp_path):
@@ -121,7 +108,7 @@ def test_measured_roads_by_toml(tmp_path):
     lines = ["distance [m],left [m],right [m]", *(",".join(map(repr, row)) for row in rows)]
     written(tmp_path, "p.csv", "\n".join(lines))
     text = 'kind = "measured"\nfile = "p.csv"\ntrack_width_m = 1.5\nsegment_m = 25.6'
-    road = load_road(str(written(tmp_path, "r.toml", text)))
+    road = load_road(written(tmp_path, "r.toml", text))
     there = MeasuredRoad.from_profile(profile, segment=25.6)
     np.testing.assert_array_equal(road.density, there.density)
     assert road.coherence == there.coherence
@@ -167,7 +154,7 @@ P, S = "distance [m],height [m]", "wavenumber [cycle/m],psd [m^3]"
 def test_bad_tables_are_one_line(tmp_path, text, message):
     path = written(tmp_path, "r.csv", text)
     with pytest.raises(ValueError, match=rf"^{path}: {message}[^\n]*$"):
-        load_road(str(path))
+        load_road(path)
 
 
 def test_a_track_width_goes_with_left_and_right_alone(tmp_path):
@@ -185,61 +172,68 @@ def test_a_track_width_goes_with_left_and_right_alone(tmp_path):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("kind = ", "Invalid value"),
-        (b"\xff", "'utf-8' codec"),
+        ("kind = ", "the file must be TOML in UTF-8, got Invalid value"),
+        (b"\xff", "the file must be TOML in UTF-8, got 'utf-8' codec"),
         ("", "kind must be one of power-law, two-slope, iso-8608, measured, got None"),
-        ("kind = [1]", r"kind must be one of .* got \[1\]"),
+        ("kind = [1]", "kind must be one of power-law, two-slope, iso-8608, measured, got [1]"),
         (
-            'kind = "power-law"\nexponent = 2',
-            "power-law needs the key 'roughness_m3': it must have roughness_m3, exp",
+            f"{POWER_LAW}exponent = 2",
+            "roughness_m3 must be given, got none: keys are roughness_m3, exponent, kind, ",
         ),
-        (
-            'kind = "power-law"\nroughness = 1',
-            "power-law has no key 'roughness': it must have roughness_m3, exponent",
-        ),
-        ('kind = "power-law"\nroughness_m2 = 1', "power-law has no key 'roughness_m2'"),
-        (
-            'kind = "power-law"\nroughness_m3 = "1"\nexponent = 2',
-            "roughness_m3 must be a number from 0 to .* got '1'",
-        ),
-        ('kind = "power-law"\nroughness_m3 = true\nexponent = 2', "roughness_m3 must be a number .* got True"),
-        ('kind = "power-law"\nroughness_m3 = inf\nexponent = 2', "roughness_m3 must be a number .* got inf"),
-        ('kind = "power-law"\nroughness_m3 = 0\nexponent = 2', "roughness must be finite and > 0, got 0.0"),
-        ('kind = "iso-8608"\nclass = "Z"', "road_class must be one of A, B, C, D, E, F, G, H, got 'Z'"),
+        (f"{POWER_LAW}roughness = 1", "roughness must be roughness_m3, got 1"),
+        (f"{POWER_LAW}roughness_m2 = 1", "roughness_m2 must be roughness_m3, got 1"),
+        (f'{POWER_LAW}roughness_m3 = "1"\nexponent = 2', f"roughness_m3 must be {NUMBER}, got '1'"),
+        (f"{POWER_LAW}roughness_m3 = true\nexponent = 2", f"roughness_m3 must be {NUMBER}, got True"),
+        (f"{POWER_LAW}roughness_m3 = inf\nexponent = 2", f"roughness_m3 must be {NUMBER}, got inf"),
+        (f"{POWER_LAW}roughness_m3 = 1e-320\nexponent = 2", f"roughness_m3 must be {NUMBER}, got 1e-320"),
+        (f"{POWER_LAW}roughness_m3 = 0\nexponent = 2", "roughness_m3 must be finite and > 0 m^3, got 0.0"),
+        ('kind = "iso-8608"\nclass = "Z"', "class must be one of A, B, C, D, E, F, G, H, got 'Z'"),
         ('kind = "iso-8608"\nclass = 3', "class must be a text, got 3"),
+        (f'{ISO}level = "lower"', "level must be one of geometric mean, upper, got 'lower'"),
+        (f"{ISO}speed = 3", "speed must be one of the keys class, level, waviness, kind, coherence, got 3"),
+        (f"coherence = 3\n{ISO}", "coherence must be a table, got 3"),
         (
-            'kind = "iso-8608"\nclass = "A"\nlevel = "lower"',
-            "level must be one of geometric mean, upper, got 'lower'",
+            f"{ISO}[coherence]",
+            "coherence.kind must be one of isotropic, exponential, constant, tabulated, got None",
         ),
         (
-            'kind = "iso-8608"\nclass = "A"\nspeed = 3',
-            "iso-8608 has no key 'speed': .* and may have level, waviness",
-        ),
-        ('coherence = 3\nkind = "iso-8608"\nclass = "A"', "coherence must be a table, got 3"),
-        (
-            'kind = "iso-8608"\nclass = "A"\n[coherence]',
-            "coherence.kind must be one of isotropic, exponential, const",
+            f'{ISO}[coherence]\nkind = "exponential"',
+            "coherence.decay must be given, got none: keys are decay, kind",
         ),
         (
-            'kind = "iso-8608"\nclass = "A"\n[coherence]\nkind = "exponential"',
-            "exponential needs the key 'coherence.decay': it must have decay",
+            f'{ISO}[coherence]\nkind = "constant"\nvalue = 2',
+            "coherence.value must be a number from 0.0 to 1.0, got 2.0",
         ),
         (
-            'kind = "iso-8608"\nclass = "A"\n[coherence]\nkind = "constant"\nvalue = 2',
-            "value must be a number from 0.0 to 1.0, got 2.0",
+            f'{ISO}[coherence]\nkind = "tabulated"\nfile = "c.csv"\ndistance_m = 1',
+            "coherence must be from 0 to 1, got 0.5 to 1.5",
         ),
         (
-            'kind = "iso-8608"\nclass = "A"\n[coherence]\nkind = "tabulated"\nfile = "c.csv"\ndistance_m = 1',
-            r"[^\n]*c.csv: coherence must be from 0 to 1, got 0.5 to 1.5",
+            f'{ISO}[coherence]\nkind = "tabulated"\ndistance_m = 1',
+            "coherence.file must be given, got none: keys are ",
         ),
-        ('kind = "measured"\nfile = "c.csv"', r"[^\n]*c.csv: columns must be 'wavenumber"),
+        ('kind = "measured"\nfile = 3', "file must be a text, got 3"),
+        (
+            'kind = "measured"',
+            "file must be given, got none: keys are kind, file, coherence, track_width_m, segment_m",
+        ),
+        (
+            'kind = "measured"\nfile = "c.csv"',
+            "c.csv: columns must be 'wavenumber [cycle/m]' and 'psd [m^3]', got ",
+        ),
+        (
+            'kind = "measured"\nfile = "s.csv"\nsegment_m = 3',
+            "s.csv: a spectrum takes neither track_width nor segment",
+        ),
     ],
 )
 def test_bad_toml_is_one_line(tmp_path, text, message):
     written(tmp_path, "c.csv", "wavenumber [cycle/m],coherence [-]\n0.1,0.5\n0.2,1.5\n")
+    written(tmp_path, "s.csv", SPECTRUM)
     path = written(tmp_path, "r.toml", text)
-    with pytest.raises(ValueError, match=rf"^{path}: {message}[^\n]*$"):
-        load_road(str(path))
+    with pytest.raises(ValueError, match=rf"^{re.escape(str(path))}: [^\n]*$") as error:
+        load_road(path)
+    assert message in str(error.value)
 
 
 @pytest.mark.parametrize("text", ["c", "CC", "C-mean", "", "road.txt", "I", "A-lower"])
@@ -251,7 +245,7 @@ def test_other_names_are_no_roads(text):
 def test_files_that_are_not_there(tmp_path):
     for name in ("no.csv", "no.toml"):
         with pytest.raises(OSError, match="No such file"):
-            load_road(str(tmp_path / name))
+            load_road(tmp_path / name)
 
 
 NAMES = st.sampled_from(
@@ -290,7 +284,7 @@ def test_whatever_the_text_of_a_table_it_is_read_or_refused(tmp_path_factory, te
     content = text if isinstance(text, bytes) else text.encode(errors="surrogatepass")
     path = written(tmp_path_factory.getbasetemp(), "fuzz.csv", content)
     for read in (
-        lambda p: load_road(str(p)).describe(),
+        lambda p: load_road(p).describe(),
         lambda p: read_profile(p, 1.5),
         lambda p: read_curve(p, PSD),
         lambda p: read_curve(p, COHERENCE),
@@ -330,4 +324,4 @@ def test_whatever_the_text_of_a_toml_it_is_read_or_refused(tmp_path_factory, tex
     folder = tmp_path_factory.getbasetemp()
     written(folder, "fuzz.csv", SPECTRUM)
     content = text if isinstance(text, bytes) else text.encode(errors="surrogatepass")
-    check_read_or_refused(written(folder, "fuzz.toml", content), lambda p: load_road(str(p)).describe())
+    check_read_or_refused(written(folder, "fuzz.toml", content), lambda p: load_road(p).describe())

@@ -62,9 +62,9 @@ def test_coherence_of_two_tracks_is_the_roads():
     n = measured[0].wavenumber
     models = [m.coherence for m in measured]
     assert all(isinstance(model, Tabulated) and model.distance == 1.5 for model in models)
-    mean = np.mean([model.between(n, 1.5, road) for model in models], axis=0)
+    mean = np.mean([model.between(n, 1.5) for model in models], axis=0)
     np.testing.assert_allclose(mean[7:], np.exp(-1.5 * n[7:]), atol=1 / np.sqrt(50))
-    assert (np.array([model.between(n, 1.5, road) for model in models]) <= 1).all()
+    assert (np.array([model.between(n, 1.5) for model in models]) <= 1).all()
 
 
 def test_one_track_twice_is_coherent():

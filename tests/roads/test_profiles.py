@@ -1,96 +1,23 @@
-"""Realisations beside the spectrum and the coherence that they were made of."""
+"""Profiles: elevation between the points, and CSV files that come back to the last bit."""
+
+from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy import stats
 
-from suspension_ctrl import Iso8608Road, PowerLawRoad, TwoSlopeRoad
-from suspension_ctrl.roads.coherence import Constant, Exponential
-from suspension_ctrl.roads.profiles import Profile
+from suspension_ctrl import Iso8608Road, Profile
+from suspension_ctrl.roads.profiles import read_profile, write_profile
 
 ROAD = Iso8608Road("C")
-TWO_SLOPES = TwoSlopeRoad(roughness=20e-6, reference=0.1, lower_exponent=3.0, upper_exponent=2.25, corner=0.2)
 
 
-def periodograms(road, realisations: int, length: float, step: float, tracks) -> tuple[np.ndarray, np.ndarray]:
-    """Wavenumbers (k,) below the highest and cross-periodograms (k, t, t), means over realisations [m^3]."""
-    rng = np.random.default_rng(5)
-    points = round(length / step)
-    n = np.arange(1, (points + 1) // 2) / length
-    total = np.zeros((n.size, len(tracks), len(tracks)), dtype=complex)
-    for _ in range(realisations):
-        waves = np.fft.rfft(road.profile(length, step, rng, tracks).height, axis=0)[1 : n.size + 1]
-        total += waves[:, :, None] * waves[:, None, :].conj()
-    return n, total * 2 * step**2 / length / realisations
-
-
-@pytest.mark.parametrize("road", [ROAD, TWO_SLOPES, PowerLawRoad(roughness=5e-6, exponent=2.5)])
-@pytest.mark.parametrize("points", [256, 257])
-def test_periodograms_scatter_about_the_spectrum_as_chi_square(road, points):
-    """The mean of R periodograms is the spectrum times chi-square of 2R degrees of freedom over 2R.
-
-    None of the k values leaves the interval of probability 1 - 1e-4/k each, and their scatter has the whole
-    distribution (Kolmogorov and Smirnov, p > 1e-3).
-    """
-    realisations = 60
-    n, mean = periodograms(road, realisations, 0.25 * points, 0.25, [0.0])
-    quotient = 2 * realisations * mean[:, 0, 0].real / road.psd(n, 1.0)
-    chi = stats.chi2(2 * realisations)
-    assert (quotient > chi.ppf(0.5e-4 / n.size)).all()
-    assert (quotient < chi.isf(0.5e-4 / n.size)).all()
-    assert stats.kstest(quotient, chi.cdf).pvalue > 1e-3
-
-
-def test_variance_equals_the_integral_over_the_band():
-    """Beyond the tenth wave the sum over waves is the integral to (1/10)^2/24; with 60 realisations of 118 waves
-    the scatter is that of their weighted sum, sqrt(sum S^2 / 60) / sum S, held to four of it.
-    """
-    length, step, first = 64.0, 0.25, 10
-    n, mean = periodograms(ROAD, 60, length, step, [0.0])
-    found = mean[first - 1 :, 0, 0].real.sum() / length
-    low, high = (first - 0.5) / length, (n.size + 0.5) / length
-    integral = 256e-6 * 0.1**2 * (1 / low - 1 / high)
-    spectrum = ROAD.psd(n[first - 1 :], 1.0)
-    scatter = np.sqrt((spectrum**2).sum() / 60) / spectrum.sum()
-    assert abs(found / integral - 1) < 4 * scatter + 1e-3
-    assert scatter < 0.05
-
-
-def test_variance_is_that_of_the_waves():
-    """Parseval: the mean square of a profile is the sum of its periodogram over the band, to rounding."""
-    profile = ROAD.profile(64.0, 0.25, 1)
-    waves = np.abs(np.fft.rfft(profile.height[:, 0])) ** 2 * 2 * 0.25**2 / 64
-    assert profile.height.var() == pytest.approx(waves[1:-1].sum() / 64, rel=1e-12)
-    assert waves[-1] < 1e-20  # nothing at 1/(2 step), where a wave has no phase
-    assert abs(profile.height.mean()) < 1e-15
-
-
-@pytest.mark.parametrize("coherence", [None, Exponential(2.0), Constant(0.0), Constant(1.0)])
-def test_tracks_have_the_coherence_of_the_road(coherence):
-    """The mean cross-periodogram over both spectra is gamma with a variance of at most (1 + gamma^2)/2R per part
-    (complex Wishart), so that the mean over all k waves is off by at most 5 sqrt(1/(R k)).
-    """
-    road = ROAD if coherence is None else Iso8608Road("C", coherence=coherence)
-    realisations, tracks = 60, (0.75, -0.75, 0.75)
-    n, mean = periodograms(road, realisations, 64.0, 0.25, tracks)
-    found = mean / road.psd(n, 1.0)[:, None, None]
-    expected = road.coherence.between(n, 1.5, road)
-    error = found[:, 0, 1] - expected
-    assert abs(error.real.mean()) < 5 / np.sqrt(realisations * n.size)
-    assert abs(error.imag.mean()) < 5 / np.sqrt(realisations * n.size)
-    assert np.abs(error).max() < 6 / np.sqrt(realisations)
-    np.testing.assert_allclose(found[:, 0, 2], found[:, 0, 0], rtol=1e-6)  # one track, twice
-
-
-def test_seeds():
-    one, same, other = (ROAD.profile(32.0, 0.25, seed, (0.7, -0.7)) for seed in (1, np.random.default_rng(1), 2))
-    np.testing.assert_array_equal(one.height, same.height)
-    assert np.abs(one.height - other.height).max() > 1e-4
-    np.testing.assert_array_equal(one.distance, np.arange(128) * 0.25)
-    assert one.tracks == (0.7, -0.7)
-    assert one.step == 0.25
+def written(folder: Path, text: str) -> Path:
+    path = folder / "p.csv"
+    path.write_text(text, encoding="utf-8")
+    return path
 
 
 @given(st.floats(0, 31.75))
@@ -105,15 +32,18 @@ def test_profiles_cannot_be_changed():
         profile.height[0] = 1.0
 
 
+def test_profiles_keep_the_numbers_they_were_given_and_are_equal_by_value():
+    height = np.arange(3.0)[:, None]
+    profile = Profile([0, 1, 2], height)
+    height[:] = 7
+    assert profile == Profile([0, 1, 2], [[0], [1], [2]])
+    assert hash(profile) == hash(Profile([0, 1, 2], [[0], [1], [2]]))
+    assert profile != Profile([0, 1, 2], [[0], [1], [3]])
+
+
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: ROAD.profile(10.1, 0.25, 1), "length must be a whole number of steps of 0.25 m, four at least"),
-        (lambda: ROAD.profile(0.75, 0.25, 1), "length must be a whole number of steps of 0.25 m, four at least"),
-        (lambda: ROAD.profile(-1.0, 0.25, 1), "length must be finite and > 0 m"),
-        (lambda: ROAD.profile(10.0, 0.0, 1), "step must be finite and > 0 m"),
-        (lambda: ROAD.profile(10.0, 0.25, 1, ()), "tracks must be finite and one-dimensional"),
-        (lambda: ROAD.profile(10.0, 0.25, 1, (np.inf,)), "tracks must be finite and one-dimensional"),
         (
             lambda: Profile([0, 1, 3], [[0], [0], [0]]),
             "distance must be even, each step within 1% of the mean 1.5 m",
@@ -129,3 +59,37 @@ def test_profiles_cannot_be_changed():
 def test_rejects_impossible_profiles(make, message):
     with pytest.raises(ValueError, match=rf"^{message}[^\n]*$"):
         make()
+
+
+@pytest.mark.parametrize("tracks", [(0.0,), (0.75, -0.75), (1.0, 0.125, -1e-5), (0.3,)])
+def test_profiles_come_back_to_the_last_bit(tmp_path, tracks):
+    profile = Iso8608Road("C").profile(32.0, 0.1, 1, tracks)
+    write_profile(tmp_path / "p.csv", profile)
+    back = read_profile(tmp_path / "p.csv")
+    np.testing.assert_array_equal(back.distance, profile.distance)
+    np.testing.assert_array_equal(back.height, profile.height)
+    assert back.tracks == tracks
+
+
+def test_left_and_right_are_half_the_width_from_the_middle(tmp_path):
+    text = "# Source: none\ndistance [m],left [m],right [m]\n\n0,1,2\n0.1,3,4\n0.2,5,6\n"
+    profile = read_profile(written(tmp_path, text), track_width=1.5)
+    assert profile.tracks == (0.75, -0.75)
+    np.testing.assert_array_equal(profile.height, [[1, 2], [3, 4], [5, 6]])
+
+
+def test_a_profile_that_cannot_be_written_leaves_the_one_before(tmp_path, monkeypatch):
+    """The disk is full half way: the file is the old one, and no other file is left behind."""
+    path = tmp_path / "p.csv"
+    write_profile(path, Profile([0, 1, 2], np.zeros((3, 1))))
+    before = path.read_bytes()
+
+    def full(frame, target, **options):
+        Path(target).write_text("distance [m],hei", encoding="utf-8")
+        raise OSError("No space left on device")
+
+    monkeypatch.setattr(pd.DataFrame, "to_csv", full)
+    with pytest.raises(OSError, match="No space left"):
+        write_profile(path, Profile([0, 1, 2], np.ones((3, 1))))
+    assert path.read_bytes() == before
+    assert [one.name for one in tmp_path.iterdir()] == ["p.csv"]

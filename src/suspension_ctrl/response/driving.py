@@ -53,7 +53,7 @@ def simulate(
         How it begins. If false, the rearmost wheel stands on the first point, the vehicle settled on the heights
         under its wheels as after a level road, and sets off at full speed; the foremost ends on the last point.
         Drop the first seconds, or begin with a level stretch. If true, the profile goes on from its last point
-        over one step to its first, as those of `RandomRoad.profile` do without a seam, and the vehicle has driven
+        over one step to its first, as those of `Road.profile` do without a seam, and the vehicle has driven
         on it for ever: one period of the steady state, without any transient.
 
     Returns

@@ -1,41 +1,35 @@
-"""Coherence of the elevations of parallel tracks: how alike left and right are, by wavenumber and distance.
+"""Coherence of parallel tracks: their cross-spectrum over their common spectrum, by wavenumber and distance.
 
-It is the cross-spectrum of two tracks over their common spectrum; `scipy.signal.coherence` returns its square.
+`scipy.signal.coherence` returns its square.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike
 
 from .. import checks
-from .isotropy import power_law_coherence
+from ..quantities import Real, Record, check_numbers, unit
 
 _ROUNDING = 1e-9
-"""What an eigenvalue of a matrix of coherences may lie below zero by."""
-
-
-class Surface(Protocol):
-    """What an isotropic coherence needs of a road."""
-
-    def isotropic_coherence(self, n: NDArray[np.float64], distance: float) -> NDArray[np.float64]:
-        """Return the coherence (n,) of tracks `distance` [m] apart at wavenumbers `n` (n,) [cycle/m]."""
+"""Largest magnitude of a negative eigenvalue of a matrix of coherences by rounding, by number of tracks."""
 
 
 class Coherence(Protocol):
     """A model of coherence, the field ``coherence`` of every road."""
 
-    def between(self, n: NDArray[np.float64], distance: float, road: Surface, /) -> NDArray[np.float64]:
+    def between(self, n: Real, distance: float, /) -> Real:
         """Return the coherence (n,) from 0 to 1 of tracks `distance` > 0 [m] apart at `n` (n,) [cycle/m]."""
 
 
-@dataclass(frozen=True)
-class Isotropic:
+@dataclass(frozen=True, eq=False, repr=False)
+class Isotropic(Record):
     """Surface whose profiles have the same spectrum in every direction [1]_, [2]_.
 
-    The road's own spectrum then settles the coherence: in closed form for a power law, by an integral for two
-    slopes. A measured spectrum ends where the integral needs it to go on, and takes an `exponent` instead.
+    The road's own spectrum then determines the coherence: in closed form for a power law, by an integral for two
+    slopes. The integral needs the spectrum of all shorter waves: a measured spectrum takes an `exponent` instead.
 
     Parameters
     ----------
@@ -45,7 +39,7 @@ class Isotropic:
     Raises
     ------
     ValueError
-        If the exponent is not finite and above zero; from `between`, if it is needed and absent.
+        If the exponent is not finite and above zero.
 
     References
     ----------
@@ -61,21 +55,21 @@ class Isotropic:
         if self.exponent is not None:
             checks.positive("exponent", self.exponent)
 
-    def between(self, n: NDArray[np.float64], distance: float, road: Surface) -> NDArray[np.float64]:
-        """Return the coherence; see `Coherence`."""
+    def between(self, n: Real, distance: float) -> Real:
+        """Return the coherence; see `Coherence`. Without an exponent it is the road's."""
         if self.exponent is None:
-            return road.isotropic_coherence(n, distance)
+            raise ValueError("exponent must be given where there is no road, got None")
         return power_law_coherence(n, distance, self.exponent)
 
 
-@dataclass(frozen=True)
-class Exponential:
+@dataclass(frozen=True, eq=False, repr=False)
+class Exponential(Record):
     """Coherence ``exp(-decay n d)`` over wavenumber n and distance d, one of the models in use [1]_, [2]_.
 
     Parameters
     ----------
     decay : float
-        Decay per cycle [-]; 0 for tracks that are all alike.
+        Decay per cycle [-]; 0 for identical tracks.
 
     Raises
     ------
@@ -95,19 +89,19 @@ class Exponential:
     def __post_init__(self) -> None:
         checks.within("decay", self.decay, 0.0, 1e6)
 
-    def between(self, n: NDArray[np.float64], distance: float, _road: Surface) -> NDArray[np.float64]:
+    def between(self, n: Real, distance: float) -> Real:
         """Return the coherence; see `Coherence`."""
         return np.exp(-self.decay * n * distance)
 
 
-@dataclass(frozen=True)
-class Constant:
-    """One coherence for any two tracks, at all wavenumbers: 1 for a road shaped like a cylinder, 0 for strangers.
+@dataclass(frozen=True, eq=False, repr=False)
+class Constant(Record):
+    """One coherence for any two tracks, at all wavenumbers.
 
     Parameters
     ----------
     value : float
-        From 0 to 1 [-].
+        From 0, uncorrelated tracks, to 1, identical tracks (cylindrical road) [-].
 
     Raises
     ------
@@ -120,18 +114,18 @@ class Constant:
     def __post_init__(self) -> None:
         checks.within("value", self.value, 0.0, 1.0)
 
-    def between(self, n: NDArray[np.float64], _distance: float, _road: Surface) -> NDArray[np.float64]:
+    def between(self, n: Real, _distance: float) -> Real:
         """Return the coherence; see `Coherence`."""
         return np.full(n.shape, self.value)
 
 
-@dataclass(frozen=True)
-class Tabulated:
-    """Measured coherence of two tracks, straight over wavenumber between the rows of a table.
+@dataclass(frozen=True, eq=False, repr=False)
+class Tabulated(Record):
+    """Measured coherence of two tracks, linear over wavenumber between the rows of a table.
 
-    Below the first row it goes straight to 1 at wavenumber 0, beyond the last it stays. Tracks at another
-    distance d than the measured one D have at n the coherence of n d/D, as on an isotropic power-law road, where
-    it depends on the product alone.
+    Below the first row it rises to 1 at wavenumber 0, beyond the last it stays. Tracks at another distance d than
+    the measured one D have at n the coherence of n d/D: on an isotropic power-law road it depends on the product
+    alone.
 
     Parameters
     ----------
@@ -140,7 +134,7 @@ class Tabulated:
     coherence : (k,) sequence of float
         From 0 to 1 [-].
     distance : float
-        How far apart the tracks were that were measured [m].
+        Distance of the measured tracks [m].
 
     Raises
     ------
@@ -148,12 +142,12 @@ class Tabulated:
         If a parameter is out of range or the lengths differ.
     """
 
-    wavenumber: tuple[float, ...] = field(repr=False)
-    coherence: tuple[float, ...] = field(repr=False)
-    distance: float
+    wavenumber: tuple[float, ...] = field(metadata=unit("cycle/m"))
+    coherence: tuple[float, ...]
+    distance: float = field(metadata=unit("m"))
 
     def __post_init__(self) -> None:
-        checks.positive("distance", self.distance, "m")
+        check_numbers(self)
         n, gamma = np.asarray(self.wavenumber, dtype=float), np.asarray(self.coherence, dtype=float)
         if n.ndim != 1 or n.shape != gamma.shape or n.size == 0:
             raise ValueError(f"wavenumber and coherence must be of one length, got {n.shape} and {gamma.shape}")
@@ -164,39 +158,19 @@ class Tabulated:
         object.__setattr__(self, "wavenumber", tuple(n.tolist()))
         object.__setattr__(self, "coherence", tuple(gamma.tolist()))
 
-    def between(self, n: NDArray[np.float64], distance: float, _road: Surface) -> NDArray[np.float64]:
+    def between(self, n: Real, distance: float) -> Real:
         """Return the coherence; see `Coherence`."""
         return np.interp(n * distance / self.distance, (0.0, *self.wavenumber), (1.0, *self.coherence))
 
 
-def coherence_matrix(
-    model: Coherence, n: NDArray[np.float64], y: NDArray[np.float64], road: Surface
-) -> NDArray[np.float64]:
-    """Return the coherence of every two of several tracks.
+def coherence_matrix(between: Callable[[Real, float], Real], n: Real, y: Real) -> Real:
+    """Return the coherence (n, r, r) of tracks at `y` (r,) [m] across the road at wavenumbers (n,) [cycle/m].
 
-    Parameters
-    ----------
-    model : Coherence
-        The model.
-    n : (n,) ndarray
-        Wavenumbers above zero [cycle/m].
-    y : (r,) ndarray
-        Where the tracks are across the road [m]; equal ones are one track, of coherence one with itself.
-    road : Surface
-        The road.
-
-    Returns
-    -------
-    (n, r, r) ndarray
-        Symmetric and positive semi-definite, one on the diagonal [-].
-
-    Raises
-    ------
-    ValueError
-        If the model does not return as many values from 0 to 1, or a matrix that belongs to no road.
+    It is symmetric, positive semi-definite and one on the diagonal; equal `y` are one track. ValueError if
+    `between` does not return values (n,) from 0 to 1, or no road has the matrix.
     """
     distances, which = np.unique(np.abs(y[:, None] - y), return_inverse=True)
-    values = np.array([_checked(model, n, d, road) for d in distances.tolist()])
+    values = np.array([_checked(between(n, d), n) if d else np.ones(n.shape) for d in distances.tolist()])
     matrix = np.moveaxis(values[which.reshape(y.size, y.size)], 2, 0)
     if y.size > 2 and not np.linalg.eigvalsh(matrix).min(initial=0.0) >= -_ROUNDING * y.size:
         raise ValueError(
@@ -205,10 +179,8 @@ def coherence_matrix(
     return matrix
 
 
-def _checked(model: Coherence, n: NDArray[np.float64], distance: float, road: Surface) -> NDArray[np.float64]:
-    if distance == 0:
-        return np.ones(n.shape)
-    values = np.asarray(model.between(n, distance, road))
+def _checked(values: ArrayLike, n: Real) -> Real:
+    values = np.asarray(values)
     real = values.dtype.kind in "fiu"
     if not (values.shape == n.shape and real and ((values >= 0) & (values <= 1)).all()):
         got = f"{values.min()} to {values.max()}" if real and values.size else f"{values.dtype}"
@@ -216,3 +188,53 @@ def _checked(model: Coherence, n: NDArray[np.float64], distance: float, road: Su
             f"coherence must be real, from 0 to 1 and of shape {n.shape}, got {got} of shape {values.shape}"
         )
     return values
+
+
+def power_law_coherence(n: ArrayLike, distance: float, exponent: float) -> Real:
+    """Return the coherence (n,) of tracks `distance` [m] apart on an isotropic surface of a power-law spectrum.
+
+    Of a surface with the spectrum Phi(k) ~ k^-(w + 1) over the wave vector, a track has the integral of Phi across
+    the track, ~ n^-w, and two tracks the integral with cos(2 pi m d). By Basset's integral (DLMF 10.32.11) their
+    ratio is ``2^(1 - v)/Gamma(v) z^v K_v(z)`` with ``v = w/2`` and ``z = 2 pi n d``.
+    """
+    from scipy.special import gammaln, kv
+
+    z, v = 2 * np.pi * distance * np.asarray(n, dtype=float), exponent / 2
+    with np.errstate(all="ignore"):
+        coherence = np.exp((1 - v) * np.log(2) - gammaln(v) + v * np.log(z)) * kv(v, z)
+    # K_v overflows for z near 0 alone, where the coherence is one
+    return np.clip(np.where(np.isfinite(coherence), coherence, 1.0), 0.0, 1.0)
+
+
+def two_slope_coherence(n: Real, distance: float, lower: float, upper: float, corner: float) -> Real:
+    """Return the coherence (n,) on an isotropic surface whose spectrum has another exponent above a corner.
+
+    Abel's inversion of the track's spectrum G gives the cross-spectrum as the integral of
+    ``-G'(s) J_0(2 pi d sqrt(s^2 - n^2))`` over s from n on: waves longer than 1/n have no part in it. Above the
+    corner the upper power law holds. Below it holds the lower one, and the difference of the two is integrated
+    from the corner on along the imaginary direction, where the Hankel function in place of J_0 decays.
+    """
+    coherence = np.where(
+        n < corner, power_law_coherence(n, distance, lower), power_law_coherence(n, distance, upper)
+    )
+    below = n < corner
+    if lower != upper and below.any():
+        coherence[below] += _beyond_corner(n[below] / corner, 2 * np.pi * distance * corner, lower, upper)
+    return np.clip(coherence, 0.0, 1.0)
+
+
+def _beyond_corner(n: Real, d: float, lower: float, upper: float) -> Real:
+    """Integral of (G_lower' - G_upper') J_0 from the corner on, over G(n); n < 1 and d in units of the corner.
+
+    With t = exp(x) the integrand is analytic for |Im x| < pi/2 and the trapezoidal rule converges as
+    exp(-pi^2/h), to 1e-11 or better for a step of h = 0.3. It is negligible below t = exp(-36) and beyond a decay
+    by exp(-40).
+    """
+    from scipy.special import hankel1
+
+    x = np.arange(-36.0, np.log(40 / d) + 0.3, 0.3)
+    t = np.exp(x)
+    s = 1 + 1j * t
+    slope = upper * s ** (-upper - 1) - lower * s ** (-lower - 1)
+    kernel = hankel1(0, d * np.sqrt(s**2 - n[:, None] ** 2))
+    return n**lower * 0.3 * (1j * t * slope * kernel).real.sum(axis=1)

@@ -1,55 +1,47 @@
-"""Roads by a text, for command lines: a class of ISO 8608, a CSV file that was measured or a TOML file.
+"""Roads by a text, for command lines: a class of ISO 8608, a CSV file of a measured road or a TOML file.
 
-Keys of a TOML file end in their units. ``kind`` says which others there are:
+Keys of a TOML file end in their units; ``kind`` determines the others:
 
 - ``power-law``: roughness_m3, the density at 1 cycle/m, and exponent;
 - ``two-slope``: roughness_m3, reference_cycle_per_m, lower_exponent, upper_exponent, corner_cycle_per_m;
 - ``iso-8608``: class; level and waviness if they are not ``"geometric mean"`` and 2;
-- ``measured``: file, a CSV file by its path from this one; for a profile track_width_m and segment_m if wanted.
+- ``measured``: file, a CSV file by its path from this one; optional track_width_m of a profile, and segment_m.
 
-Each may have a table ``[coherence]``, whose ``kind`` is ``isotropic`` (exponent if wanted), ``exponential``
+Each may have a table ``[coherence]``, whose ``kind`` is ``isotropic`` (exponent optional), ``exponential``
 (decay), ``constant`` (value) or ``tabulated`` (file, a CSV file by its path from this one, and distance_m).
 """
 
 import re
-import tomllib
-from collections.abc import Callable
+from os import PathLike
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
-from .. import checks
-from .coherence import Constant, Exponential, Isotropic, Tabulated
-from .curves import COHERENCE, read_curve
-from .measured import MeasuredRoad
-from .road import RandomRoad
+from ..documents import Table, keyed, made, naming, read_toml
+from .coherence import Coherence, Constant, Exponential, Isotropic, Tabulated
+from .measured import COHERENCE, MeasuredRoad, read_curve
+from .road import Road
 from .spectra import Iso8608Road, PowerLawRoad, TwoSlopeRoad
 
 _CLASS = re.compile(r"([A-Z])(?:-(lower|upper))?")
-_TEXTS = ("file", "class", "level")
-_LARGEST = 1e9
+_ROADS: dict[str, type[Road]] = {
+    "power-law": PowerLawRoad, "two-slope": TwoSlopeRoad, "iso-8608": Iso8608Road, "measured": MeasuredRoad,
+}  # fmt: skip
+_COHERENCES: dict[str, type[Any]] = {
+    "isotropic": Isotropic, "exponential": Exponential, "constant": Constant, "tabulated": Tabulated,
+}  # fmt: skip
+_MEASURED = {"kind": "kind", "file": "file", "coherence": "coherence"}
+_OPTIONS = {"track_width_m": "track_width", "segment_m": "segment"}
+_TABULATED = {"kind": "kind", "file": "file", "distance_m": "distance"}
 
 
-class _Kind(NamedTuple):
-    """What is made of a table, and the parameters by the keys it must and may have."""
-
-    make: Callable[..., Any]
-    needed: dict[str, str]
-    wanted: dict[str, str]
-
-
-def load_road(text: str) -> RandomRoad:
-    """Return the road that a text names.
+def load_road(source: str | PathLike[str]) -> Road:
+    """Return the road of a class or a file.
 
     Parameters
     ----------
-    text : str
+    source : str or path-like
         A class of ISO 8608 at its geometric mean, ``"C"``, or at a limit, ``"C-lower"`` or ``"C-upper"``; or the
-        path of a CSV file (see `road_tables`) or of a TOML file (see `road_files`).
-
-    Returns
-    -------
-    RandomRoad
-        The road.
+        path of a CSV file (see `MeasuredRoad.from_csv`) or of a TOML file.
 
     Raises
     ------
@@ -58,86 +50,38 @@ def load_road(text: str) -> RandomRoad:
     OSError
         If the file cannot be read.
     """
-    if named := _CLASS.fullmatch(text):
+    path = Path(source)
+    if named := _CLASS.fullmatch(str(source)):
         return Iso8608Road(named[1], level=named[2] or "geometric mean")
-    path = Path(text)
     if path.suffix == ".csv":
         return MeasuredRoad.from_csv(path)
-    if path.suffix == ".toml":
-        return _from_toml(path)
-    raise ValueError(
-        "road must be a class of ISO 8608 such as C, C-lower or C-upper, or the path of a .csv or .toml file, "
-        f"got {text!r}"
-    )
-
-
-def _from_toml(path: Path) -> RandomRoad:
-    try:
-        with path.open("rb") as file:
-            content = tomllib.load(file)
-        table = content.pop("coherence", None)
-        coherence = {} if table is None else {"coherence": _made(path, "coherence.", table, _COHERENCES)}
-        return _made(path, "", content, _ROADS, **coherence)
-    except (ValueError, RecursionError) as error:
-        raise ValueError(f"{path}: {' '.join(str(error).split())}") from None
-
-
-def _made(path: Path, prefix: str, table: object, kinds: dict[str, _Kind], **more: Any) -> Any:
-    """Make what a table of the file says; `prefix` goes before its keys in errors."""
-    if not isinstance(table, dict):
-        raise ValueError(f"{prefix.rstrip('.')} must be a table, got {table!r}")
-    checks.one_of(f"{prefix}kind", table.get("kind"), tuple(kinds))
-    make, needed, wanted = kinds[table["kind"]]
-    allowed = needed | wanted
-    keys = {key: value for key, value in table.items() if key != "kind"}
-    for key in [*(key for key in keys if key not in allowed), *(key for key in needed if key not in keys)]:
-        said = "has no key" if key in keys else "needs the key"
-        may = f", and may have {', '.join(wanted)}" if wanted else ""
+    if path.suffix != ".toml":
         raise ValueError(
-            f"{table['kind']} {said} {prefix + key!r}: it must have {', '.join(needed) or 'none'}{may}"
+            "road must be a class of ISO 8608 such as C, C-lower or C-upper, or the path of a .csv or .toml file, "
+            f"got {str(source)!r}"
         )
-    return make(**{allowed[key]: _value(path, prefix, key, value) for key, value in keys.items()}, **more)
+    with naming(path):
+        return _road(read_toml(path), path.parent)
 
 
-def _value(path: Path, prefix: str, key: str, value: object) -> str | float | Path:
-    """Return the value of a key: a text, the path of a file or a number."""
-    if key in _TEXTS:
-        if not isinstance(value, str):
-            raise ValueError(f"{prefix}{key} must be a text, got {value!r}")
-        return path.parent / value if key == "file" else value
-    if isinstance(value, bool) or not (isinstance(value, int | float) and 0 <= value <= _LARGEST):
-        raise ValueError(f"{prefix}{key} must be a number from 0 to {_LARGEST:g}, got {value!r}")
-    return float(value)
+def _road(table: Table, folder: Path) -> Road:
+    kind = table.choice("kind", _ROADS)
+    given: dict[str, Any] = {}
+    if "coherence" in table.content:
+        given["coherence"] = _coherence(table.table("coherence"), folder)
+    if kind is not MeasuredRoad:
+        return made(table, kind, beside=("kind", "coherence"), **given)
+    table.check_keys(_MEASURED | _OPTIONS, ["file"])
+    options: dict[str, Any] = {name: table.number(key) for key, name in _OPTIONS.items() if key in table.content}
+    with keyed("", _OPTIONS):
+        return MeasuredRoad.from_csv(folder / table.text("file"), **options, **given)
 
 
-def _tabulated(path: Path, distance: float) -> Tabulated:
-    n, coherence = read_curve(path, COHERENCE)
-    try:
-        return Tabulated(tuple(n.tolist()), tuple(coherence.tolist()), distance)
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None
-
-
-def _same(*names: str) -> dict[str, str]:
-    return dict(zip(names, names, strict=True))
-
-
-_ROADS = {
-    "power-law": _Kind(PowerLawRoad, {"roughness_m3": "roughness", "exponent": "exponent"}, {}),
-    "two-slope": _Kind(
-        TwoSlopeRoad,
-        {"roughness_m3": "roughness", "reference_cycle_per_m": "reference", "corner_cycle_per_m": "corner"}
-        | _same("lower_exponent", "upper_exponent"),
-        {},
-    ),
-    "iso-8608": _Kind(Iso8608Road, {"class": "road_class"}, _same("level", "waviness")),
-    "measured": _Kind(
-        MeasuredRoad.from_csv, {"file": "path"}, {"track_width_m": "track_width", "segment_m": "segment"}
-    ),
-}
-_COHERENCES = {
-    "isotropic": _Kind(Isotropic, {}, _same("exponent")),
-    "exponential": _Kind(Exponential, _same("decay"), {}),
-    "constant": _Kind(Constant, _same("value"), {}),
-    "tabulated": _Kind(_tabulated, {"file": "path", "distance_m": "distance"}, {}),
-}
+def _coherence(table: Table, folder: Path) -> Coherence:
+    kind = table.choice("kind", _COHERENCES)
+    if kind is not Tabulated:
+        return made(table, kind, beside=("kind",))
+    table.check_keys(_TABULATED, ["file", "distance_m"])
+    n, coherence = read_curve(folder / table.text("file"), COHERENCE)
+    with keyed(table.name, _TABULATED):
+        return Tabulated(tuple(n.tolist()), tuple(coherence.tolist()), table.number("distance_m"))

@@ -1,4 +1,8 @@
-"""Roads as measured: the spectrum and the coherence of a profile, or a spectrum from a table."""
+"""Measured roads: the spectrum and the coherence of a profile, or a spectrum from a table.
+
+CSV files over wavenumber have the columns ``wavenumber [cycle/m]`` and ``psd [m^3]`` or ``coherence [-]``. Lines
+that start with ``#`` name the source.
+"""
 
 from dataclasses import KW_ONLY, dataclass, field
 from typing import TYPE_CHECKING
@@ -7,27 +11,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import checks
+from ..quantities import Complex, Real, frozen_array, unit
+from ..tables import read_table, table_rows
 from .coherence import Coherence, Isotropic, Tabulated
-from .curves import DISTANCE, PSD, columns, read_curve, read_profile
-from .profiles import Profile
-from .road import RandomRoad
+from .profiles import DISTANCE, Profile, read_profile
+from .road import Road
 
 if TYPE_CHECKING:
     from os import PathLike
 
 
+WAVENUMBER, PSD, COHERENCE = "wavenumber [cycle/m]", "psd [m^3]", "coherence [-]"
 SEGMENTS = 8
-"""Into how many lengths a profile is cut for its spectrum, where nothing else is said."""
+"""Lengths of a profile whose segments are not given."""
 _LOWEST = 4
-"""Waves in a segment at the lowest usable wavenumber: longer waves leak in some percent there."""
+"""Waves in a segment at the lowest usable wavenumber: the leakage of longer waves is some percent there."""
 _POINTS = 4
-"""Points in a wave at the highest usable wavenumber: there an exponent of 2 folds in a ninth from short waves."""
+"""Points in a wave at the highest usable wavenumber: aliasing is a ninth there, with an exponent of 2."""
 _LEAST = 32
 """Points of the shortest segment, which has waves 4 to 8."""
 
 
-@dataclass(frozen=True, eq=False)
-class MeasuredRoad(RandomRoad):
+@dataclass(frozen=True, eq=False, repr=False)
+class MeasuredRoad(Road):
     """Road of a measured spectrum, a power law between each two of its wavenumbers and nothing beyond them.
 
     `from_profile`, `from_csv` make one; `band` is where it holds.
@@ -39,9 +45,9 @@ class MeasuredRoad(RandomRoad):
     density : (k,) array_like
         One-sided spectral density of elevation [m^3], above zero.
     coherence : Coherence
-        How alike parallel tracks are. `Isotropic` needs an exponent here, as the spectrum ends.
+        Model of the coherence of parallel tracks. `Isotropic` needs an exponent here, as the spectrum ends.
     source : str
-        What the spectrum is from, for `describe`.
+        Origin of the spectrum, for `describe`.
 
     Raises
     ------
@@ -49,14 +55,14 @@ class MeasuredRoad(RandomRoad):
         If there are less than two wavenumbers, or they or the densities are not as above.
     """
 
-    wavenumber: NDArray[np.float64]
-    density: NDArray[np.float64]
+    wavenumber: Real = field(metadata=unit("cycle/m"))
+    density: Real = field(metadata=unit("m^3"))
     _: KW_ONLY
-    coherence: Coherence = field(default_factory=Isotropic)
     source: str = "a table"
 
     def __post_init__(self) -> None:
-        n, density = np.array(self.wavenumber, dtype=float), np.array(self.density, dtype=float)
+        super().__post_init__()
+        n, density = frozen_array(self.wavenumber), frozen_array(self.density)
         if n.ndim != 1 or n.shape != density.shape or n.size < 2:
             raise ValueError(
                 f"wavenumber and density must be of one length >= 2, got {n.shape} and {density.shape}"
@@ -67,9 +73,8 @@ class MeasuredRoad(RandomRoad):
             raise ValueError(
                 f"density must be finite and > 0 m^3 throughout, got a least value of {density.min()}"
             )
-        for name, values in (("wavenumber", n), ("density", density)):
-            values.flags.writeable = False
-            object.__setattr__(self, name, values)
+        object.__setattr__(self, "wavenumber", n)
+        object.__setattr__(self, "density", density)
 
     @classmethod
     def from_profile(
@@ -82,10 +87,9 @@ class MeasuredRoad(RandomRoad):
     ) -> "MeasuredRoad":
         """Estimate spectrum and coherence of a profile.
 
-        Welch's method: segments that overlap by half, each rid of its straight line and weighted with Hann's
-        window; means over segments and tracks, then over third-octave bands. Usable are wavenumbers from four
-        waves in a segment to four points in a wave. Steps that are uneven within what `Profile` allows count as
-        their mean.
+        Welch's method: segments that overlap by half, detrended and weighted with Hann's window; means over
+        segments and tracks, then over third-octave bands. Usable are wavenumbers from four waves in a segment to
+        four points in a wave. Uneven steps count as their mean.
 
         Parameters
         ----------
@@ -95,11 +99,11 @@ class MeasuredRoad(RandomRoad):
             Length of a segment [m]; an eighth of the profile if not given. A longer one reaches longer waves, a
             shorter one has a smaller scatter.
         coherence : Coherence, optional
-            How alike parallel tracks are. If not given, the profile's own where it has two tracks that are apart:
-            the root of the squared coherence over the same bands, which for strangers is not 0 but about the root
-            of one over the number of estimates in a band. With one track, or more than two, `Isotropic`.
+            Model of the coherence of parallel tracks. If not given, the profile's own if it has two different
+            tracks: the root of the squared coherence over the same bands, of uncorrelated tracks about the root of
+            one over the number of estimates in a band. With one track, or more than two, `Isotropic`.
         source : str
-            What the profile is from, for `describe`.
+            Origin of the profile, for `describe`.
 
         Raises
         ------
@@ -129,7 +133,7 @@ class MeasuredRoad(RandomRoad):
         segment: float | None = None,
         coherence: Coherence | None = None,
     ) -> "MeasuredRoad":
-        """Read a profile or a spectrum, whichever the columns are of; see `road_tables` and `from_profile`.
+        """Read a profile or a spectrum, as the columns say; see `profiles` and `from_profile`.
 
         Raises
         ------
@@ -139,7 +143,7 @@ class MeasuredRoad(RandomRoad):
         OSError
             If the file cannot be read.
         """
-        if columns(path)[0] == DISTANCE:
+        if table_rows(path)[0][0] == DISTANCE:
             profile = read_profile(path, track_width)
         else:
             profile, (n, density) = None, read_curve(path, PSD)
@@ -158,7 +162,7 @@ class MeasuredRoad(RandomRoad):
         return float(self.wavenumber[0]), float(self.wavenumber[-1])
 
     def describe(self) -> str:
-        """Return a line that says which road this is."""
+        """Return a line that identifies the road."""
         low, high = self.band
         reference = f"Gd(0.1 cycle/m) = {self.psd(0.1, 1.0):.3g} m^3, " if low <= 0.1 <= high else ""
         return f"measured, {self.source}: {reference}known from {low:.3g} to {high:.3g} cycle/m"
@@ -167,14 +171,14 @@ class MeasuredRoad(RandomRoad):
         """Frequencies of the wavenumbers inside the band at `speed` [m/s], kinks of the spectrum [Hz]."""
         return tuple((self.wavenumber[1:-1] * speed).tolist())
 
-    def isotropic_coherence(self, _n: NDArray[np.float64], _distance: float) -> NDArray[np.float64]:
-        """Raise ValueError: isotropy takes the spectrum of all shorter waves to give a coherence."""
+    def isotropic_coherence(self, _n: Real, _distance: float) -> Real:
+        """Raise ValueError: the coherence of an isotropic surface depends on the spectrum of all shorter waves."""
         raise ValueError(
             "coherence of a measured spectrum must be a model of its own, such as Isotropic(exponent=2.0), "
             "got Isotropic(), which needs the spectrum of all shorter waves"
         )
 
-    def _psd(self, f: NDArray[np.float64], speed: float) -> NDArray[np.float64]:
+    def _psd(self, f: Real, speed: float) -> Real:
         n, (low, high) = f / speed, self.band
         outside = ~((n >= low * (1 - 1e-9)) & (n <= high * (1 + 1e-9)))  # f = V n may round
         if outside.any():
@@ -185,8 +189,25 @@ class MeasuredRoad(RandomRoad):
         return np.exp(np.interp(np.log(n), np.log(self.wavenumber), np.log(self.density))) / speed
 
 
+def read_curve(path: "str | PathLike[str]", quantity: str) -> tuple[Real, Real]:
+    """Read wavenumbers (k,), ascending and above zero [cycle/m], and a `quantity` (k,), `PSD` or `COHERENCE`.
+
+    ValueError names the file, if it is no such table; OSError if it cannot be read.
+    """
+    names, values = read_table(path)
+    if names != [WAVENUMBER, quantity]:
+        raise ValueError(f"{path}: columns must be {WAVENUMBER!r} and {quantity!r}, got {names}")
+    n = values[:, 0]
+    wrong = np.flatnonzero(~(np.diff(n, prepend=0.0) > 0))
+    if wrong.size:
+        raise ValueError(
+            f"{path}: {WAVENUMBER} must be above zero and ascend, got {n[wrong[0]]} in row {wrong[0] + 1}"
+        )
+    return n, values[:, 1]
+
+
 def _segment_points(profile: Profile, segment: float | None) -> int:
-    """Points in a segment of so many metres, or of its share of the profile."""
+    """Points in a segment [m], of an eighth of the profile if not given."""
     whole = profile.distance.size
     if segment is not None:
         checks.positive("segment", segment, "m")
@@ -200,8 +221,8 @@ def _segment_points(profile: Profile, segment: float | None) -> int:
     return points
 
 
-def _welch(profile: Profile, points: int) -> tuple[NDArray[np.float64], NDArray[np.complex128]]:
-    """Wavenumbers (k,) [cycle/m] and cross-spectra (t, t, k) [m^3] of the tracks by segments of so many points."""
+def _welch(profile: Profile, points: int) -> tuple[Real, Complex]:
+    """Wavenumbers (k,) [cycle/m] and cross-spectra (t, t, k) [m^3] of the tracks, by points in a segment."""
     from scipy import signal
 
     tracks = profile.height.T
@@ -211,17 +232,17 @@ def _welch(profile: Profile, points: int) -> tuple[NDArray[np.float64], NDArray[
     return n, spectra
 
 
-def _third_octaves(n: NDArray[np.float64], highest: float) -> NDArray[np.int64]:
-    """Where third-octave bands begin in the usable part of wavenumbers k/segment, and where the last one ends.
+def _third_octaves(n: Real, highest: float) -> NDArray[np.int64]:
+    """First indices of third-octave bands in the usable part of wavenumbers k/segment, and the end of the last.
 
-    The first is about the lowest usable wavenumber. None is empty, each being wide by 0.23 of its middle.
+    The first band is about the lowest usable wavenumber. None is empty: each is wide by 0.23 of its middle.
     """
     end = int(np.searchsorted(n, highest * (1 + 1e-9), side="right"))
     band = np.round(3 * np.log2(np.arange(_LOWEST, end) / _LOWEST))
     return np.append(_LOWEST + np.flatnonzero(np.diff(band, prepend=-1)), end)
 
 
-def _means(values: NDArray[np.complex128], edges: NDArray[np.int64]) -> NDArray[np.complex128]:
+def _means(values: Complex, edges: NDArray[np.int64]) -> Complex:
     """Means of values (..., k) over the bands between the edges (b + 1,), shape (..., b)."""
-    sums: NDArray[np.complex128] = np.add.reduceat(values[..., : edges[-1]], edges[:-1], axis=-1)
+    sums: Complex = np.add.reduceat(values[..., : edges[-1]], edges[:-1], axis=-1)
     return sums / np.diff(edges)

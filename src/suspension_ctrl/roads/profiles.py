@@ -1,34 +1,36 @@
-"""Profiles: the elevation of one or several tracks along the road, as realised from a spectrum or measured."""
+"""Profiles: the elevation of one or several tracks along the road, realised from a spectrum or measured.
 
+A CSV file of a profile has the columns ``distance [m]`` and ``height [m]``, or ``left [m]`` and ``right [m]``, or
+for tracks anywhere such as ``height at y = 0.75 m [m]``. Lines that start with ``#`` name the source.
+"""
+
+import re
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Protocol
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .. import checks
-from .coherence import Coherence, Surface, coherence_matrix
+from ..quantities import Real, Record, frozen_array, unit
+from ..tables import read_table, write_csv
 
+if TYPE_CHECKING:
+    from os import PathLike
+
+UNEVEN = 0.01
+"""Largest deviation of a step from the mean step, relative."""
+DISTANCE, HEIGHT, LEFT, RIGHT = "distance [m]", "height [m]", "left [m]", "right [m]"
 _CLOSEST = 1e-6
 """Least mean distance between two points [m]."""
-UNEVEN = 0.01
-"""What the distance between two points may differ from the mean by, as a part of it."""
+_TRACK = re.compile(r"height at y = (-?\d+(?:\.\d+)?(?:e-?\d+)?) m \[m\]", re.ASCII)
+_TRACK_COLUMN = "height at y = {} m [m]"
 
 
-class SpectralRoad(Surface, Protocol):
-    """What a realisation needs of a road: its spectrum and the coherence of its tracks."""
-
-    @property
-    def coherence(self) -> Coherence:
-        """Model of coherence."""
-
-    def psd(self, f: ArrayLike, speed: float) -> NDArray[np.float64]:
-        """Return the spectrum (n,) [m^2/Hz] at the frequencies `f` (n,) [Hz] at a speed [m/s]."""
-
-
-@dataclass(frozen=True, eq=False)
-class Profile:
+@dataclass(frozen=True, eq=False, repr=False)
+class Profile(Record):
     """Elevation of tracks along the road, at even distances.
 
     Parameters
@@ -38,7 +40,7 @@ class Profile:
     height : (n, tracks) array_like
         Elevation of each track [m].
     tracks : (tracks,) sequence of float
-        Where each track is across the road, positive to the left [m].
+        Place of each track across the road, positive to the left [m].
 
     Raises
     ------
@@ -46,12 +48,12 @@ class Profile:
         If the shapes do not fit, a number is not finite, the distances are uneven or there are less than two.
     """
 
-    distance: NDArray[np.float64]
-    height: NDArray[np.float64]
-    tracks: tuple[float, ...] = (0.0,)
+    distance: Real = field(metadata=unit("m"))
+    height: Real = field(metadata=unit("m"))
+    tracks: tuple[float, ...] = field(default=(0.0,), metadata=unit("m"))
 
     def __post_init__(self) -> None:
-        distance, height = np.array(self.distance, dtype=float), np.array(self.height, dtype=float)
+        distance, height = frozen_array(self.distance), frozen_array(self.height)
         tracks = np.array(self.tracks, dtype=float)
         if distance.ndim != 1 or tracks.ndim != 1 or height.shape != (distance.size, tracks.size):
             raise ValueError(
@@ -63,7 +65,6 @@ class Profile:
         for name, values in (("distance", distance), ("height", height), ("tracks", tracks)):
             if not np.isfinite(values).all():
                 raise ValueError(f"{name} must be finite, got {values[~np.isfinite(values)][0]}")
-            values.flags.writeable = False
         _check_even(distance)
         object.__setattr__(self, "distance", distance)
         object.__setattr__(self, "height", height)
@@ -74,18 +75,8 @@ class Profile:
         """Mean distance between two points [m]."""
         return float(self.distance[-1] - self.distance[0]) / (self.distance.size - 1)
 
-    def at(self, distance: ArrayLike) -> NDArray[np.float64]:
-        """Return the elevation of every track at any distances, straight between the points.
-
-        Parameters
-        ----------
-        distance : (k,) array_like
-            Within those of the profile [m].
-
-        Returns
-        -------
-        (k, tracks) ndarray
-            Elevation [m].
+    def at(self, distance: ArrayLike) -> Real:
+        """Return the elevation (k, tracks) [m] at any distances (k,) of the profile [m], by linear interpolation.
 
         Raises
         ------
@@ -100,64 +91,7 @@ class Profile:
         return np.stack([np.interp(where, self.distance, track) for track in self.height.T], axis=-1)
 
 
-def realisation(
-    road: SpectralRoad, length: float, step: float, seed: int | np.random.Generator, tracks: Sequence[float]
-) -> Profile:
-    """Return a Gaussian profile with the road's spectrum and, between tracks, its coherence.
-
-    A sum of waves of the wavenumbers k/length below 1/(2 step), k = 1, 2, ..., with amplitudes drawn at random
-    so that the expectation of the periodogram at each is the road's spectrum. The profile has the period `length`
-    and no mean.
-
-    Parameters
-    ----------
-    road : SpectralRoad
-        The road.
-    length : float
-        Length of the road, a whole number of steps [m].
-    step : float
-        Distance between two points [m].
-    seed : int or numpy.random.Generator
-        Where the random numbers come from.
-    tracks : (t,) sequence of float
-        Where each track is across the road, positive to the left [m].
-
-    Returns
-    -------
-    Profile
-        At the distances 0, step, ... below `length`.
-
-    Raises
-    ------
-    ValueError
-        If `length` is not a whole number of at least four steps, or as the road's `psd` and coherence raise.
-    """
-    checks.positive("step", step, "m")
-    checks.positive("length", length, "m")
-    y = np.asarray(tracks, dtype=float)
-    if y.ndim != 1 or y.size == 0 or not np.isfinite(y).all():
-        raise ValueError(f"tracks must be finite and one-dimensional, got {tracks!r}")
-    points = round(length / step)
-    if points < 4 or abs(length / step - points) > 1e-6:
-        raise ValueError(f"length must be a whole number of steps of {step} m, four at least, got {length} m")
-    n = np.arange(1, (points + 1) // 2) / length
-    amplitude = points / 2 * np.sqrt(road.psd(n, 1.0) / length)  # of the real and of the imaginary part
-    waves = np.zeros((points // 2 + 1, y.size), dtype=complex)
-    waves[1 : n.size + 1] = amplitude[:, None] * _alike(road, n, y, np.random.default_rng(seed))
-    return Profile(step * np.arange(points, dtype=float), np.fft.irfft(waves, points, axis=0), tuple(y.tolist()))
-
-
-def _alike(
-    road: SpectralRoad, n: NDArray[np.float64], y: NDArray[np.float64], rng: np.random.Generator
-) -> NDArray[np.complex128]:
-    """Complex normal numbers (n, t), variance one per part, whose covariance over t is the tracks' coherence."""
-    independent = rng.standard_normal((n.size, y.size)) + 1j * rng.standard_normal((n.size, y.size))
-    variance, direction = np.linalg.eigh(coherence_matrix(road.coherence, n, y, road))
-    scaled = independent * np.sqrt(np.maximum(variance, 0.0))
-    return np.einsum("nij,nj->ni", direction, scaled)
-
-
-def _check_even(distance: NDArray[np.float64]) -> None:
+def _check_even(distance: Real) -> None:
     steps = np.diff(distance)
     mean = (distance[-1] - distance[0]) / steps.size
     if not (steps > 0).all():
@@ -170,3 +104,60 @@ def _check_even(distance: NDArray[np.float64]) -> None:
             f"distance must be even, each step within {UNEVEN:.0%} of the mean {mean:g} m, "
             f"got {steps[worst]:g} m after {distance[worst]:g} m"
         )
+
+
+def read_profile(path: "str | PathLike[str]", track_width: float | None = None) -> Profile:
+    """Read a profile from a CSV file, its tracks in the order of the columns.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+    track_width : float, optional
+        Distance of the tracks in columns ``left [m]`` and ``right [m]``, required by these [m].
+
+    Raises
+    ------
+    ValueError
+        Naming the file, if columns are missing, unknown or of another unit, a cell is no finite number, the
+        distances do not ascend evenly (see `Profile`) or the width does not fit.
+    OSError
+        If the file cannot be read.
+    """
+    names, values = read_table(path)
+    if names[:1] != [DISTANCE] or len(names) < 2:
+        raise ValueError(f"{path}: first column must be {DISTANCE!r} and then heights, got {names}")
+    try:
+        return Profile(values[:, 0], values[:, 1:], _tracks(names[1:], track_width))
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+
+
+def write_profile(path: "str | PathLike[str]", profile: Profile) -> None:
+    """Write a profile for `read_profile`, which returns the same numbers: the whole file or, on an error, none."""
+    import pandas as pd
+
+    names = [_TRACK_COLUMN.format(np.format_float_positional(y, trim="-")) for y in profile.tracks]
+    columns = [DISTANCE, *([HEIGHT] if profile.tracks == (0.0,) else names)]
+    write_csv(Path(path), pd.DataFrame(np.column_stack([profile.distance, profile.height]), columns=columns))
+
+
+def _tracks(names: Sequence[str], width: float | None) -> tuple[float, ...]:
+    """Places of the tracks of the height columns [m]."""
+    if names == [LEFT, RIGHT]:
+        if width is None:
+            raise ValueError(f"{LEFT!r} and {RIGHT!r} need a track width in m, got none")
+        checks.positive("track width", width, "m")
+        return width / 2, -width / 2
+    if width is not None:
+        raise ValueError(f"a track width goes with {LEFT!r} and {RIGHT!r} only, got {list(names)}")
+    if names == [HEIGHT]:
+        return (0.0,)
+    found = [_TRACK.fullmatch(name) for name in names]
+    for name, match in zip(names, found, strict=True):
+        if match is None:
+            raise ValueError(
+                f"columns after {DISTANCE!r} must be {HEIGHT!r}, or {LEFT!r} and {RIGHT!r}, or all like "
+                f"{_TRACK_COLUMN.format(0.75)!r}, got {name!r}"
+            )
+    return tuple(float(match[1]) for match in found if match)

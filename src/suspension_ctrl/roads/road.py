@@ -1,26 +1,38 @@
-"""What all roads can do: spectra under any number of wheels, and realisations."""
+"""Roads: spectra under any number of wheels, and Gaussian profiles of these spectra."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .. import checks
-from .coherence import Coherence, coherence_matrix
-from .profiles import Profile, realisation
+from ..quantities import Complex, Real, Record, check_numbers
+from .coherence import Coherence, Isotropic, coherence_matrix
+from .profiles import Profile
 
 
-class RandomRoad(ABC):
-    """What all roads can do; a road adds its spectrum and a model of the coherence of its tracks.
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Road(Record, ABC):
+    """A road by the spectrum of its elevation and the coherence of parallel tracks; subclasses are roads.
 
     At speed V a vehicle meets wavenumber n [cycle/m] at the frequency f = V n.
+
+    Parameters
+    ----------
+    coherence : Coherence
+        Model of the coherence of parallel tracks.
     """
 
-    coherence: Coherence
-    """How alike parallel tracks are."""
+    coherence: Coherence = field(default_factory=Isotropic)
 
-    def psd(self, f: ArrayLike, speed: float) -> NDArray[np.float64]:
+    def __post_init__(self) -> None:
+        check_numbers(self)
+        if isinstance(self.coherence, type) or not callable(getattr(self.coherence, "between", None)):
+            raise ValueError(f"coherence must be a model such as Exponential(decay=3.0), got {self.coherence!r}")
+
+    def psd(self, f: ArrayLike, speed: float) -> Real:
         """Return the elevation spectrum met at `speed`; at 1 m/s that over wavenumber [m^3].
 
         Parameters
@@ -46,11 +58,11 @@ class RandomRoad(ABC):
             raise ValueError(f"f must be > 0 Hz throughout, got a least value of {frequency.min()}")
         return self._psd(frequency, speed)
 
-    def cross_spectrum(self, f: ArrayLike, speed: float, contact_points: ArrayLike) -> NDArray[np.complex128]:
-        """Return the spectra of the elevations under several wheels with one another.
+    def cross_spectrum(self, f: ArrayLike, speed: float, contact_points: ArrayLike) -> Complex:
+        """Return the cross-spectra of the elevations under several wheels.
 
-        A wheel follows its track with its lead, z_i(t) = h(V t + x_i, y_i), so that S_ij, the expectation of
-        Z_i times the conjugate of Z_j, is the road's spectrum times the coherence of the tracks times
+        A wheel follows its track with its lead, z_i(t) = h(V t + x_i, y_i): S_ij, the expectation of Z_i times
+        the conjugate of Z_j, is the road's spectrum times the coherence of the tracks times
         ``exp(2j pi f (x_i - x_j) / V)``.
 
         Parameters
@@ -76,30 +88,85 @@ class RandomRoad(ABC):
         frequency, points = np.asarray(f, dtype=float), np.asarray(contact_points, dtype=float)
         if frequency.ndim != 1:
             raise ValueError(f"f must be one-dimensional, got shape {frequency.shape}")
-        if points.ndim != 2 or points.shape[1] != 2 or not np.isfinite(points).all():
-            raise ValueError(f"contact_points must be finite and of shape (r, 2) [m], got {points.tolist()}")
+        if points.ndim != 2 or points.shape[1] != 2 or not (len(points) and np.isfinite(points).all()):
+            raise ValueError(
+                f"contact_points must be finite and of shape (r, 2), r > 0 [m], got {points.tolist()}"
+            )
         x, y = points.T
         lead = np.exp(2j * np.pi / speed * frequency[:, None, None] * (x[:, None] - x))
-        return spectrum[:, None, None] * lead * coherence_matrix(self.coherence, frequency / speed, y, self)
+        return spectrum[:, None, None] * lead * coherence_matrix(self._between(), frequency / speed, y)
 
     def profile(
         self, length: float, step: float, seed: int | np.random.Generator, tracks: Sequence[float] = (0.0,)
     ) -> Profile:
-        """Return a Gaussian realisation of the road, see `profiles.realisation`."""
-        return realisation(self, length, step, seed, tracks)
+        """Return a Gaussian profile with the road's spectrum and, between tracks, its coherence.
+
+        A sum of waves of the wavenumbers k/length below 1/(2 step), k = 1, 2, ..., with random amplitudes: the
+        expectation of the periodogram at each is the road's spectrum. The profile has the period `length` and no
+        mean.
+
+        Parameters
+        ----------
+        length : float
+            Length of the road, a whole number of steps, at least four [m].
+        step : float
+            Distance between two points [m].
+        seed : int or numpy.random.Generator
+            Origin of the random numbers.
+        tracks : (t,) sequence of float
+            Place of each track across the road, positive to the left [m].
+
+        Returns
+        -------
+        Profile
+            At the distances 0, step, ... below `length`.
+
+        Raises
+        ------
+        ValueError
+            If a parameter is not as above, or as `psd` and the coherence raise.
+        """
+        checks.positive("step", step, "m")
+        checks.positive("length", length, "m")
+        if not isinstance(seed, np.random.Generator):
+            checks.at_least("seed", seed, 0)
+        y = np.asarray(tracks, dtype=float)
+        if y.ndim != 1 or y.size == 0 or not np.isfinite(y).all():
+            raise ValueError(f"tracks must be finite and one-dimensional, got {tracks!r}")
+        points = round(length / step)
+        if points < 4 or abs(length / step - points) > 1e-6:
+            raise ValueError(f"length must be a whole number of steps of {step} m, four at least, got {length} m")
+        n = np.arange(1, (points + 1) // 2) / length
+        amplitude = points / 2 * np.sqrt(self.psd(n, 1.0) / length)  # of the real and of the imaginary part
+        waves = np.zeros((points // 2 + 1, y.size), dtype=complex)
+        waves[1 : n.size + 1] = amplitude[:, None] * self._coherent(n, y, np.random.default_rng(seed))
+        heights = np.fft.irfft(waves, points, axis=0)
+        return Profile(step * np.arange(points, dtype=float), heights, tuple(y.tolist()))
 
     def breakpoints(self, _speed: float, /) -> tuple[float, ...]:
-        """Frequencies at which the spectrum met at a speed [m/s] has a kink [Hz]: none unless a road says so."""
+        """Frequencies of the kinks of the spectrum met at a speed [m/s], in Hz."""
         return ()
 
     @abstractmethod
     def describe(self) -> str:
-        """Return a line that says which road this is, with all numbers that its spectrum needs."""
+        """Return a line that identifies the road, with all numbers of its spectrum."""
 
     @abstractmethod
-    def isotropic_coherence(self, n: NDArray[np.float64], distance: float) -> NDArray[np.float64]:
-        """Return the coherence that isotropy gives to tracks `distance` [m] apart at `n` (n,) [cycle/m]."""
+    def isotropic_coherence(self, n: Real, distance: float) -> Real:
+        """Return the coherence of tracks `distance` [m] apart at `n` (n,) [cycle/m] on an isotropic surface."""
 
     @abstractmethod
-    def _psd(self, f: NDArray[np.float64], speed: float) -> NDArray[np.float64]:
+    def _psd(self, f: Real, speed: float) -> Real:
         """Spectrum (n,) [m^2/Hz] at checked frequencies (n,) [Hz] and speed [m/s]."""
+
+    def _between(self) -> Callable[[Real, float], Real]:
+        """Return the coherence (n,) of two tracks as a function of wavenumbers (n,) and their distance."""
+        if isinstance(self.coherence, Isotropic) and self.coherence.exponent is None:
+            return self.isotropic_coherence
+        return self.coherence.between
+
+    def _coherent(self, n: Real, y: Real, rng: np.random.Generator) -> Complex:
+        """Complex normal numbers (n, t), variance one per part, whose covariance over t is the coherence."""
+        independent = rng.standard_normal((n.size, y.size)) + 1j * rng.standard_normal((n.size, y.size))
+        variance, direction = np.linalg.eigh(coherence_matrix(self._between(), n, y))
+        return np.einsum("nij,nj->ni", direction, independent * np.sqrt(np.maximum(variance, 0.0)))

@@ -4,16 +4,15 @@ from dataclasses import KW_ONLY, dataclass, field
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .. import checks, datafiles
-from .coherence import Coherence, Isotropic
-from .isotropy import power_law_coherence, two_slope_coherence
-from .road import RandomRoad
+from ..quantities import Real, unit
+from .coherence import power_law_coherence, two_slope_coherence
+from .road import Road
 
 
-@dataclass(frozen=True, kw_only=True)
-class PowerLawRoad(RandomRoad):
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class PowerLawRoad(Road):
     """Road whose elevation spectrum is a single power of frequency (Yuen and Ramli 2010, Table 1).
 
     Over wavenumber n [cycle/m] the spectrum is ``roughness / n**exponent``.
@@ -25,7 +24,7 @@ class PowerLawRoad(RandomRoad):
     exponent : float
         Waviness kappa [-].
     coherence : Coherence
-        How alike parallel tracks are.
+        Model of the coherence of parallel tracks.
 
     Raises
     ------
@@ -33,28 +32,23 @@ class PowerLawRoad(RandomRoad):
         If a parameter is not finite and above zero.
     """
 
-    roughness: float
-    exponent: float
-    coherence: Coherence = field(default_factory=Isotropic)
-
-    def __post_init__(self) -> None:
-        checks.positive("roughness", self.roughness)
-        checks.positive("exponent", self.exponent)
+    roughness: float = field(metadata=unit("m^3"))
+    exponent: float = field(metadata=unit(""))
 
     def describe(self) -> str:
-        """Return a line that says which road this is."""
+        """Return a line that identifies the road."""
         return f"power law: Gd(1 cycle/m) = {self.roughness:g} m^3, exponent {self.exponent:g}"
 
-    def isotropic_coherence(self, n: NDArray[np.float64], distance: float) -> NDArray[np.float64]:
+    def isotropic_coherence(self, n: Real, distance: float) -> Real:
         """Return the coherence of an isotropic surface, see `power_law_coherence`."""
         return power_law_coherence(n, distance, self.exponent)
 
-    def _psd(self, f: NDArray[np.float64], speed: float) -> NDArray[np.float64]:
+    def _psd(self, f: Real, speed: float) -> Real:
         return self.roughness * speed ** (self.exponent - 1) / f**self.exponent
 
 
-@dataclass(frozen=True, kw_only=True)
-class TwoSlopeRoad(RandomRoad):
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class TwoSlopeRoad(Road):
     """Road whose elevation spectrum has one exponent below a wavenumber and another above (Dodds and Robson 1973).
 
     Parameters
@@ -68,7 +62,7 @@ class TwoSlopeRoad(RandomRoad):
     corner : float
         Wavenumber at which the exponent changes [cycle/m]; the spectrum is continuous there.
     coherence : Coherence
-        How alike parallel tracks are.
+        Model of the coherence of parallel tracks.
 
     Raises
     ------
@@ -76,21 +70,14 @@ class TwoSlopeRoad(RandomRoad):
         If a parameter is not finite and above zero.
     """
 
-    roughness: float
-    reference: float
-    lower_exponent: float
-    upper_exponent: float
-    corner: float
-    coherence: Coherence = field(default_factory=Isotropic)
-
-    def __post_init__(self) -> None:
-        for name, unit in (("roughness", "m^3"), ("reference", "cycle/m"), ("corner", "cycle/m")):
-            checks.positive(name, getattr(self, name), unit)
-        checks.positive("lower_exponent", self.lower_exponent)
-        checks.positive("upper_exponent", self.upper_exponent)
+    roughness: float = field(metadata=unit("m^3"))
+    reference: float = field(metadata=unit("cycle/m"))
+    lower_exponent: float = field(metadata=unit(""))
+    upper_exponent: float = field(metadata=unit(""))
+    corner: float = field(metadata=unit("cycle/m"))
 
     def describe(self) -> str:
-        """Return a line that says which road this is."""
+        """Return a line that identifies the road."""
         return (
             f"two slopes: Gd({self.reference:g} cycle/m) = {self.roughness:g} m^3, exponent "
             f"{self.lower_exponent:g} below and {self.upper_exponent:g} above {self.corner:g} cycle/m"
@@ -100,22 +87,22 @@ class TwoSlopeRoad(RandomRoad):
         """Frequency of the corner at `speed` [m/s], the only kink of the spectrum [Hz]."""
         return (self.corner * speed,)
 
-    def isotropic_coherence(self, n: NDArray[np.float64], distance: float) -> NDArray[np.float64]:
+    def isotropic_coherence(self, n: Real, distance: float) -> Real:
         """Return the coherence of an isotropic surface, see `two_slope_coherence`."""
         return two_slope_coherence(n, distance, self.lower_exponent, self.upper_exponent, self.corner)
 
-    def _psd(self, f: NDArray[np.float64], speed: float) -> NDArray[np.float64]:
+    def _psd(self, f: Real, speed: float) -> Real:
         at_corner = self.roughness / self._shape(np.array(self.reference))
         return at_corner * self._shape(f / speed) / speed
 
-    def _shape(self, n: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _shape(self, n: Real) -> Real:
         """Spectrum over wavenumbers [cycle/m], one at the corner."""
         ratio = n / self.corner
         return ratio ** -np.where(ratio < 1, self.lower_exponent, self.upper_exponent)
 
 
-@dataclass(frozen=True)
-class Iso8608Road(RandomRoad):
+@dataclass(frozen=True, eq=False, repr=False)
+class Iso8608Road(Road):
     """Road of a class of ISO 8608:2016, ``Gd(n) = Gd(n0) (n/n0)^-w`` with n0 = 0.1 cycle/m.
 
     Parameters
@@ -127,7 +114,7 @@ class Iso8608Road(RandomRoad):
     waviness : float
         Exponent w [-]; 2 in the standard's classes.
     coherence : Coherence
-        How alike parallel tracks are.
+        Model of the coherence of parallel tracks.
 
     Raises
     ------
@@ -135,16 +122,15 @@ class Iso8608Road(RandomRoad):
         If there is no such class or level, or the waviness is not finite and above zero.
     """
 
-    road_class: str
+    road_class: str = field(metadata={"key": "class"})
     _: KW_ONLY
     level: str = "geometric mean"
-    waviness: float = 2.0
-    coherence: Coherence = field(default_factory=Isotropic)
+    waviness: float = field(default=2.0, metadata=unit(""))
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         checks.one_of("road_class", self.road_class, tuple(_classes()))
         checks.one_of("level", self.level, tuple(_classes()[self.road_class]))
-        checks.positive("waviness", self.waviness)
 
     @property
     def roughness(self) -> float:
@@ -157,17 +143,17 @@ class Iso8608Road(RandomRoad):
         return 0.1
 
     def describe(self) -> str:
-        """Return a line that says which road this is."""
+        """Return a line that identifies the road."""
         return (
             f"ISO 8608 class {self.road_class}, {self.level}: Gd({self.reference:g} cycle/m) = "
             f"{1e6 * self.roughness:g}e-6 m^3, waviness {self.waviness:g}"
         )
 
-    def isotropic_coherence(self, n: NDArray[np.float64], distance: float) -> NDArray[np.float64]:
+    def isotropic_coherence(self, n: Real, distance: float) -> Real:
         """Return the coherence of an isotropic surface, see `power_law_coherence`."""
         return power_law_coherence(n, distance, self.waviness)
 
-    def _psd(self, f: NDArray[np.float64], speed: float) -> NDArray[np.float64]:
+    def _psd(self, f: Real, speed: float) -> Real:
         return self.roughness * (f / (speed * self.reference)) ** -self.waviness / speed
 
 

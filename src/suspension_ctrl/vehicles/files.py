@@ -28,7 +28,6 @@ from .mounted import FlexibleBody, Seat
 from .vehicle import AssembledVehicle, Vehicle
 
 _KINDS: dict[str, type[AssembledVehicle]] = {"quarter-car": QuarterCar, "half-car": HalfCar, "full-car": FullCar}
-_TEXTS = ("kind", "name", "source")
 _TABLES = ("flexible_body", "seats", "struts", "bounds", "roll_geometry")
 _BENDING = {"frequencies_Hz": "frequencies", "damping_ratios": "damping_ratios", "shapes": "shapes"}
 _SHAPE = {"position_m": "position", "shape_per_sqrt_kg": "shape"}
@@ -85,9 +84,9 @@ def load_vehicle(source: str | PathLike[str]) -> VehicleFile:
 
 
 def _read(table: Table) -> VehicleFile:
-    checks.one_of("kind", table.content.get("kind"), tuple(_KINDS))
-    kind, name, source = (table.text(key) for key in _TEXTS)
-    vehicle = made(table, _KINDS[kind], beside=(*_TEXTS, *_TABLES))
+    kind = table.choice("kind", _KINDS)
+    name, source = (table.text(key) for key in ("name", "source"))
+    vehicle = made(table, kind, beside=("kind", "name", "source", *_TABLES))
     if "flexible_body" in table.content:
         body = table.table("flexible_body")
         with keyed(body.name, _BENDING | {"shapes.position_m": "position"}):
