@@ -34,13 +34,28 @@ STANDARD_NAMES = {"search/trace.py"}
 """A module that bears the name of one of the standard library, by design: a search leaves a trace."""
 
 UNTESTED = {
-    "datafiles.py", "documents.py", "tables.py", "paper/tables.py", "response/many_struts.py",
-    "response/limits.py", "response/ports.py", "response/one_strut.py", "response/figures.py",
-    "response/judges.py", "response/scores.py", "search/population.py", "search/clock.py", "search/sweep.py",
-    "search/deap_adapter.py", "study/figures.py",
-    "study/store.py", "vehicles/assembly.py", "commands/terminal.py", "commands/bode.py", "commands/optimum.py",
-    "commands/pictures.py", "commands/campaign.py", "commands/reports.py", "commands/weighting.py",
-}  # fmt: skip
+    "commands/bode.py",
+    "commands/campaign.py",
+    "commands/optimum.py",
+    "commands/pictures.py",
+    "commands/reports.py",
+    "commands/terminal.py",
+    "commands/weighting.py",
+    "documents.py",
+    "paper/tables.py",
+    "response/figures.py",
+    "response/judges.py",
+    "response/limits.py",
+    "response/many_struts.py",
+    "response/one_strut.py",
+    "response/ports.py",
+    "response/scores.py",
+    "search/clock.py",
+    "search/deap_adapter.py",
+    "search/population.py",
+    "search/sweep.py",
+    "vehicles/assembly.py",
+}
 """Modules without a test file of their own yet."""
 
 LONG = {"commands/bode.py: main", "commands/compare.py: main"}

@@ -1,29 +1,10 @@
-import os
 import sys
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from suspension_ctrl import tables as files
 from suspension_ctrl.commands import results
-
-
-def test_a_file_appears_whole_or_not_at_all(tmp_path):
-    target = tmp_path / "table.csv"
-    target.write_text("before")
-
-    def fails_halfway(temporary):
-        temporary.write_text("half")
-        raise OSError(28, "No space left on device")
-
-    with pytest.raises(OSError, match="No space left"):
-        files.write_whole(target, fails_halfway)
-    assert target.read_text() == "before"
-    assert os.listdir(tmp_path) == ["table.csv"]
-    files.write_csv(target, pd.DataFrame({"a [m]": [1.5]}))
-    assert target.read_text() == "a [m]\n1.5\n"
-    assert os.listdir(tmp_path) == ["table.csv"]
 
 
 def test_new_folders_are_made_and_empty_ones_taken(tmp_path, monkeypatch):

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from functions import dtlz2, srn, srn_set, zdt1
-from suspension_ctrl import MoeadDra, Nsga2, Problem, minimise, tables
+from suspension_ctrl import MoeadDra, Nsga2, Problem, minimise
 from suspension_ctrl.search.indicators import ReferenceFront, non_dominated
 from suspension_ctrl.search.sampling import Sampling
 from suspension_ctrl.search.trace import trace
@@ -80,47 +80,6 @@ def test_what_is_stored_is_not_made_again(small, table, tmp_path):
     rest = [run.name for run, _ in small.carry_out(again)]
     assert sorted(first + rest) == sorted(run.name for run in small.runs())
     pd.testing.assert_frame_equal(small.table(again).drop(columns="seconds"), table.drop(columns="seconds"))
-
-
-def test_a_folder_belongs_to_one_plan(tmp_path):
-    FolderStore(tmp_path, {"seeds": 3, "numpy": "2.4"})
-    with pytest.raises(ValueError, match=r"^seeds must be 3 as in '.*plan.json' to go on there, got 4$"):
-        FolderStore(tmp_path, {"seeds": 4, "numpy": "2.4"})
-
-
-def test_what_a_killed_process_left_half_written_is_no_run(tmp_path):
-    store = FolderStore(tmp_path, {})
-    (tmp_path / "runs" / ".half.csv").write_text("a,b\n1")
-    assert list(FolderStore(tmp_path, {})) == list(store) == []
-    assert list((tmp_path / "runs").iterdir()) == []
-
-
-def test_a_run_of_which_only_half_could_be_written_is_no_run(small, tmp_path, monkeypatch):
-    store = FolderStore(tmp_path, {})
-    written = []
-
-    def once(path, frame):
-        if written:
-            raise OSError(28, "No space left on device")
-        written.append(path)
-        frame.to_csv(path, index=False)
-
-    with monkeypatch.context() as patch:
-        patch.setattr(tables, "write_csv", once)
-        with pytest.raises(OSError, match="No space left on device"):
-            next(small.carry_out(store))
-    assert len(written) == 1
-    assert list(FolderStore(tmp_path, {})) == []
-
-
-def test_a_store_forgets_what_is_deleted(small, tmp_path):
-    store = FolderStore(tmp_path, {})
-    name = next(small.carry_out(store))[0].name
-    assert len(store) == 1
-    del store[name]
-    assert name not in store
-    with pytest.raises(KeyError):
-        store[name]
 
 
 def failing(designs: np.ndarray) -> np.ndarray:

@@ -1,0 +1,131 @@
+"""Figures by their data: what is drawn against numbers computed here, and the units of the axes."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from matplotlib.figure import Figure
+
+from suspension_ctrl.study import figures
+
+ALGORITHMS = ("a", "b")
+SEEDS = range(7)
+rng = np.random.default_rng(3)
+
+
+@pytest.fixture
+def ax():
+    return Figure().subplots()
+
+
+@pytest.fixture(scope="module")
+def quality() -> pd.DataFrame:
+    """Runs of two algorithms at three numbers of evaluations, rising in quality."""
+    rows = [
+        {
+            "algorithm": name,
+            "seed": seed,
+            "evaluations": evaluations,
+            "seconds": evaluations * (1e-3 if name == "a" else 2e-3),
+            "relative_hypervolume": 1 - rng.random() * 10 / evaluations,
+        }
+        for name in ALGORITHMS
+        for seed in SEEDS
+        for evaluations in (20, 40, 100)
+    ]
+    return pd.DataFrame(rows)
+
+
+@pytest.mark.parametrize("over", ["evaluations", "seconds"])
+def test_anytime_curves_are_medians_between_quartiles(ax, quality, over):
+    figures.anytime(ax, quality, over)
+    assert ax.get_xlabel() == {"evaluations": "evaluations [-]", "seconds": "time [s]"}[over]
+    assert (ax.get_ylabel(), ax.get_xscale()) == ("hypervolume / reference [-]", "log")
+    assert [line.get_label() for line in ax.lines] == list(ALGORITHMS)
+    for line, band, name in zip(ax.lines, ax.collections, ALGORITHMS, strict=True):
+        part = quality[quality.algorithm == name]
+        places = sorted(part[over].unique())
+        values = np.array([part.relative_hypervolume[part[over] == place] for place in places])
+        low, middle, high = np.quantile(values, [0.25, 0.5, 0.75], axis=1)
+        np.testing.assert_allclose(line.get_xydata(), np.stack([places, middle], axis=1), rtol=1e-14)
+        corners = {tuple(corner) for corner in np.round(band.get_paths()[0].vertices, 12)}
+        for edge in (low, high):
+            assert {tuple(corner) for corner in np.round(np.stack([places, edge], axis=1), 12)} <= corners
+
+
+def test_boxes_reach_from_quartile_to_quartile_of_finite_values(ax):
+    values = {"a": [3.0, 1.0, 2.0, 5.0, 4.0], "b": [20.0, 10.0, np.inf, 30.0]}
+    runs = pd.DataFrame([{"algorithm": name, "igd_plus": x} for name, xs in values.items() for x in xs])
+    figures.boxes(ax, runs, "igd_plus")
+    assert ax.get_ylabel() == "IGD+ [-]"
+    assert [label.get_text() for label in ax.get_xticklabels()] == ["a", "b"]
+    medians = [
+        line.get_ydata()[0] for line in ax.lines if line.get_color() == "black" and len(line.get_xdata()) == 2
+    ]
+    boxes = [
+        (patch.get_path().vertices[:, 1].min(), patch.get_path().vertices[:, 1].max()) for patch in ax.patches
+    ]
+    assert boxes == [(2.0, 4.0), (15.0, 25.0)]  # of 1 to 5; of 10, 20, 30
+    assert {3.0, 20.0} <= set(medians)
+
+
+def fronts(shift: float, seeds) -> pd.DataFrame:
+    """Populations of five designs in two objectives, some of which are dominated."""
+    points = [(seed, *(rng.random(2) + shift)) for seed in seeds for _ in range(5)]
+    return pd.DataFrame(points, columns=["seed", "SWS [m]", "DTL [N]"])
+
+
+def test_attainment_is_the_share_of_runs_that_reach_a_place(ax):
+    """In the middle of every rectangle, by counting; only seeds that both have are shown."""
+    first, second = fronts(0.0, SEEDS), fronts(0.2, [*SEEDS, 99])
+    drawn = figures.attainment_differences(ax, first, second, ("SWS [m]", "DTL [N]"))
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("SWS [m]", "DTL [N]")
+    for path, share in zip(drawn.get_paths(), drawn.get_array(), strict=True):
+        middle = path.vertices[:4].mean(axis=0)
+        attained = [
+            np.mean([(side[side.seed == seed].iloc[:, 1:] <= middle).all(axis=1).any() for seed in SEEDS])
+            for side in (first, second)
+        ]
+        assert share == pytest.approx(attained[0] - attained[1], abs=1e-12)
+    assert drawn.get_clim() == (-1, 1)
+    assert max(drawn.get_array()) > 0
+
+
+def populations() -> pd.DataFrame:
+    rows = [
+        {"algorithm": name, "population": n, "iterations": 5, "SWS [m]": x, "ACC [m/s^2]": y, "DTL [N]": z}
+        for name in ALGORITHMS
+        for n in (10, 20)
+        for x, y, z in rng.random((n, 3)) * [0.1, 2, 3000]
+    ]
+    return pd.DataFrame(rows)
+
+
+def test_figure_5_shows_every_design_in_the_units_of_its_axes():
+    table = populations()
+    figure = figures.final_populations(table)
+    (left, right) = figure.subfigs
+    for place, n in ((left, 10), (right, 20)):
+        upper, lower = place.axes
+        assert upper.get_title() == f"N = {n}, 5 iterations"
+        assert (upper.get_ylabel(), lower.get_ylabel(), lower.get_xlabel()) == (
+            "ACC [m/s²]",
+            "DTL [kN]",
+            "SWS [m]",
+        )
+        for ax, column, factor in ((upper, "ACC [m/s^2]", 1), (lower, "DTL [N]", 1e-3)):
+            assert [marks.get_label() for marks in ax.collections] == list(ALGORITHMS)
+            for marks, name in zip(ax.collections, ALGORITHMS, strict=True):
+                part = table[(table.algorithm == name) & (table.population == n)]
+                expected = np.stack([part["SWS [m]"], factor * part[column]], axis=1)
+                np.testing.assert_allclose(marks.get_offsets(), expected, rtol=1e-14)
+
+
+def test_a_panel_holds_two_algorithms_at_most(ax):
+    table = pd.concat([populations(), populations().replace({"algorithm": {"a": "c"}})])
+    with pytest.raises(ValueError, match=r"^populations must be of one or two algorithms, got \['a', 'b', 'c'\]$"):
+        figures.final_population_panel(ax, table, "SWS [m]", "DTL [N]")
+
+
+def test_panels_are_as_many_as_asked_for():
+    figure, axes = figures.panels(4, columns=3)
+    assert len(axes) == len(figure.axes) == 4

@@ -1,0 +1,100 @@
+"""CSV files in and out: read strictly, written whole, under names that every system takes."""
+
+import json
+import os
+
+import pandas as pd
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from suspension_ctrl import tables
+
+
+def written(folder, text: str, encoding: str = "utf-8"):
+    path = folder / "table.csv"
+    path.write_text(text, encoding=encoding)
+    return path
+
+
+def test_a_table_is_read_without_comments_and_empty_lines(tmp_path):
+    names, values = tables.read_table(written(tmp_path, "# source: a book\n\nx [m], y\n1, 2e3\n# more\n-3.5,0\n"))
+    assert names == ["x [m]", "y"]
+    assert values.tolist() == [[1.0, 2000.0], [-3.5, 0.0]]
+
+
+@pytest.mark.parametrize(
+    ("text", "key", "value"),
+    [
+        ("", "must begin with the names of its columns", "got nothing"),
+        ("x\n1\n", "there must be two rows", "got 1"),
+        ("x,y\n1,2\n3\n", "row 2 must have 2 cells", "got 1"),
+        ("x,y\n1,2\n3,no\n", "'y' must be a number up to 1e+09", "got 'no' in row 2"),
+        ("x\n1\nnan\n", "'x' must be a number", "got 'nan' in row 2"),
+        ("x\n1\n1e10\n", "'x' must be a number", "got '1e10' in row 2"),
+        ('x\n1\n"2\n', "must be a CSV file in UTF-8", "got unexpected end of data"),
+    ],
+)
+def test_a_table_with_a_mistake_is_told_by_file_place_and_value(tmp_path, text, key, value):
+    path = written(tmp_path, text)
+    with pytest.raises(ValueError, match=r"^[^\n]*$") as raised:
+        tables.read_table(path)
+    message = str(raised.value)
+    assert message.startswith(f"{path}: {key}")
+    assert message.endswith(value)
+
+
+def test_another_encoding_is_told(tmp_path):
+    with pytest.raises(ValueError, match=r"must be a CSV file in UTF-8, got 'utf-8' codec can't decode"):
+        tables.read_table(written(tmp_path, "Höhe\n1\n2\n", "cp1252"))
+
+
+def test_a_file_appears_whole_or_not_at_all(tmp_path):
+    target = tmp_path / "table.csv"
+    target.write_text("before", encoding="utf-8")
+
+    def fails_halfway(temporary):
+        temporary.write_text("half", encoding="utf-8")
+        raise OSError(28, "No space left on device")
+
+    with pytest.raises(OSError, match="No space left"):
+        tables.write_whole(target, fails_halfway)
+    assert target.read_text(encoding="utf-8") == "before"
+    assert os.listdir(tmp_path) == ["table.csv"]
+    tables.write_csv(target, pd.DataFrame({"a [m]": [1.5]}))
+    assert target.read_text(encoding="utf-8") == "a [m]\n1.5\n"
+    assert os.listdir(tmp_path) == ["table.csv"]
+
+
+def test_texts_are_utf_8(tmp_path):
+    tables.write_text(tmp_path / "verdict.md", "µs, ACC [m/s²]\n")
+    assert (tmp_path / "verdict.md").read_bytes().decode("utf-8").rstrip() == "µs, ACC [m/s²]"
+    tables.write_json(tmp_path / "plan.json", {"seeds": [1, 2]})
+    assert json.loads((tmp_path / "plan.json").read_text(encoding="utf-8")) == {"seeds": [1, 2]}
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("zdt1_n20", "zdt1_n20"),
+        ("a/b\\c: d?", "a_b_c__d_"),
+        ("../..", "_"),
+        ("", "_"),
+        ("NUL", "_NUL"),
+        ("com1.csv", "_com1.csv"),
+        ("console", "console"),
+        ("Škoda 1.6+", "Škoda_1.6+"),
+    ],
+)
+def test_names_are_made_fit_for_files(text, name):
+    assert tables.file_name(text) == name
+
+
+@given(st.text(max_size=20))
+def test_any_text_makes_a_name_that_stays_in_its_folder(text):
+    name = tables.file_name(text)
+    assert name
+    assert not set(name) & set('/\\:*?"<>|\0\n ')
+    assert name == tables.file_name(name)
+    assert not name.endswith(".")
+    assert not name.startswith(".")
