@@ -1,13 +1,17 @@
 """Runs spread over processes by Dask: the same results, also where a worker dies."""
 
+import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
 import time
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
+import dask
+import distributed  # noqa: F401  its defaults before those of a test
 import numpy as np
 import pandas as pd
 import pytest
@@ -71,25 +75,58 @@ def running(folder: Path, *command: str):
         process.wait(20)
 
 
+def address_in(file: Path) -> str:
+    """The scheduler's address, once it has written all of it."""
+    while True:
+        with suppress(FileNotFoundError, json.JSONDecodeError):
+            return json.loads(file.read_text(encoding="utf-8"))["address"]
+        time.sleep(0.05)
+
+
 def test_a_scheduler_gives_the_same_also_when_one_of_its_workers_is_killed(alone, tmp_path):
     """Real processes: a scheduler, two workers without a nanny, of which one is killed during the campaign."""
     file = tmp_path / "scheduler.json"
     scheduler = ("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
-    worker = ("distributed.cli.dask_worker", "--scheduler-file", str(file), "--nthreads", "1", "--no-nanny")
-    worker = (*worker, "--no-dashboard")
     with running(tmp_path, *scheduler, "--scheduler-file", str(file)):
-        while not file.exists():
-            time.sleep(0.05)
-        with running(tmp_path, *worker) as first, running(tmp_path, *worker):
-            address = pd.read_json(file, typ="series").address
-            with clusters.scheduler_at(address) as client:
-                client.wait_for_workers(2, timeout=60)
-                store = {}
-                made = study().carry_out(store, client)
-                next(made)
-                first.kill()
-                assert all(error == "" for _, error in made)
+        address = address_in(file)
+        worker = ("distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard")
+        with (
+            running(tmp_path, *worker) as first,
+            running(tmp_path, *worker),
+            clusters.scheduler_at(address) as client,
+        ):
+            client.wait_for_workers(2, timeout=60)
+            store = {}
+            made = study().carry_out(store, client)
+            next(made)
+            first.kill()
+            assert all(error == "" for _, error in made)
     pd.testing.assert_frame_equal(study().table(store).drop(columns="seconds"), alone)
+
+
+@pytest.mark.skipif(shutil.which("openssl") is None, reason="openssl makes the certificate")
+def test_tls_is_set_up_by_dasks_own_configuration(tmp_path):
+    """With certificates it works as without encryption; without them there is no answer."""
+    file, certificate = tmp_path / "scheduler.json", tmp_path / "cert.pem"
+    files = {"ca-file": certificate, "client.cert": certificate, "client.key": tmp_path / "key.pem"}
+    make = "openssl req -x509 -newkey rsa:2048 -nodes -days 1 -subj /CN=localhost -out cert.pem -keyout key.pem"
+    subprocess.run(make.split(), cwd=tmp_path, check=True, capture_output=True)
+    tls = ("--tls-ca-file", "cert.pem", "--tls-cert", "cert.pem", "--tls-key", "key.pem", "--no-dashboard")
+    scheduler = ("distributed.cli.dask_scheduler", "--protocol", "tls", "--host", "127.0.0.1", "--port", "0")
+    with running(tmp_path, *scheduler, "--scheduler-file", str(file), *tls):
+        address = address_in(file)
+        assert address.startswith("tls://")
+        with (
+            running(tmp_path, "distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny", *tls),
+            dask.config.set({f"distributed.comm.tls.{name}": str(path) for name, path in files.items()}),
+            clusters.scheduler_at(address) as client,
+        ):
+            assert [*clusters.outcomes(divmod, {"a": (7, 2)}, client)] == [("a", (3, 1), "")]
+        with (
+            pytest.raises(ValueError, match=r"^scheduler must be one that answers, got 'tls://"),
+            clusters.scheduler_at(address, timeout=1.0),
+        ):
+            pass
 
 
 @pytest.mark.skipif(not Path("/proc/net/tcp").exists(), reason="the system does not list sockets there")
@@ -110,9 +147,7 @@ def test_a_scheduler_that_is_lost_or_has_no_worker_is_told_in_one_line(tmp_path)
     file = tmp_path / "scheduler.json"
     command = ("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
     with running(tmp_path, *command, "--scheduler-file", str(file)) as scheduler:
-        while not file.exists():
-            time.sleep(0.05)
-        address = pd.read_json(file, typ="series").address
+        address = address_in(file)
         with (
             pytest.raises(ValueError, match=r"^scheduler must have a worker"),
             clusters.scheduler_at(address, timeout=1.0),
