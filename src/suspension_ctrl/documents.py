@@ -147,13 +147,14 @@ class Table:
 def made(table: Table, kind: type[T], beside: Collection[str] = (), **given: object) -> T:
     """Return a dataclass by a table whose keys are names and units of its fields, and others `beside` them.
 
-    Fields of numbers, pairs and texts are read; the metadata ``key`` of a field stands for its name and unit.
+    Fields of numbers and texts are read; the metadata ``key`` of a field stands for its name and unit.
     """
     read: dict[Any, Callable[[str], object]] = {
         float: table.number,
         float | None: table.number,
         str: table.text,
         tuple[float, float]: table.pair,
+        tuple[float, ...]: table.numbers,
     }
     own = {
         one.metadata.get("key", key_of(one.name, one.metadata.get("unit", ""))): one

@@ -48,7 +48,7 @@ def test_a_half_car_with_inertia_mab_is_two_quarter_cars(mass, axle, struts, f):
         expected = from_roads(
             quarter, dict(zip(("spring", "damper"), struts[end], strict=True)), quarter.responses, np.array([f])
         )[0, :, 0]
-        roads = list(half.assembly.contacts)
+        roads = list(half.assembly.roads)
         np.testing.assert_allclose(found[:, roads.index(f"{end}_road")], expected, rtol=1e-9)
         far = found[:, roads.index(f"{other}_road")]
         assert (np.abs(far) <= 1e-9 * np.abs(expected)).all()

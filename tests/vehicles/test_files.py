@@ -82,7 +82,7 @@ def matrices(file: VehicleFile) -> tuple[np.ndarray, np.ndarray]:
     """Masses and stiffnesses of the package's own assembly."""
     mechanics = file.vehicle.statics
     coefficients = file.vehicle.coefficients(file.setting)
-    return mechanics.mass, mechanics.stiffness_of(np.array([list(coefficients.values())]))[0]
+    return file.vehicle.assembly.mass_matrix, mechanics.stiffness_of(np.array([list(coefficients.values())]))[0]
 
 
 def frequencies(mass: np.ndarray, stiffness: np.ndarray) -> np.ndarray:

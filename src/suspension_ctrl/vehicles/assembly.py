@@ -7,7 +7,7 @@ down, roll positive left side up. Deflections are positive in extension, forces 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import control
 import numpy as np
@@ -30,6 +30,7 @@ GRAVITY = 9.80665
 _RESERVED = ("responses", "road", "speed")
 """Keywords beside which struts are given by name."""
 _SAME_PLACE = 1e-3  # m
+_NONE: FrozenMapping[Any, Any] = FrozenMapping({})
 
 
 def label(response: ResponseName) -> str:
@@ -70,16 +71,10 @@ class Response(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StrutParameter(Record):
-    """A coefficient of the struts.
+    """A coefficient of the struts; required if it has no default.
 
-    Parameters
-    ----------
-    name, unit : str
-    gain : (q, q) array_like
-        Tension of each strut by deflection of each (`order` 0) or its rate (`order` 1), at a coefficient of 1.
-    order : int
-    default : float, optional
-        Value of a coefficient that is not given; required if None.
+    The gain (q, q) is the tension of each strut by deflection of each (`order` 0) or its rate (`order` 1), at a
+    coefficient of 1.
     """
 
     name: str
@@ -103,14 +98,13 @@ class Assembly(Record):
     inertias : mapping of str to float
         The others: ``pitch`` and ``roll`` [kg m^2] and elastic modes, of modal mass 1 [-].
     contacts : mapping of str to Position
-        Where each road touches the tyre.
-    tyres : sequence of Link
-        From a road to a wheel.
-    struts : sequence of Link
+        By tyre, the point where it touches its road, ``<tyre>_road``.
+    tyres, struts : sequence of Link
+        A tyre from its road to a wheel; in the order of `contacts`.
     parameters : sequence of StrutParameter
     responses : mapping of str to Response
     supports : sequence of Link
-        Springs and dampers that no design changes, but for tyres.
+        Further springs and dampers that no design changes.
     bending : mapping of Position to mapping of str to float
         By point of the body, the share of each elastic mode in its displacement [kg^-1/2]; empty if rigid.
     payload : sequence of (float, Position)
@@ -119,18 +113,19 @@ class Assembly(Record):
     Raises
     ------
     ValueError
-        If a strut or a payload is at a point of the body without mode shapes, or a strut is called as a keyword.
+        If contacts are not those of the tyres, a strut has the name of a keyword, or the mode shapes at a strut
+        or a payload are unknown.
     """
 
     masses: Mapping[str, float] = field(metadata=unit("kg"))
-    inertias: Mapping[str, float] = field(default_factory=lambda: FrozenMapping[str, float]({}))
+    inertias: Mapping[str, float] = _NONE
     contacts: Mapping[str, Position] = field(metadata=unit("m"))
     tyres: tuple[Link, ...]
     struts: tuple[Link, ...]
     parameters: tuple[StrutParameter, ...]
     responses: Mapping[str, Response]
     supports: tuple[Link, ...] = ()
-    bending: Mapping[Position, Mapping[str, float]] = field(default_factory=lambda: FrozenMapping({}))
+    bending: Mapping[Position, Mapping[str, float]] = _NONE
     payload: tuple[tuple[float, Position], ...] = ()
 
     def __post_init__(self) -> None:
@@ -138,10 +133,17 @@ class Assembly(Record):
             object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
         for name in ("tyres", "struts", "parameters", "supports", "payload"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
+        if list(self.contacts) != [tyre.name for tyre in self.tyres]:
+            raise ValueError(f"contacts must be those of the tyres, {list(self.tyres)}, got {list(self.contacts)}")
         check_strut_names("struts", (strut.name for strut in self.struts))
         for end in (*(end for strut in self.struts for end in strut[1:3]), *(place for _, place in self.payload)):
             if isinstance(end, tuple):
                 self._bending_at(end)
+
+    @cached_property
+    def roads(self) -> tuple[str, ...]:
+        """Names of the roads."""
+        return tuple(joined(tyre, "road") for tyre in self.contacts)
 
     @cached_property
     def coordinates(self) -> tuple[str, ...]:
@@ -189,11 +191,8 @@ class Assembly(Record):
     def elongations(self, links: Sequence[Link]) -> tuple[Real, Real]:
         """Return the elongation of links by unit of each coordinate (l, n) and by metre of each road (l, r)."""
         by_coordinate = [self.shape(link.upper) - self.shape(link.lower) for link in links]
-        by_road = [[-float(link.lower == road) for road in self.contacts] for link in links]
-        return (
-            np.reshape(by_coordinate, (len(links), len(self.coordinates))),
-            np.reshape(by_road, (len(links), len(self.contacts))),
-        )
+        by_road = [[-float(link.lower == road) for road in self.roads] for link in links]
+        return np.reshape(by_coordinate, (len(links), -1)), np.reshape(by_road, (len(links), -1))
 
     def plant(self, responses: Sequence[ResponseName]) -> control.StateSpace:
         """Return the vehicle without its struts; `Vehicle.plant` names the inputs and outputs.
@@ -201,21 +200,20 @@ class Assembly(Record):
         With coordinates z and roads x, links of stiffness k and damping c that are E z + R x longer, and struts
         under tensions F that are P z longer, the masses M move by
         ``M z'' = -E^T (k (E z + R x) + c (E z' + R x')) - P^T F``.
-
-        Raises
-        ------
-        ValueError
-            If a response is unknown, or given twice.
+        ValueError if a response is unknown, or given twice.
         """
-        n, r, q = len(self.coordinates), len(self.contacts), len(self.struts)
+        n, r, q = len(self.coordinates), len(self.roads), len(self.struts)
         motion, tension = self._motion()
-        outputs = self._outputs(responses, motion, tension)
-        if len(outputs) < len(responses) + 2 * q:
+        rows = {label(name): self._row(name, motion, tension) for name in responses}
+        if len(rows) < len(responses):
             raise ValueError(f"responses must differ, points by a millimetre or more, got {list(responses)}")
+        p, _ = self.elongations(self.struts)
+        z, rate = np.eye(n, 2 * n + 2 * r + q), np.eye(n, 2 * n + 2 * r + q, n)
+        moved, read = np.vstack([rate, motion]), np.vstack([*rows.values(), p @ z, p @ rate])
         damped = tension[: len(self.tyres), 2 * n + r : 2 * n + 2 * r].any()
         kept = np.delete(np.arange(2 * n, 2 * n + 2 * r + q), [] if damped else slice(r, 2 * r))
         states = np.arange(2 * n).reshape(2, n).T.ravel()  # a coordinate and its rate beside each other
-        moved, read = np.vstack([np.eye(n, 2 * n + 2 * r + q, n), motion]), np.array(list(outputs.values()))
+        names = [strut.name for strut in self.struts]
         return control.ss(
             moved[np.ix_(states, states)],
             moved[np.ix_(states, kept)],
@@ -223,11 +221,11 @@ class Assembly(Record):
             read[:, kept],
             states=[f"{z}_{what}" for z in self.coordinates for what in ("displacement", "velocity")],
             inputs=[
-                *self.contacts,
-                *(f"{road}_rate" for road in self.contacts if damped),
-                *(joined(strut.name, "strut") for strut in self.struts),
+                *self.roads,
+                *(f"{road}_rate" for road in self.roads if damped),
+                *(joined(strut, "strut") for strut in names),
             ],
-            outputs=list(outputs),
+            outputs=[*rows, *(joined(name, end) for end in ("deflection", "deflection_rate") for name in names)],
             name="plant",
         )
 
@@ -239,32 +237,17 @@ class Assembly(Record):
         k, c = (np.array([getattr(link, name) for link in links])[:, None] for name in ("stiffness", "damping"))
         tension = np.hstack([k * e, c * e, k * road, c * road])
         inverse = np.linalg.inv(self.mass_matrix).astype(float)
-        motion = -inverse @ np.hstack([e.T @ tension, p.T])
-        return motion, np.pad(tension, ((0, 0), (0, len(p))))
+        return -inverse @ np.hstack([e.T @ tension, p.T]), np.pad(tension, ((0, 0), (0, len(p))))
 
-    def _outputs(self, responses: Sequence[ResponseName], motion: Real, tension: Real) -> dict[str, Real]:
-        """Rows (c,) of the responses, then of deflections and their rates, by label; columns as of `_motion`."""
-        p, _ = self.elongations(self.struts)
-        n, width = len(self.coordinates), motion.shape[1]
-        deflections, rates = np.pad(p, ((0, 0), (0, width - n))), np.pad(p, ((0, 0), (n, width - 2 * n)))
-        outputs = {}
-        for name, (kind, where) in self.resolved(responses).items():
-            if kind == "acceleration":
-                outputs[label(name)] = self.shape(where) @ motion
-            else:
-                links, rows = (self.struts, deflections) if kind == "travel" else (self.tyres, tension)
-                outputs[label(name)] = rows[[link.name for link in links].index(str(where))]
-        for end, rows in (("deflection", deflections), ("deflection_rate", rates)):
-            outputs |= {joined(strut.name, end): row for strut, row in zip(self.struts, rows, strict=True)}
-        return outputs
-
-    def resolved(self, responses: Sequence[ResponseName]) -> dict[ResponseName, Response]:
-        """Return the meaning of each response; ValueError for one that the vehicle does not have."""
-        found: dict[ResponseName, Response] = {}
-        for name in responses:
-            if isinstance(name, tuple) and len(name) == 3 and name[0] == "acceleration":
-                found[name] = Response("acceleration", (float(name[1]), float(name[2])))
-            else:
-                checks.one_of("response", name, self.responses)
-                found[name] = self.responses[str(name)]
-        return found
+    def _row(self, name: ResponseName, motion: Real, tension: Real) -> Real:
+        """Return a response (c,) by the columns of `_motion`; ValueError if the vehicle does not have it."""
+        if isinstance(name, tuple) and len(name) == 3 and name[0] == "acceleration":
+            return np.asarray(self.shape((float(name[1]), float(name[2]))) @ motion)
+        checks.one_of("response", name, self.responses)
+        kind, where = self.responses[str(name)]
+        if kind == "acceleration":
+            return np.asarray(self.shape(where) @ motion)
+        if kind == "load":
+            return tension[[tyre.name for tyre in self.tyres].index(str(where))]
+        strut = self.struts[[strut.name for strut in self.struts].index(str(where))]
+        return np.pad(self.elongations([strut])[0][0], (0, motion.shape[1] - len(motion)))

@@ -51,7 +51,7 @@ class QuarterCar(Record, AssembledVehicle):
         """Its masses and links."""
         return Assembly(
             masses={"wheel": self.wheel_mass, "body": self.body_mass},
-            contacts={"road": (0.0, 0.0)},
+            contacts={"": (0.0, 0.0)},
             tyres=(Link("", "road", "wheel", self.tyre_stiffness, self.tyre_damping),),
             struts=(Link("", "wheel", (0.0, 0.0)),),
             parameters=tuple(spring_and_damper("", [1.0])),
@@ -120,7 +120,7 @@ class _TwoAxleCar(Record, AssembledVehicle):
         return Assembly(
             masses={"body": self.body_mass, **wheels},
             inertias=inertias,
-            contacts={f"{corner}_road": position for corner, position in corners.items()},
+            contacts=corners,
             tyres=tuple(tyre(corner, axle) for corner, axle in axles.items()),
             struts=tuple(Link(corner, f"{corner}_wheel", position) for corner, position in corners.items()),
             parameters=tuple(parameters),

@@ -1,12 +1,15 @@
 """Struts as feedback: a plant with a static gain from deflections and their rates to tensions."""
 
+from collections.abc import Sequence
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeAlias
 
 import control
 import numpy as np
 
 from ..quantities import Complex, Real
+
+System: TypeAlias = control.StateSpace | control.FrequencyResponseData
 
 
 class MeasuredResponse(control.FrequencyResponseData):  # type: ignore[misc]  # python-control has no types
@@ -36,31 +39,30 @@ def check_measured(omega: Real, lines: Real) -> None:
         )
 
 
-def around(
-    plant: control.StateSpace | control.FrequencyResponseData, gain: Real
-) -> control.StateSpace | control.FrequencyResponseData:
+def around(plant: System, gain: Real) -> System:
     """Return the plant with a static `gain` (q, 2 q) from its last outputs to its last inputs, which all stay.
 
     `control.StateSpace.lft` is the same but for its check, which refuses gains above some 1e7.
     """
-    q = len(gain)
+    q, names = len(gain), {"inputs": plant.input_labels, "outputs": plant.output_labels}
     if isinstance(plant, control.StateSpace):
         b, c, d, fed = plant.B[:, -q:], plant.C[-2 * q :], plant.D[:, -q:], plant.D[-2 * q :]
         k = np.linalg.solve(np.eye(q) - gain @ fed[:, -q:], gain)
-        return control.ss(plant.A + b @ k @ c, plant.B + b @ k @ fed, plant.C + d @ k @ c, plant.D + d @ k @ fed)
+        matrices = plant.A + b @ k @ c, plant.B + b @ k @ fed, plant.C + d @ k @ c, plant.D + d @ k @ fed
+        return control.ss(*matrices, states=plant.state_labels, **names)
     h = np.moveaxis(plant.frdata, 2, 0)
     loop = np.eye(q) - gain @ h[:, -2 * q :, -q:]
     closed = h + h[:, :, -q:] @ np.linalg.solve(loop, gain @ h[:, -2 * q :])
-    return MeasuredResponse(np.moveaxis(closed, 0, 2), plant.omega)
+    return MeasuredResponse(np.moveaxis(closed, 0, 2), plant.omega, **names)
 
 
-def closed(
-    plant: control.StateSpace | control.FrequencyResponseData, gain: Real
-) -> control.StateSpace | control.FrequencyResponseData:
-    """Return the plant with that gain, without the ports of the struts."""
-    system, q = around(plant, gain), len(gain)
-    names = {"inputs": plant.input_labels[:-q], "outputs": plant.output_labels[: -2 * q], "name": "vehicle"}
-    if isinstance(plant, control.StateSpace):
-        b, c, d = system.B[:, :-q], system.C[: -2 * q], system.D[: -2 * q, :-q]
-        return control.ss(system.A, b, c, d, states=plant.state_labels, **names)
-    return MeasuredResponse(system.frdata[: -2 * q, :-q], plant.omega, **names)
+def selected(system: System, outputs: Sequence[str], inputs: Sequence[str], name: str) -> System:
+    """Return the system with these outputs and inputs; an input that it does not have has no effect."""
+    row, known = [system.output_labels.index(output) for output in outputs], system.input_labels
+    column = [known.index(one) if one in known else len(known) for one in inputs]
+    names = {"inputs": list(inputs), "outputs": list(outputs), "name": name}
+    if isinstance(system, control.StateSpace):
+        b, d = (np.pad(matrix, ((0, 0), (0, 1)))[:, column] for matrix in (system.B, system.D))
+        return control.ss(system.A.copy(), b, system.C[row], d[row], states=system.state_labels, **names)
+    h = np.pad(system.frdata, ((0, 0), (0, 1), (0, 0)))[row][:, column]
+    return MeasuredResponse(h, system.omega.copy(), **names)

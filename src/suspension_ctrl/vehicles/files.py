@@ -29,7 +29,6 @@ from .vehicle import AssembledVehicle, Vehicle
 
 _KINDS: dict[str, type[AssembledVehicle]] = {"quarter-car": QuarterCar, "half-car": HalfCar, "full-car": FullCar}
 _TABLES = ("flexible_body", "seats", "struts", "bounds", "roll_geometry")
-_BENDING = {"frequencies_Hz": "frequencies", "damping_ratios": "damping_ratios", "shapes": "shapes"}
 _SHAPE = {"position_m": "position", "shape_per_sqrt_kg": "shape"}
 
 
@@ -89,8 +88,8 @@ def _read(table: Table) -> VehicleFile:
     vehicle = made(table, kind, beside=("kind", "name", "source", *_TABLES))
     if "flexible_body" in table.content:
         body = table.table("flexible_body")
-        with keyed(body.name, _BENDING | {"shapes.position_m": "position"}):
-            vehicle = _flexible_body(body).on(vehicle)
+        with keyed(body.name, {"shapes.position_m": "position", "shapes": "shapes"}):
+            vehicle = made(body, FlexibleBody, beside=["shapes"], shapes=_shapes(body)).on(vehicle)
     vehicle = with_seats(vehicle, table)
     return VehicleFile(
         name=name,
@@ -115,20 +114,17 @@ def read_roll_geometry(table: Table) -> RollGeometry | None:
     return made(table.table("roll_geometry"), RollGeometry) if "roll_geometry" in table.content else None
 
 
-def _flexible_body(table: Table) -> FlexibleBody:
-    table.check_keys(_BENDING, _BENDING)
+def _shapes(body: Table) -> dict[Position, tuple[float, ...]]:
     shapes: dict[Position, tuple[float, ...]] = {}
-    for point in table.tables("shapes"):
+    for point in body.tables("shapes"):
         point.check_keys(_SHAPE, _SHAPE)
         position = point.pair("position_m")
         if position in shapes:
             raise ValueError(f"{point.name}position_m must be that of no other shape, got {position}")
         shapes[position] = point.numbers("shape_per_sqrt_kg")
     if not shapes:
-        raise ValueError(f"{table.name}shapes must be an array of tables, one at least, got none")
-    return FlexibleBody(
-        frequencies=table.numbers("frequencies_Hz"), damping_ratios=table.numbers("damping_ratios"), shapes=shapes
-    )
+        raise ValueError(f"{body.name}shapes must be an array of tables, one at least, got none")
+    return shapes
 
 
 def _coefficients(vehicle: Vehicle) -> dict[str, str]:

@@ -70,37 +70,14 @@ def check_cornering(measure: str, assembly: Assembly) -> None:
 
 
 class Mechanics(NamedTuple):
-    """Matrices of a vehicle with n coordinates, t tyres and v coefficients of struts.
+    """Matrices of a vehicle with n coordinates, t tyres and v coefficients of struts."""
 
-    Parameters
-    ----------
-    coordinates : (n,) tuple of str
-    mass, stiffness, damping : (n, n) ndarray
-        Stiffness and damping of tyres and supports.
-    by_stiffness, by_damping : (v, n, n) ndarray
-        Those of the struts, for coefficients of 1.
-    weights : (n,) ndarray
-        Mass that loads each coordinate by gravity: kg, or kg m of one that turns the body.
-    tyre_loads : (t, n) ndarray
-        Tension of each tyre by coordinate.
-    tyres : (t,) list of str
-    contacts : (t, 2) ndarray
-        Where they touch the ground [m].
-    sprung_mass : float
-        [kg].
-    """
-
-    coordinates: tuple[str, ...]
-    mass: Real
-    stiffness: Real
+    assembly: Assembly
+    stiffness: Real  # (n, n), of tyres and supports
     damping: Real
-    by_stiffness: Real
+    by_stiffness: Real  # (v, n, n), of the struts for coefficients of 1
     by_damping: Real
-    weights: Real
-    tyre_loads: Real
-    tyres: list[str]
-    contacts: Real
-    sprung_mass: float
+    tyre_loads: Real  # (t, n), tension of each tyre by coordinate
 
     @classmethod
     def of(cls, assembly: Assembly) -> "Mechanics":
@@ -109,22 +86,15 @@ class Mechanics(NamedTuple):
         e, _ = assembly.elongations(links)
         p, _ = assembly.elongations(assembly.struts)
         k, c = (np.array([getattr(link, name) for link in links])[:, None] for name in ("stiffness", "damping"))
-        by_stiffness, by_damping = (
+        stiff, damp = (
             np.array([p.T @ (q.gain * (q.order == order)) @ p for q in assembly.parameters]) for order in (0, 1)
         )
-        return cls(
-            assembly.coordinates,
-            assembly.mass_matrix,
-            e.T @ (k * e),
-            e.T @ (c * e),
-            by_stiffness,
-            by_damping,
-            assembly.weights,
-            (k * e)[: len(assembly.tyres)],
-            [tyre.name for tyre in assembly.tyres],
-            np.array([assembly.contacts[str(tyre.lower)] for tyre in assembly.tyres]),
-            assembly.sprung_mass,
-        )
+        return cls(assembly, e.T @ (k * e), e.T @ (c * e), stiff, damp, (k * e)[: len(assembly.tyres)])
+
+    @property
+    def tyres(self) -> list[str]:
+        """Names of the tyres."""
+        return list(self.assembly.contacts)
 
     def stiffness_of(self, coefficients: Real) -> Real:
         """Return the stiffness matrices (p, n, n) of designs with these coefficients (p, v)."""
@@ -132,7 +102,7 @@ class Mechanics(NamedTuple):
 
     def static_loads(self, coefficients: Real) -> Real:
         """Return the load (p, t) of each tyre on level ground [N]."""
-        displacement = np.linalg.solve(self.stiffness_of(coefficients), -GRAVITY * self.weights[:, None])
+        displacement = np.linalg.solve(self.stiffness_of(coefficients), -GRAVITY * self.assembly.weights[:, None])
         loads: Real = -(self.tyre_loads @ displacement)[..., 0]
         return loads
 
@@ -141,7 +111,7 @@ class Mechanics(NamedTuple):
 
         A body topples, at 180, if struts and tyres do not hold its weight against leaning further.
         """
-        lean = np.degrees(self._lean(coefficients, geometry)[:, self.coordinates.index("roll")])
+        lean = np.degrees(self._lean(coefficients, geometry)[:, self.assembly.coordinates.index("roll")])
         topples = np.linalg.eigvalsh(self._leaning(coefficients, geometry))[:, 0] <= 0
         return np.where(topples, _TOPPLED, np.minimum(lean, _TOPPLED))
 
@@ -153,15 +123,15 @@ class Mechanics(NamedTuple):
 
     def roll_damping(self, coefficients: Real) -> Real:
         """Return the damping ratio (p,) of the mode with most of its kinetic energy in roll, 1 if overdamped."""
-        n = len(self.coordinates)
+        n = len(self.assembly.coordinates)
         k = self.stiffness_of(coefficients)
         c = self.damping + np.tensordot(coefficients, self.by_damping, axes=1)
-        inverse = np.linalg.inv(self.mass)
+        inverse = np.linalg.inv(self.assembly.mass_matrix)
         a = np.zeros((len(coefficients), 2 * n, 2 * n))
         a[:, :n, n:], a[:, n:, :n], a[:, n:, n:] = np.eye(n), -inverse @ k, -inverse @ c
         poles, vectors = np.linalg.eig(a)
-        energy = np.diag(self.mass)[:, None] * np.abs(vectors[:, n:]) ** 2
-        share = energy[:, self.coordinates.index("roll")] / energy.sum(axis=1)
+        energy = np.diag(self.assembly.mass_matrix)[:, None] * np.abs(vectors[:, n:]) ** 2
+        share = energy[:, self.assembly.coordinates.index("roll")] / energy.sum(axis=1)
         pole = np.take_along_axis(poles, share.argmax(axis=1)[:, None], axis=1)[:, 0]
         ratio: Real = -pole.real / np.abs(pole)
         return ratio
@@ -172,23 +142,23 @@ class Mechanics(NamedTuple):
         The body is turned by its weight at the roll arm; forces through the roll centres and at the wheels turn
         the axles on their tyres.
         """
-        load = np.zeros((len(coefficients), len(self.coordinates)))
-        load[:, self.coordinates.index("roll")] = self.sprung_mass * GRAVITY * geometry.roll_arm
+        load = np.zeros((len(coefficients), len(self.assembly.coordinates)))
+        load[:, self.assembly.coordinates.index("roll")] = self.assembly.sprung_mass * GRAVITY * geometry.roll_arm
         static = self.static_loads(coefficients)
         for axle, centre in zip(_AXLES, (geometry.front_roll_centre, geometry.rear_roll_centre), strict=True):
-            left, right = (self.tyres.index(f"{axle}_{side}") for side in _SIDES)
-            wheels = 2 * self.weights[self.coordinates.index(f"{axle}_left_wheel")] * GRAVITY
-            body = static[:, left] + static[:, right] - wheels
-            track = (self.contacts[left] - self.contacts[right])[1]
-            force = (body * centre + wheels * geometry.wheel_centre) / track
-            load[:, self.coordinates.index(f"{axle}_left_wheel")] = force
-            load[:, self.coordinates.index(f"{axle}_right_wheel")] = -force
+            corners = [f"{axle}_{side}" for side in _SIDES]
+            left, right = (self.assembly.coordinates.index(f"{corner}_wheel") for corner in corners)
+            wheels = 2 * self.assembly.weights[left] * GRAVITY
+            body = static[:, [self.tyres.index(corner) for corner in corners]].sum(axis=1) - wheels
+            (_, y), (_, other) = (self.assembly.contacts[corner] for corner in corners)
+            load[:, left] = (body * centre + wheels * geometry.wheel_centre) / (y - other)
+            load[:, right] = -load[:, left]
         leaning = self._leaning(coefficients, geometry)
         return np.asarray(np.linalg.solve(leaning, load[..., None])[..., 0], dtype=float)
 
     def _leaning(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Stiffness matrices (p, n, n) less the moment of the leaning weight."""
         stiffness = self.stiffness_of(coefficients)
-        roll = self.coordinates.index("roll")
-        stiffness[:, roll, roll] -= self.sprung_mass * GRAVITY * geometry.roll_arm
+        roll = self.assembly.coordinates.index("roll")
+        stiffness[:, roll, roll] -= self.assembly.sprung_mass * GRAVITY * geometry.roll_arm
         return stiffness

@@ -97,7 +97,7 @@ class Seat(Part):
         """Return the vehicle with this seat."""
         coefficients = (parameter.name.split(".")[0] for parameter in assembly.parameters)
         struts = (strut.name for strut in assembly.struts)
-        if self.name in {"pitch", "roll", *assembly.coordinates, *assembly.contacts, *struts, *coefficients}:
+        if self.name in {"pitch", "roll", *assembly.coordinates, *assembly.roads, *struts, *coefficients}:
             raise ValueError(f"name must be one that the vehicle does not have yet, got {self.name!r}")
         others = len(assembly.struts)
         parameters = [replace(p, gain=np.pad(p.gain, (0, 1))) for p in assembly.parameters]

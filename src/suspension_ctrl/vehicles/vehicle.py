@@ -13,8 +13,8 @@ import numpy as np
 
 from .. import checks
 from ..quantities import Real, frozen_array
-from .assembly import Assembly, Response, ResponseName, StrutParameter
-from .feedback import closed
+from .assembly import Assembly, Position, Response, ResponseName, StrutParameter
+from .feedback import System, around, selected
 from .handling import Mechanics
 from .modes import modes_of
 
@@ -38,18 +38,13 @@ class Vehicle(ABC):
 
     @property
     @abstractmethod
+    def contacts(self) -> Mapping[str, Position]:
+        """Point (x, y) by tyre where it touches its road, x forward and y to the left [m]."""
+
+    @property
+    @abstractmethod
     def struts(self) -> tuple[str, ...]:
-        """Names of the struts."""
-
-    @property
-    @abstractmethod
-    def tyres(self) -> tuple[str, ...]:
-        """Names of the tyres; a strut over a tyre has its name."""
-
-    @property
-    @abstractmethod
-    def contact_points(self) -> Real:
-        """Where each road touches its tyre, x forward and y to the left [m], (r, 2)."""
+        """Names of the struts; one over a tyre has its name."""
 
     @property
     @abstractmethod
@@ -57,9 +52,7 @@ class Vehicle(ABC):
         """Coefficients of the struts."""
 
     @abstractmethod
-    def plant(
-        self, responses: Sequence[ResponseName] | None = None
-    ) -> control.StateSpace | control.FrequencyResponseData:
+    def plant(self, responses: Sequence[ResponseName] | None = None) -> System:
         """Return the vehicle without its struts, with a port for each.
 
         Parameters
@@ -80,6 +73,16 @@ class Vehicle(ABC):
         """Names of the responses."""
         return tuple(self.meanings)
 
+    @property
+    def tyres(self) -> tuple[str, ...]:
+        """Names of the tyres."""
+        return tuple(self.contacts)
+
+    @property
+    def contact_points(self) -> Real:
+        """Points (r, 2) where the tyres touch their roads, x forward and y to the left [m]."""
+        return frozen_array(list(self.contacts.values()))
+
     def closed(
         self,
         setting: Setting | Pair | None = None,
@@ -87,7 +90,7 @@ class Vehicle(ABC):
         *,
         responses: Sequence[ResponseName] | None = None,
         **struts: Any,
-    ) -> control.StateSpace | control.FrequencyResponseData:
+    ) -> System:
         """Return the vehicle with its struts.
 
         Parameters
@@ -111,7 +114,9 @@ class Vehicle(ABC):
         ValueError
             If a coefficient is unknown, missing or out of range, or a response is unknown.
         """
-        return closed(self.plant(responses), np.hstack(self.strut_gains(setting, **struts)))
+        closed = around(self.plant(responses), np.hstack(self.strut_gains(setting, **struts)))
+        q = len(self.struts)
+        return selected(closed, closed.output_labels[: -2 * q], closed.input_labels[:-q], "vehicle")
 
     def strut_gains(self, setting: Setting | Pair | None = None, /, **struts: Any) -> tuple[Real, Real]:
         """Return tensions of the struts by their deflections and by the rates of these, (q, q) each."""
@@ -150,19 +155,14 @@ class AssembledVehicle(Vehicle):
         return self.assembly.responses
 
     @property
+    def contacts(self) -> Mapping[str, Position]:
+        """Point (x, y) by tyre where it touches its road, x forward and y to the left [m]."""
+        return self.assembly.contacts
+
+    @property
     def struts(self) -> tuple[str, ...]:
-        """Names of the struts."""
+        """Names of the struts; one over a tyre has its name."""
         return tuple(strut.name for strut in self.assembly.struts)
-
-    @property
-    def tyres(self) -> tuple[str, ...]:
-        """Names of the tyres; a strut over a tyre has its name."""
-        return tuple(tyre.name for tyre in self.assembly.tyres)
-
-    @property
-    def contact_points(self) -> Real:
-        """Where each road touches its tyre, x forward and y to the left [m], (r, 2)."""
-        return frozen_array(list(self.assembly.contacts.values()))
 
     @property
     def parameters(self) -> tuple[StrutParameter, ...]:
