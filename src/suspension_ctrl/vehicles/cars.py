@@ -1,6 +1,6 @@
 """Quarter, half and full car."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -8,8 +8,8 @@ from typing import Any
 import control
 
 from ..quantities import Record, check_numbers, unit
-from .assembly import Assembly, Link, Position, Response, ResponseName, StrutParameter
-from .vehicle import AssembledVehicle, Pair, Setting, anti_roll_bar, spring_and_damper
+from .assembly import Assembly, Link, Position, Response, StrutParameter
+from .vehicle import AssembledVehicle, anti_roll_bar, spring_and_damper
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -18,14 +18,10 @@ class QuarterCar(Record, AssembledVehicle):
 
     Parameters
     ----------
-    body_mass : float
-        Mass of the body on this wheel, M_b [kg].
-    wheel_mass : float
-        Mass of the wheel, M_w [kg].
-    tyre_stiffness : float
-        Vertical stiffness of the tyre, K_t [N/m].
-    tyre_damping : float
-        Vertical damping of the tyre [N s/m].
+    body_mass, wheel_mass : float
+        Mass of the body on this wheel, M_b, and of the wheel, M_w [kg].
+    tyre_stiffness, tyre_damping : float
+        Vertical stiffness, K_t [N/m], and damping of the tyre [N s/m].
 
     Raises
     ------
@@ -63,22 +59,13 @@ class QuarterCar(Record, AssembledVehicle):
         )
 
     def closed(
-        self,
-        setting: Setting | Pair | float | None = None,
-        damper: float | None = None,
-        /,
-        *,
-        responses: Sequence[ResponseName] | None = None,
-        **struts: Any,
+        self, setting: Any = None, damper: Any = None, /, *, responses: Any = None, **struts: Any
     ) -> control.StateSpace:
         """Return the vehicle with its strut: ``closed(spring, damper)``, or as `Vehicle.closed`.
 
         The spring stiffness K_s is in N/m, the damping coefficient C_s in N s/m.
         """
-        if isinstance(setting, int | float):
-            setting, struts = None, {"spring": setting, **struts}
-        if damper is not None:
-            struts = {**struts, "damper": damper}
+        setting = setting if damper is None else (setting, damper)
         return super().closed(setting, responses=responses, **struts)
 
 
@@ -101,19 +88,18 @@ class _TwoAxleCar(Record, AssembledVehicle):
         check_numbers(self)
 
     def _assembly(
-        self,
-        corners: Mapping[str, Position],
-        inertias: Mapping[str, float],
-        parameters: Sequence[StrutParameter],
+        self, corners: Mapping[str, Position], inertias: Mapping[str, float], parameters: list[StrutParameter]
     ) -> Assembly:
         """Return the body on a wheel under each of its corners, whose names begin with the axle's."""
 
-        def tyre(corner: str, axle: str) -> Link:
-            stiffness, damping = (getattr(self, f"{axle}_tyre_{what}") for what in ("stiffness", "damping"))
-            return Link(corner, f"{corner}_road", f"{corner}_wheel", stiffness, damping)
+        def of_axle(corner: str, what: str) -> float:
+            return float(getattr(self, f"{corner.split('_')[0]}_{what}"))
 
-        axles = {corner: corner.split("_")[0] for corner in corners}
-        wheels = {f"{corner}_wheel": getattr(self, f"{axle}_wheel_mass") for corner, axle in axles.items()}
+        def tyre(corner: str) -> Link:
+            properties = of_axle(corner, "tyre_stiffness"), of_axle(corner, "tyre_damping")
+            return Link(corner, f"{corner}_road", f"{corner}_wheel", *properties)
+
+        wheels = {f"{corner}_wheel": of_axle(corner, "wheel_mass") for corner in corners}
         accelerations = {f"{name}_acceleration": Response("acceleration", name) for name in ("body", *inertias)}
         travels = {f"{corner}_suspension_travel": Response("travel", corner) for corner in corners}
         loads = {f"{corner}_tyre_load": Response("load", corner) for corner in corners}
@@ -121,7 +107,7 @@ class _TwoAxleCar(Record, AssembledVehicle):
             masses={"body": self.body_mass, **wheels},
             inertias=inertias,
             contacts=corners,
-            tyres=tuple(tyre(corner, axle) for corner, axle in axles.items()),
+            tyres=tuple(tyre(corner) for corner in corners),
             struts=tuple(Link(corner, f"{corner}_wheel", position) for corner, position in corners.items()),
             parameters=tuple(parameters),
             responses=accelerations | travels | loads,
@@ -136,18 +122,14 @@ class HalfCar(_TwoAxleCar):
 
     Parameters
     ----------
-    body_mass : float
+    body_mass, front_wheel_mass, rear_wheel_mass : float
         [kg].
     pitch_inertia : float
         Moment of inertia of the body about the lateral axis through its centre of gravity [kg m^2].
-    front_wheel_mass, rear_wheel_mass : float
-        [kg].
-    front_tyre_stiffness, rear_tyre_stiffness : float
-        Vertical stiffness [N/m].
+    front_tyre_stiffness, rear_tyre_stiffness, front_tyre_damping, rear_tyre_damping : float
+        Vertical stiffness [N/m] and damping [N s/m].
     cg_to_front, cg_to_rear : float
         Distance of the axles from the centre of gravity [m].
-    front_tyre_damping, rear_tyre_damping : float
-        Vertical damping [N s/m].
 
     Raises
     ------
@@ -171,21 +153,17 @@ class FullCar(_TwoAxleCar):
 
     Parameters
     ----------
-    body_mass : float
-        [kg].
+    body_mass, front_wheel_mass, rear_wheel_mass : float
+        Masses of the body and of one wheel [kg].
     roll_inertia, pitch_inertia : float
         Moments of inertia of the body about the longitudinal and the lateral axis through its centre of gravity
         [kg m^2].
-    front_wheel_mass, rear_wheel_mass : float
-        Mass of one wheel [kg].
-    front_tyre_stiffness, rear_tyre_stiffness : float
-        Vertical stiffness of one tyre [N/m].
+    front_tyre_stiffness, rear_tyre_stiffness, front_tyre_damping, rear_tyre_damping : float
+        Vertical stiffness [N/m] and damping [N s/m] of one tyre.
     cg_to_front, cg_to_rear : float
         Distance of the axles from the centre of gravity [m].
     front_track, rear_track : float
         Distance between left and right wheel [m], the centre of gravity midway. Struts stand over the wheels.
-    front_tyre_damping, rear_tyre_damping : float
-        Vertical damping of one tyre [N s/m].
 
     Raises
     ------

@@ -1,17 +1,14 @@
 """Vehicles from TOML files: masses and lengths, struts and their bounds, seats, bending, roll geometry.
 
 ``kind`` is ``quarter-car``, ``half-car`` or ``full-car``; ``name`` and ``source`` are texts. The other keys are
-parameters of `QuarterCar`, `HalfCar` or `FullCar` with their units (see `toml_tables`), and the tables
+parameters of `QuarterCar`, `HalfCar` or `FullCar` with their units (see `documents`), and the tables
 
+- ``[struts]``, required: the coefficients, of a quarter car spring_N_per_m and damper_N_s_per_m, of others by
+  strut in ``[struts.front]`` and so on, and beside those anti-roll bars, front_antiroll_N_m_per_rad;
+- ``[bounds]``: likewise, the lowest and the highest value of the coefficients that vary;
+- ``[[seats]]`` and ``[roll_geometry]``: the parameters of `Seat` and `RollGeometry`;
 - ``[flexible_body]``: frequencies_Hz, damping_ratios, and ``[[flexible_body.shapes]]`` of position_m and
-  shape_per_sqrt_kg;
-- ``[[seats]]``: mass_kg, spring_N_per_m, damper_N_s_per_m, and if wanted position_m and name;
-- ``[struts]``: the coefficients, of a quarter car spring_N_per_m and damper_N_s_per_m, of others by strut in
-  ``[struts.front]`` and so on, and beside those anti-roll bars, front_antiroll_N_m_per_rad;
-- ``[bounds]``: likewise, the lowest and the highest value of those that are to vary;
-- ``[roll_geometry]``: the parameters of `RollGeometry`.
-
-Only ``[struts]`` has to be there. Files that come with the package are known by their names alone.
+  shape_per_sqrt_kg.
 """
 
 from collections.abc import Mapping
@@ -73,9 +70,7 @@ def load_vehicle(source: str | PathLike[str]) -> VehicleFile:
     Raises
     ------
     ValueError
-        If it is neither, or naming the file and the key if the file does not hold a vehicle.
-    OSError
-        If the file cannot be read.
+        If it is neither, or naming the file and the key that is no vehicle's; OSError if it cannot be read.
     """
     path = datafiles.named("vehicle", "vehicles", source)
     with naming(path):

@@ -18,27 +18,16 @@ class Part(Record, ABC):
 
     @abstractmethod
     def added_to(self, assembly: Assembly) -> Assembly:
-        """Return the vehicle with this part on it."""
+        """Return the vehicle with this part on it; ValueError if the part does not fit."""
 
     def on(self, vehicle: Vehicle) -> "Mounted":
-        """Return the vehicle with this part on it."""
+        """Return the vehicle with this part on it; ValueError if the part does not fit."""
         return Mounted(vehicle=assembled(vehicle), part=self)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Mounted(Record, AssembledVehicle):
-    """A vehicle with a part on it.
-
-    Parameters
-    ----------
-    vehicle : AssembledVehicle
-    part : Seat, Payload or FlexibleBody
-
-    Raises
-    ------
-    ValueError
-        If the part does not fit the vehicle.
-    """
+    """A vehicle with a seat, a payload or a flexible body."""
 
     vehicle: AssembledVehicle
     part: Part
@@ -68,16 +57,14 @@ class Seat(Part):
     damper : float
         Damping coefficient [N s/m].
     position : (float, float)
-        Place from the body's centre of gravity, x forward and y to the left [m]. A coordinate that the vehicle
-        lacks, as a half car lacks roll, has no part in it.
+        Place from the body's centre of gravity, x forward and y to the left [m].
     name : str
         Letters, digits and underscores; different for each seat.
 
     Raises
     ------
     ValueError
-        If a parameter is out of range; from `on`, if the name is taken or the mode shapes at the place are
-        unknown.
+        If a parameter is out of range; from `on`, if the name is taken or mode shapes at the place are unknown.
     """
 
     mass: float = field(metadata=unit("kg"))
@@ -94,14 +81,13 @@ class Seat(Part):
         check_strut_names("name", [self.name])
 
     def added_to(self, assembly: Assembly) -> Assembly:
-        """Return the vehicle with this seat."""
+        """Return the vehicle with this seat on it."""
         coefficients = (parameter.name.split(".")[0] for parameter in assembly.parameters)
-        struts = (strut.name for strut in assembly.struts)
+        struts = [strut.name for strut in assembly.struts]
         if self.name in {"pitch", "roll", *assembly.coordinates, *assembly.roads, *struts, *coefficients}:
             raise ValueError(f"name must be one that the vehicle does not have yet, got {self.name!r}")
-        others = len(assembly.struts)
         parameters = [replace(p, gain=np.pad(p.gain, (0, 1))) for p in assembly.parameters]
-        own = spring_and_damper(self.name, [0.0] * others + [1.0], (self.spring, self.damper))
+        own = spring_and_damper(self.name, [*[0.0] * len(struts), 1.0], (self.spring, self.damper))
         return replace(
             assembly,
             masses={**assembly.masses, self.name: self.mass},
@@ -141,7 +127,7 @@ class Payload(Part):
         object.__setattr__(self, "position", _position(self.position))
 
     def added_to(self, assembly: Assembly) -> Assembly:
-        """Return the vehicle with this load."""
+        """Return the vehicle with this load on it."""
         return replace(assembly, payload=(*assembly.payload, (self.mass, self.position)))
 
 
@@ -173,16 +159,14 @@ class FlexibleBody(Part):
     shapes: Mapping[Position, tuple[float, ...]] = field(metadata=unit("kg^-1/2"))
 
     def __post_init__(self) -> None:
-        modes = len(self.frequencies)
+        modes, ratios = len(self.frequencies), len(self.damping_ratios)
         for frequency in self.frequencies:
             checks.positive("frequencies", frequency, "Hz")
         for ratio in self.damping_ratios:
             checks.within("damping_ratios", ratio, 0, 1)
-        if modes == 0 or len(self.damping_ratios) != modes:
-            raise ValueError(
-                f"frequencies and damping_ratios must be of one length, 1 or more, got {modes} and "
-                f"{len(self.damping_ratios)}"
-            )
+        if modes == 0 or ratios != modes:
+            got = f"{modes} and {ratios}"
+            raise ValueError(f"frequencies and damping_ratios must be of one length, 1 or more, got {got}")
         shapes = {_position(place, "shapes"): tuple(map(float, shape)) for place, shape in self.shapes.items()}
         for place, shape in shapes.items():
             if len(shape) != modes or not np.isfinite(shape).all():
@@ -200,16 +184,12 @@ class FlexibleBody(Part):
             raise ValueError(f"vehicle must have nothing called {', '.join(names)}, got {', '.join(taken)}")
         omega = 2 * np.pi * np.asarray(self.frequencies, dtype=float)
         damping = 2 * omega * np.asarray(self.damping_ratios, dtype=float)
+        supports = [Link(name, None, name, w**2, c) for name, w, c in zip(names, omega, damping, strict=True)]
         return replace(
             assembly,
             inertias={**assembly.inertias, **dict.fromkeys(names, 1.0)},
-            supports=(
-                *assembly.supports,
-                *(Link(name, None, name, w**2, c) for name, w, c in zip(names, omega, damping, strict=True)),
-            ),
-            bending={
-                place: FrozenMapping(dict(zip(names, shape, strict=True))) for place, shape in self.shapes.items()
-            },
+            supports=(*assembly.supports, *supports),
+            bending={at: FrozenMapping(dict(zip(names, shape, strict=True))) for at, shape in self.shapes.items()},
         )
 
 
