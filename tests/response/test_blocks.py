@@ -9,10 +9,12 @@ from hypothesis import strategies as st
 
 from garage import DRIVER, FULL, HALF, QUARTER, ROAD, SPEED, VEHICLES, from_roads, mean_squares, struts_of
 from suspension_ctrl import LoadCase, RideProblem, Seat
-from suspension_ctrl.response import load_case as cases
 from suspension_ctrl.response import weightings
 from suspension_ctrl.response.blocks import Pairs
-from suspension_ctrl.response.one_strut import StrutLoop
+from suspension_ctrl.response.many_struts import ManyStruts
+from suspension_ctrl.response.mean_squares import case_of
+from suspension_ctrl.response.measures import case_measure
+from suspension_ctrl.response.one_strut import OneStrut
 from suspension_ctrl.response.quadrature import frequency_nodes
 from suspension_ctrl.roads.coherence import Constant, Exponential
 from suspension_ctrl.vehicles.vehicle import Vehicle
@@ -137,7 +139,7 @@ def test_the_band_may_begin_at_zero(vehicle):
     one, other = (problem(vehicle, varied, measures, band=(low, 20.0), nodes=512) for low in (0.0, 1e-6))
     designs = draws(one, 3)
     np.testing.assert_allclose(one.evaluate(designs), other.evaluate(designs), rtol=1e-8)
-    np.testing.assert_allclose(one._judge.evaluate(designs, 4000), one.evaluate(designs), rtol=1e-9)
+    np.testing.assert_allclose(one.replace(nodes=4000).evaluate(designs), one.evaluate(designs), rtol=1e-9)
 
 
 def test_rows_are_independent_to_the_last_bit():
@@ -150,8 +152,7 @@ def test_one_strut_is_worked_out_the_same_as_many():
     """A quarter car by its polynomials and, with coefficients in another order, by a block of one strut."""
     terms = ("ACC", "SWS", "DTL")
     loop, block = (problem(QUARTER, varied, terms) for varied in (("spring", "damper"), ("damper", "spring")))
-    assert isinstance(loop.kernel[1][0][0], StrutLoop)
-    assert not isinstance(block.kernel[1][0][0], StrutLoop)
+    assert [type(ready(p)) for p in (loop, block)] == [OneStrut, ManyStruts]
     designs = draws(loop, 5)
     np.testing.assert_allclose(block.evaluate(designs[:, ::-1]), loop.evaluate(designs), rtol=1e-10)
 
@@ -159,14 +160,14 @@ def test_one_strut_is_worked_out_the_same_as_many():
 STRUTS = ("front.spring", "front.damper", "rear.spring", "rear.damper", "front_antiroll")
 
 
-def ready(p: RideProblem) -> cases.RideCase:
-    (case,) = p._judge.ride_cases(p.nodes)
+def ready(p: RideProblem) -> OneStrut | ManyStruts:
+    (case,) = p.kernel[1][0].cases
     return case
 
 
 def sizes(p: RideProblem) -> list[int]:
     """Return the number of struts in each block."""
-    return sorted(block.feedback.shape[1] for block in ready(p).loop)
+    return sorted(ready(p).sizes[:, 0].tolist())
 
 
 def test_left_and_right_alike_make_two_blocks_of_two_struts():
@@ -194,15 +195,16 @@ def test_responses_alike_left_and_right_are_worked_out_once():
 
 
 @pytest.mark.parametrize("vehicle", [FULL, DRIVER.on(FULL)])
-def test_pairing_changes_no_value(vehicle, monkeypatch):
-    measures = ("ACC", "SWS", "DTL", "roll_acceleration", "ACC (1, 0.5)")
-    paired = problem(vehicle, STRUTS, measures)
-    designs = draws(paired, 4)
-    expected = paired.evaluate(designs)
-    monkeypatch.setattr(cases.Pairs, "of", lambda struts, points: Pairs(np.eye(len(struts)), np.eye(len(points))))
-    plain = problem(vehicle, STRUTS, measures)
-    assert sizes(plain) == [4]
-    np.testing.assert_allclose(plain.evaluate(designs), expected, rtol=1e-9)
+def test_pairing_changes_no_value(vehicle):
+    p = problem(vehicle, STRUTS, ("ACC", "SWS", "DTL", "roll_acceleration", "ACC (1, 0.5)"))
+    (case,), designs = p.cases, draws(p, 4)
+    terms = [term for text in p.measures for term in case_measure(text, case, "Wk").terms]
+    setting = vehicle.coefficients({**p.struts, **dict(zip(p.variables, designs[0].tolist(), strict=True))})
+    paired, plain = (
+        case_of(case, terms, setting, p.variables, p.band, p.nodes, pairs) for pairs in (Pairs.of, Pairs.none)
+    )
+    assert plain.sizes[:, 0].tolist() == [4]
+    np.testing.assert_allclose(plain.mean_squares(designs), paired.mean_squares(designs), rtol=1e-9)
 
 
 NAMES = st.sampled_from(["left", "right", "a_left", "a_right", "left_right", "right_left", "right_right", "x"])
@@ -229,7 +231,7 @@ def test_left_and_right_swapped_swaps_the_responses(x, y):
     np.testing.assert_allclose(one.evaluate(designs), other.evaluate(designs), rtol=1e-9)
 
 
-def test_several_load_cases_have_a_kernel_where_they_are_of_one_kind():
+def test_any_mix_of_load_cases_has_a_kernel():
     light, heavy = DRIVER.on(FULL), DRIVER.on(replace(FULL, body_mass=1600.0))
     fixed = {"rear": (23e3, 1700.0), "front.damper": 1500.0}
     settings = {"bounds": {"front.spring": BOXES["front.spring"]}, "struts": fixed, "band": BAND, "nodes": 256}
@@ -240,4 +242,6 @@ def test_several_load_cases_have_a_kernel_where_they_are_of_one_kind():
     design = np.array([2e4])
     np.testing.assert_array_equal(function(design, *arguments), same.evaluate([design])[0])
     empty = LoadCase(vehicle=FULL, road=ROAD, speed=20.0)
-    assert RideProblem(cases=[driven[0], empty], **settings).kernel is None  # one block and two have other types
+    mixed = RideProblem(cases=[driven[0], empty], **settings)
+    function, arguments = mixed.kernel
+    np.testing.assert_array_equal(function(design, *arguments), mixed.evaluate([design])[0])

@@ -9,14 +9,20 @@ from hypothesis import strategies as st
 
 from garage import BENDING, DRIVER, FULL, HALF, PASSENGER, QUARTER, ROAD, SPEED, mean_squares, struts_of
 from suspension_ctrl import LoadCase, RideProblem, RollGeometry, Seat
-from suspension_ctrl.response.limits import limit
-from suspension_ctrl.response.measures import Term, measure, name_of
+from suspension_ctrl.response.measures import Term, case_limit, case_measure, name_of
 from suspension_ctrl.vehicles.assembly import GRAVITY
 from suspension_ctrl.vehicles.vehicle import Vehicle
 
 BAND, NODES = (0.1, 20.0), 256
 CORNERS = ("front_left", "front_right", "rear_left", "rear_right")
 SEATED = PASSENGER.on(DRIVER.on(FULL))
+
+
+GEOMETRY = RollGeometry(roll_arm=0.5, front_roll_centre=0.05, rear_roll_centre=0.12, wheel_centre=0.31)
+
+
+def on_road(vehicle: Vehicle) -> LoadCase:
+    return LoadCase(vehicle=vehicle, road=ROAD, speed=SPEED, roll_geometry=GEOMETRY)
 
 
 def mean_square(vehicle: Vehicle, response: object, weighting: str | None = None) -> float:
@@ -76,7 +82,7 @@ def test_a_text_means_the_responses_it_names(vehicle, text, expected, unit):
 
 def test_points_may_be_written_in_any_way():
     for text in ("ACC (-1,+.5e0)", "ACC  ( -1.0 , 0.5 )"):
-        assert measure(text, HALF, "Wk").terms == (Term(("acceleration", -1.0, 0.5), "Wk"),)
+        assert case_measure(text, on_road(HALF), "Wk").terms == (Term(("acceleration", -1.0, 0.5), "Wk"),)
 
 
 def test_the_dynamic_load_coefficient_is_over_each_tyre_s_own_load():
@@ -127,10 +133,10 @@ def test_acc_takes_the_problem_s_weighting():
 
 def test_an_axle_is_its_wheels_whatever_seats_are_called():
     car = Seat(mass=80.0, spring=12e3, damper=700.0, position=(0.3, 0.4), name="front_seat").on(FULL)
-    assert [term.response for term in measure("SWS front", car, None).terms] == [
+    assert [term.response for term in case_measure("SWS front", on_road(car), None).terms] == [
         "front_left_suspension_travel", "front_right_suspension_travel",
     ]  # fmt: skip
-    assert [term.response for term in measure("SWS front_seat", car, None).terms] == [
+    assert [term.response for term in case_measure("SWS front_seat", on_road(car), None).terms] == [
         "front_seat_suspension_travel"
     ]
 
@@ -167,18 +173,18 @@ def test_names():
 )  # fmt: skip
 def test_rejects_texts_that_mean_nothing(vehicle, text, message):
     with pytest.raises(ValueError, match="^" + re.escape(message)) as caught:
-        measure(text, vehicle, "Wk")
+        case_measure(text, on_road(vehicle), "Wk")
     assert "\n" not in str(caught.value)
 
 
 @given(st.text(alphabet="ACSWDTLk_=+-.()0129e, frontlacei", max_size=40))
 def test_any_text_is_a_measure_or_a_value_error_of_one_line(text):
     try:
-        found = measure(text, HALF, "Wk")
+        found = case_measure(text, on_road(HALF), "Wk")
     except ValueError as caught:
         message = str(caught)
     else:
-        message = "" if found.terms or found.handling else "\n"
+        message = "" if found.terms or found.values else "\n"
     assert "\n" not in message
 
 
@@ -194,7 +200,7 @@ def test_any_text_is_a_measure_or_a_value_error_of_one_line(text):
     ],
 )
 def test_a_limit_is_met_where_g_is_at_most_zero(text, value, g):
-    found = limit(text, FULL, "Wk")
+    found = case_limit(text, on_road(FULL), "Wk")
     assert found.scale * value + found.offset == pytest.approx(g, rel=1e-12)
     assert found.scale * found.value + found.offset == 0
 
@@ -223,16 +229,15 @@ LIKE = "constraint must be like 'SWS <= 0.03' or 'roll_damping >= 0.2', got "
 )
 def test_rejects_limits_that_are_none(text, message):
     with pytest.raises(ValueError, match="^" + re.escape(message) + "$"):
-        limit(text, FULL, "Wk")
+        case_limit(text, on_road(FULL), "Wk")
 
 
 def test_measures_of_handling_are_those_of_the_mechanics():
-    geometry = RollGeometry(roll_arm=0.5, front_roll_centre=0.05, rear_roll_centre=0.12, wheel_centre=0.31)
     names = ("roll_gradient", "front_load_transfer", "-roll_damping")
     bounds = {"front_antiroll": (0.0, 3e4), "rear.damper": (1e3, 3e3)}
     fixed = {"front": (2e4, 1500.0), "rear.spring": 2e4}
     p = RideProblem(
-        cases=[LoadCase(vehicle=FULL, road=ROAD, speed=SPEED, roll_geometry=geometry)], measures=("ACC", *names),
+        cases=[on_road(FULL)], measures=("ACC", *names),
         bounds=bounds, struts=fixed, band=BAND, nodes=NODES,
     )  # fmt: skip
     assert p.kernel is None
@@ -243,8 +248,8 @@ def test_measures_of_handling_are_those_of_the_mechanics():
         values = np.array([list(FULL.coefficients(
             {"front": (2e4, 1500.0), "rear": (2e4, damper), "front_antiroll": bar}).values())])  # fmt: skip
         expected = [
-            mechanics.roll_gradient(values, geometry)[0],
-            mechanics.front_load_transfer(values, geometry)[0],
+            mechanics.roll_gradient(values, GEOMETRY)[0],
+            mechanics.front_load_transfer(values, GEOMETRY)[0],
             -mechanics.roll_damping(values)[0],
         ]
         np.testing.assert_allclose(row[1:], expected, rtol=1e-12)

@@ -14,7 +14,7 @@ from scipy.integrate import quad
 from suspension_ctrl import PowerLawRoad, QuarterCar, RideProblem, weighting
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.response import weightings
-from suspension_ctrl.response.one_strut import fill_mean_squares
+from suspension_ctrl.response.one_strut import OneStrut
 
 springs, dampers = st.floats(1e3, 30e3), st.floats(1e3, 5e3)
 
@@ -130,9 +130,9 @@ def test_the_kernel_gives_the_same_to_the_last_bit(spring, damper):
 def test_the_compiled_loop_is_the_plain_one(spring, damper):
     """The sums over 256 nodes are taken in another order: up to 256 units of rounding, halved by the root."""
     p = problem()
-    plain, ((loop,), _) = np.empty(3), p.kernel[1]
-    fill_mean_squares.py_func(np.array([spring, damper]), loop, gain=np.empty(256), result=plain)
-    np.testing.assert_allclose(np.sqrt(plain), p.evaluate([[spring, damper]])[0], rtol=128 * np.finfo(float).eps)
+    (case,) = p.kernel[1][0].cases
+    plain = OneStrut.mean_squares.py_func(case, np.array([[spring, damper]]))
+    np.testing.assert_allclose(np.sqrt(plain), p.evaluate([[spring, damper]]), rtol=128 * np.finfo(float).eps)
 
 
 @given(springs, dampers, st.floats(0.1, 100))

@@ -19,9 +19,8 @@ from ..vehicles.files import VehicleFile, load_vehicle, read_bounds, read_roll_g
 from ..vehicles.mounted import Payload
 from ..vehicles.vehicle import Vehicle
 from . import weightings
-from .limits import limit
 from .load_case import LoadCase
-from .measures import measure
+from .measures import case_limit, case_measure
 from .problem import RideProblem
 
 _KEYS = (
@@ -83,10 +82,10 @@ def _bounds_and_struts(
 def _check_texts(case: LoadCase, settings: Mapping[str, Any]) -> None:
     """Raise ValueError that says which measure or constraint means nothing in a case."""
     weighting = settings.get("weighting", "Wk")
-    for key, meaning in (("measures", measure), ("constraints", limit)):
+    for key, meaning in (("measures", case_measure), ("constraints", case_limit)):
         for i, text in enumerate(settings[key], start=1):
             with under(f"{key}[{i}]"):
-                meaning(text, case.vehicle, weighting)
+                meaning(text, case, weighting)
 
 
 def _cases(table: Table) -> list[Table]:

@@ -1,23 +1,14 @@
-"""A load case: a vehicle with a payload on a road at a speed, and the mean squares of its responses."""
+"""A load case: a vehicle with a payload on a road at a speed."""
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .. import checks
 from ..quantities import Complex, Real, Record, unit
 from ..vehicles.handling import RollGeometry
 from ..vehicles.vehicle import Vehicle
-from . import weightings
-from .blocks import Pairs, Variables, strut_blocks
-from .many_struts import StrutBlock, mean_squares_of_all
-from .measures import Term
-from .one_strut import StrutLoop, loop_mean_squares_of_all
-from .ports import Ports
-from .quadrature import frequency_nodes
 
 
 class Road(Protocol):
@@ -92,65 +83,3 @@ class LoadCase(Record):
             return self.psd(f)[:, None, None].astype(complex)
         road: Any = self.road
         return np.asarray(road.cross_spectrum(f, self.speed, self.vehicle.contact_points))
-
-
-class RideCase(NamedTuple):
-    """A load case ready for any number of designs.
-
-    Parameters
-    ----------
-    loop : StrutLoop or tuple of StrutBlock
-        From a design to mean squares: of one strut's spring and damper, or of any number of struts.
-    channel : (k,) ndarray
-        Which of these mean squares belongs to each of k terms.
-    """
-
-    loop: StrutLoop | tuple[StrutBlock, ...]
-    channel: NDArray[np.int64]
-
-    def mean_squares(self, designs: Real) -> Real:
-        """Return the mean squares (p, k) of the terms for designs (p, v)."""
-        if isinstance(self.loop, StrutLoop):
-            return loop_mean_squares_of_all(designs, self.loop)[:, self.channel]
-        return mean_squares_of_all(designs, self.loop, int(self.channel.max()) + 1)[:, self.channel]
-
-
-def ride_case(
-    case: LoadCase,
-    terms: Sequence[Term],
-    variables: Mapping[str, float],
-    coefficients: Mapping[str, float],
-    band: tuple[float, float],
-    nodes: int,
-) -> RideCase:
-    """Return a load case ready for designs.
-
-    Parameters
-    ----------
-    case : LoadCase
-    terms : (k,) sequence of Term
-        Responses with their weightings.
-    variables : mapping of str to float
-        Coefficients that vary, by name, and a value of each in the middle of its range.
-    coefficients : mapping of str to float
-        All coefficients by name, those that vary at the same values.
-    band : (float, float)
-        Frequencies over which spectra are integrated [Hz].
-    nodes : int
-        Least number of quadrature nodes.
-    """
-    weights = [None if term.weighting is None else weightings.by_name(term.weighting) for term in terms]
-    kinks = {f for weighting in weights if weighting for f in weighting.breakpoints}
-    kinks.update(case.breakpoints)
-    f, w = frequency_nodes(band, nodes, kinks)
-    omega, vehicle = 2 * np.pi * f, case.vehicle
-    density = np.array([w * (weighting.factor(f) ** 2 if weighting else 1.0) for weighting in weights])
-    responses = [term.response for term in terms]
-    if case.wheels == 1 and [p.name for p in vehicle.parameters] == list(variables) == ["spring", "damper"]:
-        ports = Ports.of(vehicle, f, responses)
-        loop = StrutLoop.around(ports, omega, density * case.psd(f))
-        return RideCase(loop, np.arange(len(terms)))
-    ports = Ports.of(vehicle, f, responses, vehicle.strut_gains(coefficients))
-    varied = Variables.of(vehicle.parameters, list(variables), list(variables.values()))
-    pairs = Pairs.of(vehicle.struts, vehicle.contact_points)
-    return RideCase(*strut_blocks(ports, omega, case.cross_spectrum(f), density, varied, pairs))

@@ -1,140 +1,177 @@
-"""Mean-square responses of any number of struts: a compiled solve of the small loop at every frequency."""
+"""Mean squares over designs of any number of struts: a compiled solve of the strut loop at every frequency."""
 
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
+from numba.extending import register_jitable
 from numpy.typing import NDArray
 
-from ..quantities import Real
+from ..quantities import Bool, Real
 
 
-class StrutBlock(NamedTuple):
-    """Struts that feel one another: their loop, and the rows of the responses that they have a part in.
+class ManyStruts(NamedTuple):
+    """Blocks of coupled struts: loop gains, and rows of the terms to which they contribute.
 
-    Real and imaginary parts of each value at all frequencies stand in rows (2, n), which a processor works on at
-    once.
+    A row (2, n) holds the real and imaginary parts of a value at n frequencies. Blocks follow one another; the
+    last dimension of each part of a block varies fastest.
 
     Parameters
     ----------
     omega : (n,) ndarray
         Angular frequencies [rad/s].
-    feedback : (q, q, 2, n) ndarray
-        Deflections by tensions.
-    deflections : (q, s, 2, n) ndarray
-        Deflections by s uncorrelated sources of unit density that stand for the roads.
-    rows : (k, s, 2, n) ndarray
-        Responses by these sources, each times the root of the density it is to be integrated with.
-    from_struts : (k, q, 2, n) ndarray
-        Responses by tensions, likewise.
-    response : (k,) ndarray
-        Number of the response that a row adds to.
-    stiffness, damping : (v, q, q) ndarray
-        Tensions by deflections and by their rates, of each variable coefficient.
+    rows : (l, 2, n) ndarray
+        Of each block: deflections by tensions (q, q) and by s uncorrelated sources of unit density that stand
+        for the roads (q, s); terms by sources (k, s) and by tensions (k, q), times the root of their densities.
+    sizes : (b, 3) ndarray
+        q, s and k of each block.
+    response : (sum of k,) ndarray
+        The distinct mean square to which a row of terms contributes.
+    channel : (m,) ndarray
+        The distinct mean square of each term.
+    gain : (v, sum of q q) ndarray
+        Tensions by deflections of each variable at 1, or by their derivatives of its order.
+    order : (v,) ndarray
+        Order of these derivatives: 0 of springs, 1 of dampers, 2 of inerters and masses.
     origin : (v,) ndarray
-        Coefficients of the struts that are in place already.
+        Values of the variables around which the plant is closed already.
     """
 
     omega: Real
-    feedback: Real
-    deflections: Real
     rows: Real
-    from_struts: Real
+    sizes: NDArray[np.int64]
     response: NDArray[np.int64]
-    stiffness: Real
-    damping: Real
+    channel: NDArray[np.int64]
+    gain: Real
+    order: NDArray[np.int64]
     origin: Real
 
+    @njit(cache=True)
+    def mean_squares(self, designs: Real) -> Real:
+        """Return the mean squares (p, k) of designs (p, v), each as if alone.
 
-@njit(cache=True)
-def mean_squares(design: Real, blocks: tuple[StrutBlock, ...], channels: int) -> Real:
-    """Return the mean squares (channels,) of one design (v,)."""
-    result = np.zeros(channels)
-    for block in blocks:
-        add_mean_squares(design, block, result)
-    return result
+        Struts of dynamic stiffness D and deflections e carry tensions D e, with e = S + P D e for the sources S:
+        (1 - P D) e = S is solved by elimination, which closes one strut after the other and needs no pivoting.
+        """
+        sizes, n = self.sizes, self.omega.size
+        q, s = 0, 0
+        for b in range(sizes.shape[0]):
+            q, s = max(q, sizes[b, 0]), max(s, sizes[b, 1])
+        stiffness, loop = np.empty((q * q, 2, n)), np.empty((q * (q + s), 2, n))
+        rows = np.empty((q + 1, 2, n))
+        found = np.empty(self.channel.size)
+        result = np.empty((designs.shape[0], self.channel.size))
+        for p in range(designs.shape[0]):
+            found[:] = 0.0
+            row, entry, output = 0, 0, 0
+            for b in range(sizes.shape[0]):
+                q, s, k = sizes[b]
+                present = fill_stiffness(designs[p] - self.origin, self, entry, stiffness[: q * q])
+                feedback = self.rows[row : row + q * q]
+                sources = self.rows[row + q * q : row + q * (q + s)]
+                by_source = self.rows[row + q * (q + s) : row + q * (q + s) + k * s]
+                row += (q + k) * (q + s)
+                by_strut = self.rows[row - k * q : row]
+                fill_loop(q, s, present, stiffness, feedback, sources, loop)
+                eliminate(q, q + s, loop)
+                outputs = self.response[output : output + k]
+                for source in range(s):
+                    add_squares(q, s, source, present, stiffness, loop, by_source, by_strut, rows, outputs, found)
+                entry, output = entry + q * q, output + k
+            for term in range(self.channel.size):
+                result[p, term] = found[self.channel[term]]
+        return result
 
 
-@njit(cache=True)
-def mean_squares_of_all(designs: Real, blocks: tuple[StrutBlock, ...], channels: int) -> Real:
-    """Return the mean squares (p, channels) of designs (p, v), to the last bit those of each one alone."""
-    results = np.empty((designs.shape[0], channels))
-    for i in range(designs.shape[0]):
-        results[i] = mean_squares(designs[i], blocks, channels)
-    return results
+@register_jitable
+def fill_stiffness(added: Real, struts: ManyStruts, entry: int, stiffness: Real) -> Bool:
+    """Fill in the dynamic stiffness D (q q, 2, n) of coefficients (v,), and tell which entries are not zero.
 
-
-@njit(cache=True)
-def add_mean_squares(design: Real, block: StrutBlock, result: Real) -> None:
-    """Add what a block gives of the mean squares (m,) of a design (v,) to `result`.
-
-    Struts with tensions D e by deflections e = S + P D e, where S are the sources: (1 - P D) e = S is solved by
-    elimination, which is to close one strut after the other and so needs no exchange of rows.
+    D = sum of gain (jw)^order: all laws of struts are evaluated here.
     """
-    q, sources = block.deflections.shape[0], block.deflections.shape[1]
-    added = design - block.origin
-    k, c = weighted_sum(added, block.stiffness), weighted_sum(added, block.damping)
-    loop = open_loop(k, c, block)
-    eliminate(loop)
-    tension = np.empty((q, 2, block.omega.size))
-    value = np.empty((2, block.omega.size))
-    for s in range(sources):
-        tension[:] = 0.0
-        for i in range(q):
-            for j in range(q):
-                add_impedance(k[i, j], c[i, j], block.omega, loop[j, q + s], tension[i])
-        for row in range(block.response.size):
-            value[:] = block.rows[row, s]
-            for j in range(q):
-                add_product(1.0, block.from_struts[row, j], tension[j], value)
-            result[block.response[row]] += sum_of_squares(value)
+    present = np.empty(stiffness.shape[0], dtype=np.bool_)
+    for i in range(stiffness.shape[0]):
+        k, c, b = 0.0, 0.0, 0.0
+        for v in range(added.size):
+            value = struts.gain[v, entry + i] * added[v]
+            if struts.order[v] == 0:
+                k += value
+            elif struts.order[v] == 1:
+                c += value
+            else:
+                b += value
+        present[i] = k != 0.0 or c != 0.0 or b != 0.0
+        for t in range(struts.omega.size):
+            w = struts.omega[t]
+            stiffness[i, 0, t] = k - b * (w * w)
+            stiffness[i, 1, t] = c * w
+    return present
 
 
-@njit(cache=True)
-def weighted_sum(weights: Real, matrices: Real) -> Real:
-    """Return the sum (q, q) of `matrices` (v, q, q), each times its weight (v,)."""
-    total = np.zeros(matrices.shape[1:])
-    for v in range(weights.size):
-        total += weights[v] * matrices[v]
-    return total
-
-
-@njit(cache=True)
-def open_loop(k: Real, c: Real, block: StrutBlock) -> Real:
-    """Return 1 - P D beside the sources, (q, q + s, 2, n)."""
-    q, n = k.shape[0], block.omega.size
-    loop = np.zeros((q, q + block.deflections.shape[1], 2, n))
+@register_jitable
+def fill_loop(q: int, s: int, present: Bool, stiffness: Real, feedback: Real, sources: Real, loop: Real) -> None:
+    """Put 1 - P D beside the sources into the loop (q (q + s), 2, n)."""
     for i in range(q):
         for j in range(q):
+            row = loop[i * (q + s) + j]
+            row[:] = 0.0
             for l in range(q):  # noqa: E741
-                add_impedance(-k[l, j], -c[l, j], block.omega, block.feedback[i, l], loop[i, j])
-        loop[i, i, 0] += 1.0
-        for s in range(block.deflections.shape[1]):
-            loop[i, q + s] = block.deflections[i, s]
-    return loop
+                if present[l * q + j]:
+                    add_product(-1.0, feedback[i * q + l], stiffness[l * q + j], row)
+            if i == j:
+                row[0] += 1.0
+        for source in range(s):
+            loop[i * (q + s) + q + source] = sources[i * s + source]
 
 
-@njit(cache=True)
-def eliminate(loop: Real) -> None:
-    """Solve the linear equations (q, q + s, 2, n) in place: solutions stand where the right-hand sides were."""
-    q, columns = loop.shape[0], loop.shape[1]
+@register_jitable
+def eliminate(q: int, columns: int, loop: Real) -> None:
+    """Solve the linear equations (q columns, 2, n) in place: solutions replace the right-hand sides."""
     for c in range(q):
-        invert(loop[c, c])
+        invert(loop[c * columns + c])
         for j in range(c + 1, columns):
-            multiply(loop[c, c], loop[c, j])
+            multiply(loop[c * columns + c], loop[c * columns + j])
         for i in range(c + 1, q):
             for j in range(c + 1, columns):
-                add_product(-1.0, loop[i, c], loop[c, j], loop[i, j])
+                add_product(-1.0, loop[i * columns + c], loop[c * columns + j], loop[i * columns + j])
     for c in range(q - 1, 0, -1):
         for i in range(c):
             for j in range(q, columns):
-                add_product(-1.0, loop[i, c], loop[c, j], loop[i, j])
+                add_product(-1.0, loop[i * columns + c], loop[c * columns + j], loop[i * columns + j])
+
+
+@register_jitable
+def add_squares(
+    q: int,
+    s: int,
+    source: int,
+    present: Bool,
+    stiffness: Real,
+    loop: Real,
+    by_source: Real,
+    by_strut: Real,
+    rows: Real,
+    outputs: NDArray[np.int64],
+    found: Real,
+) -> None:
+    """Add the mean squares by one source to those `found`; `rows` (q + 1, 2, n) are for its use."""
+    value = rows[q]
+    for i in range(q):
+        rows[i] = 0.0
+        for j in range(q):
+            if present[i * q + j]:
+                add_product(1.0, stiffness[i * q + j], loop[j * (q + s) + q + source], rows[i])
+    for k in range(outputs.size):
+        value[:] = by_source[k * s + source]
+        for j in range(q):
+            add_product(1.0, by_strut[k * q + j], rows[j], value)
+        found[outputs[k]] += sum_of_squares(value)
 
 
 # Rows of frequencies: products may be fused and sums taken in whatever order suits the processor, the same for
 # every design; numpy's error model leaves out a check for division by zero that would keep a loop from being
 # vectorised.
-@njit(cache=True, fastmath={"contract", "nsz"}, error_model="numpy")
+@register_jitable(fastmath={"contract", "nsz"}, error_model="numpy")
 def invert(value: Real) -> None:
     """Replace a complex row (2, n) by its reciprocal."""
     a, b = value[0], value[1]
@@ -144,7 +181,7 @@ def invert(value: Real) -> None:
         b[t] /= -size
 
 
-@njit(cache=True, fastmath={"contract", "nsz"})
+@register_jitable(fastmath={"contract", "nsz"})
 def multiply(factor: Real, value: Real) -> None:
     """Multiply a complex row (2, n) by another in place."""
     a, b, x, y = factor[0], factor[1], value[0], value[1]
@@ -154,7 +191,7 @@ def multiply(factor: Real, value: Real) -> None:
         x[t] = real
 
 
-@njit(cache=True, fastmath={"contract", "nsz"})
+@register_jitable(fastmath={"contract", "nsz"})
 def add_product(sign: float, left: Real, right: Real, total: Real) -> None:
     """Add the product of two complex rows (2, n), times `sign`, to a third."""
     a, b, x, y, re, im = left[0], left[1], right[0], right[1], total[0], total[1]
@@ -163,19 +200,7 @@ def add_product(sign: float, left: Real, right: Real, total: Real) -> None:
         im[t] += sign * (a[t] * y[t] + b[t] * x[t])
 
 
-@njit(cache=True, fastmath={"contract", "nsz"})
-def add_impedance(k: float, c: float, omega: Real, values: Real, total: Real) -> None:
-    """Add k + jwc times a complex row (2, n) to another."""
-    if k == 0.0 and c == 0.0:
-        return
-    x, y, re, im = values[0], values[1], total[0], total[1]
-    for t in range(omega.size):
-        w = c * omega[t]
-        re[t] += k * x[t] - w * y[t]
-        im[t] += k * y[t] + w * x[t]
-
-
-@njit(cache=True, fastmath={"reassoc", "contract", "nsz"})
+@register_jitable(fastmath={"reassoc", "contract", "nsz"})
 def sum_of_squares(value: Real) -> float:
     """Return the sum of the squared magnitudes of a complex row (2, n)."""
     total = 0.0

@@ -1,11 +1,11 @@
-"""What is judged of a ride, by name: discomfort, suspension travel, tyre load, at any place of any vehicle.
+"""Measures of a ride and limits on them, at any place of any vehicle, by their texts.
 
 A measure is written as
 
 - ``ACC``, ``ACC driver``, ``ACC (1.2, -0.4)``: weighted acceleration of the body's centre of gravity, of a seat,
   or of a point (x, y) of the body;
-- ``SWS``, ``SWS front``, ``SWS driver``: travel of the strut, or of the one with the most of several, of all
-  wheels, an axle or a corner, or of a seat;
+- ``SWS``, ``SWS front``, ``SWS driver``: travel of the strut, of several the largest, of all wheels, an axle or a
+  corner, or of a seat;
 - ``DTL``, ``DTL rear_left``: load of the tyre, likewise; ``DLC``: over its static load on struts in the middle of
   their ranges (dynamic load coefficient);
 - a root sum of squares of any responses, each with a factor and a weighting of ISO 2631 or none:
@@ -13,57 +13,138 @@ A measure is written as
   the factors of ISO 2631-1, 8.2.2.1, for roll and pitch of a seated person;
 - ``roll_gradient``, ``roll_damping``, ``front_load_transfer``: see `handling`; with ``-`` in front more is better.
 
-``comfort = ...`` gives any of them a name of its own.
+``comfort = ...`` gives any of them a name of its own. A limit is a measure up to a value, ``SWS <= 0.0287``; a
+measure of handling, or a user's own, may also have a least, ``roll_damping >= 0.2``.
 """
 
+import inspect
 import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from .. import checks
-from ..quantities import signal_unit
+from ..quantities import Real, Record, signal_unit
 from ..vehicles.assembly import ResponseName, label
 from ..vehicles.handling import check_cornering
 from ..vehicles.vehicle import Vehicle, assembled
 from . import weightings
+from .load_case import LoadCase
 from .weightings import Weighting
-
-HANDLING = {"roll_gradient": "deg/g", "roll_damping": "-", "front_load_transfer": "-"}
-"""Measures of handling and their units."""
 
 _LARGEST = 1e6
 """Beyond any factor and any point of a body; squares of such times those of any response are still numbers."""
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _POINT = rf"\(\s*({_NUMBER})\s*,\s*({_NUMBER})\s*\)"
+_LIMIT = re.compile(r"(.+?)(<=|>=)(.+)")
 _KINDS = {"SWS": "travel", "DTL": "load", "DLC": "load"}
 _TURNED = ("pitch", "roll")
 _UNITS = {"ACC": "m/s^2", "SWS": "m", "DTL": "N", "DLC": "-"}
 
 
-@dataclass(frozen=True)
-class Term:
-    """A response, its weighting of ISO 2631 and its factor; over the static load of a tyre if `relative`."""
+class Designs(NamedTuple):
+    """Designs (p, v) in a load case: all coefficients (p, c) too, and, design by design, response spectra."""
+
+    values: Real
+    coefficients: Real
+    spectra: Callable[[], Iterator[tuple[Real, Mapping[str, Real]]]]
+
+
+Values = Callable[[Designs], Any]
+"""From designs to the values (p,) of a measure that is no mean square."""
+
+_HANDLING: dict[str, tuple[str, bool]] = {
+    "roll_gradient": ("deg/g", True),
+    "roll_damping": ("-", False),
+    "front_load_transfer": ("-", True),
+}
+"""Measures of handling, functions of `Mechanics`: the unit, and whether it takes a `RollGeometry`."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Measure(Record):
+    """A measure of a user's own, to be less is better.
+
+    Parameters
+    ----------
+    name, unit : str
+        Its name, and its unit, ``"-"`` for none.
+    function : callable
+        Of two positional parameters: ``f(frequency, spectra)`` returns the value of a design from the one-sided
+        spectra (n,) of its responses by name [unit^2/Hz] at the middles (n,) of 1000 equal parts of the band [Hz].
+        Of one: ``f(designs)`` returns the values (p,) of designs (p, d), the variables in their order. Over
+        several load cases the mean by their shares counts, or the worst.
+
+    Raises
+    ------
+    ValueError
+        If the function takes other parameters.
+    """
+
+    name: str
+    unit: str
+    function: Callable[..., Any]
+
+    def __post_init__(self) -> None:
+        if self.positional not in (1, 2):
+            raise ValueError(f"function must take designs, or frequency and spectra, got {self.function!r}")
+
+    @property
+    def positional(self) -> int:
+        """Number of positional parameters of the function that have no default."""
+        if not callable(self.function):
+            return 0
+        parameters = inspect.signature(self.function).parameters.values()
+        return sum(
+            p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD) and p.default is p.empty for p in parameters
+        )
+
+    def values(self, designs: Designs) -> Any:
+        """Return its values (p,) of designs."""
+        if self.positional == 1:
+            found = np.asarray(self.function(designs.values.copy()), dtype=float)
+        else:
+            found = np.array([self.function(*one) for one in designs.spectra()], dtype=float)
+        if found.shape != (len(designs.values),) or not np.isfinite(found).all():
+            raise ValueError(f"measure {self.name} must return a finite number for each design, got {found!r}")
+        return found
+
+
+class Term(NamedTuple):
+    """A response with its weighting and factor, over the static load of a tyre if `relative`.
+
+    Its mean square is the spectral moment of the order `moment`, the integral of w^moment times the spectrum.
+    """
 
     response: ResponseName
     weighting: Weighting | None = None
     factor: float = 1.0
     relative: bool = False
+    moment: int = 0
+
+    @property
+    def integral(self) -> "Term":
+        """The term without its factors: what has to be integrated."""
+        return self._replace(factor=1.0, relative=False)
 
 
-@dataclass(frozen=True)
-class Measure:
-    """What a text means on a vehicle.
+class CaseMeasure(NamedTuple):
+    """A measure in a load case.
 
     Parameters
     ----------
     name, unit : str
     terms : tuple of Term
-        None for a measure of handling, whose name is `handling`.
+        Whose mean squares it is made of; none if it has a function.
     worst : bool
         Whether the largest of the terms counts, or the root of the sum of their squares.
     sign : float
         -1 where more is better.
-    handling : str
+    values : callable, optional
+        From `Designs` to values.
     """
 
     name: str
@@ -71,42 +152,94 @@ class Measure:
     terms: tuple[Term, ...] = ()
     worst: bool = False
     sign: float = 1.0
-    handling: str = ""
+    values: Values | None = None
 
 
-def name_of(text: str) -> str:
-    """Return the name of the measure that is written so: what stands before ``=``, or all of it."""
-    name = " ".join(text.split("=", 1)[0].split()) if isinstance(text, str) else ""
+class Limit(NamedTuple):
+    """A limit on a measure, in its unit: the most that it may be, or the least."""
+
+    measure: CaseMeasure
+    most: bool
+    value: float
+
+    @property
+    def scale(self) -> float:
+        """Factor of the measure in g = scale * measure + offset, which is met where g <= 0."""
+        return (1.0 if self.most else -1.0) / (abs(self.value) or 1.0)
+
+    @property
+    def offset(self) -> float:
+        """Its constant; g is the violation as a share of the limit."""
+        return -self.scale * self.value
+
+
+def name_of(measure: str | Measure) -> str:
+    """Return the name of a measure: of a text what stands before ``=``, or all of it."""
+    if isinstance(measure, Measure):
+        return measure.name
+    name = " ".join(measure.split("=", 1)[0].split()) if isinstance(measure, str) else ""
     if not name:
-        raise ValueError(f"measure must be a text such as 'SWS front' or 'name = SWS front', got {text!r}")
+        raise ValueError(f"measure must be a text such as 'SWS front' or 'name = SWS front', got {measure!r}")
     return name
 
 
-def measure(text: str, vehicle: Vehicle, weighting: Weighting | None) -> Measure:
-    """Return what a text means on this vehicle, where ACC has this weighting; ValueError if it means nothing."""
-    name = name_of(text)
-    body = text.split("=", 1)[-1].strip()
+def case_measure(measure: str | Measure, case: LoadCase, weighting: Weighting | None) -> CaseMeasure:
+    """Return a measure in a load case, where ACC has this weighting; ValueError if the text means nothing."""
+    name = name_of(measure)
+    if isinstance(measure, Measure):
+        return CaseMeasure(name, measure.unit, values=measure.values)
+    body = measure.split("=", 1)[-1].strip()
     sign = -1.0 if body.startswith("-") else 1.0
     body = body.removeprefix("-").strip()
-    if body in HANDLING or body.startswith("DLC"):
-        assembled(vehicle)
-    if body in HANDLING:
-        check_cornering(body, assembled(vehicle).assembly)
-        return Measure(name, HANDLING[body], sign=sign, handling=body)
+    if body in _HANDLING:
+        return CaseMeasure(name, _HANDLING[body][0], sign=sign, values=_handling(body, case))
     kind, _, where = body.partition(" ")
     if kind in _KINDS:
-        terms = _at_corners(kind, where.strip(), vehicle)
-        return Measure(name, _UNITS[kind], terms, True, sign)
+        terms = _at_corners(kind, where.strip(), case.vehicle)
+        return CaseMeasure(name, _UNITS[kind], terms, True, sign)
     if kind == "ACC":
-        return Measure(name, _UNITS[kind], (Term(_accelerated(where.strip(), vehicle), weighting),), False, sign)
-    terms = tuple(_term(part.strip(), vehicle) for part in re.split(r"\+(?![^(]*\))", body))
+        term = Term(_accelerated(where.strip(), case.vehicle), weighting)
+        return CaseMeasure(name, _UNITS[kind], (term,), False, sign)
+    terms = tuple(_term(part.strip(), case.vehicle) for part in re.split(r"\+(?![^(]*\))", body))
     if len({signal_unit(label(term.response)).removeprefix("rad").removeprefix("m") for term in terms}) > 1:
         raise ValueError(f"measure must be a sum of responses of one kind, got {body!r}")
-    return Measure(name, signal_unit(label(terms[0].response)), terms, False, sign)  # factors carry further units
+    unit = signal_unit(label(terms[0].response))  # factors carry further units
+    return CaseMeasure(name, unit, terms, False, sign)
+
+
+def case_limit(text: str, case: LoadCase, weighting: Weighting | None, own: Sequence[str | Measure] = ()) -> Limit:
+    """Return a limit in a load case; its measure is written out, or the name of one of the user's `own`."""
+    found = _LIMIT.fullmatch(text) if isinstance(text, str) else None
+    try:
+        value = float(found[3]) if found else float("nan")
+    except ValueError:
+        value = float("nan")
+    if not found or not abs(value) < float("inf"):
+        raise ValueError(f"constraint must be like 'SWS <= 0.03' or 'roll_damping >= 0.2', got {text!r}")
+    by_name = {measure.name: measure for measure in own if isinstance(measure, Measure)}
+    limited = case_measure(by_name.get(found[1].strip(), found[1]), case, weighting)
+    if limited.sign < 0:
+        raise ValueError(f"constraint must limit a measure without - in front, got {text!r}")
+    if limited.terms and not (found[2] == "<=" and value > 0):
+        raise ValueError(f"constraint on a measure of the ride must be <= a limit above zero, got {text!r}")
+    return Limit(limited, found[2] == "<=", value)
+
+
+def _handling(name: str, case: LoadCase) -> Values:
+    """Return a measure of handling as a function of designs."""
+    vehicle = assembled(case.vehicle)
+    check_cornering(name, vehicle.assembly)
+    geometry = (case.roll_geometry,) if _HANDLING[name][1] else ()
+    if None in geometry:
+        raise ValueError(f"roll_geometry must be given in every load case for {name}, got None")
+    function = getattr(vehicle.statics, name)
+    return lambda designs: function(designs.coefficients, *geometry)
 
 
 def _at_corners(kind: str, where: str, vehicle: Vehicle) -> tuple[Term, ...]:
     """Terms of the strut or tyre called `where`, or of the axle's if it is one; of all wheels if it is empty."""
+    if kind == "DLC":
+        assembled(vehicle)
     tyres = set(vehicle.tyres)
     found = {
         str(response.where): name

@@ -1,4 +1,4 @@
-"""Mean-square responses of one strut: every integral is a polynomial in spring and damper over another."""
+"""Mean squares over designs of one spring and damper: each integral is a ratio of polynomials in both."""
 
 from typing import NamedTuple
 
@@ -10,12 +10,12 @@ from ..quantities import Complex, Real
 from .ports import Ports
 
 
-class StrutLoop(NamedTuple):
-    """Mean-square responses of any design of one strut, from one frequency response of the plant.
+class OneStrut(NamedTuple):
+    """Integrals over frequency for any design of one strut, from one frequency response of the plant.
 
     With the strut D = K + jwC around the ports of the plant P, a response is
     ``P11 + P12 D (1 - P22 D)^-1 P21 = (a + b D) / (1 + c D)``, where a = P11, b = P12 P21 - P11 P22 and
-    c = -P22. Both |a + b D|^2 and |1 + c D|^2 are linear in the terms 1, K, C, K^2, C^2 of a design. Only
+    c = -P22. Both |a + b D|^2 and |1 + c D|^2 are linear in the powers 1, K, C, K^2, C^2 of a design. Only
     numerators that are not zero at every frequency are kept.
 
     Parameters
@@ -24,21 +24,46 @@ class StrutLoop(NamedTuple):
         Coefficients of |1 + c D|^2 at n frequencies.
     numerators : (q, n) ndarray
         Coefficients of |a + b D|^2, each times the density to integrate it with.
-    response, term : (q,) ndarray
-        Number of the response and of the term to which a numerator belongs.
+    term, power : (q,) ndarray
+        Term and power of a numerator.
+    terms : int
+        Number of terms k.
     """
 
     denominator: Real
     numerators: Real
-    response: NDArray[np.int64]
     term: NDArray[np.int64]
+    power: NDArray[np.int64]
+    terms: int
+
+    # The sums over frequencies may be taken in whatever order suits the processor, the same one for every design;
+    # numpy's error model leaves out a check for division by zero that would keep the loop from being vectorised.
+    @njit(cache=True, fastmath={"reassoc", "contract", "nsz"}, error_model="numpy")
+    def mean_squares(self, designs: Real) -> Real:
+        """Return the mean squares (p, k) of designs (p, 2), K [N/m] and C [N s/m], each as if alone."""
+        result = np.empty((designs.shape[0], self.terms))
+        gain = np.empty(self.denominator.shape[1])
+        d = self.denominator
+        for p in range(designs.shape[0]):
+            k, c = designs[p, 0], designs[p, 1]
+            kk, cc = k * k, c * c
+            for term in range(self.terms):
+                result[p, term] = 0.0
+            for i in range(gain.size):
+                gain[i] = 1.0 / (d[0, i] + d[1, i] * k + d[2, i] * c + d[3, i] * kk + d[4, i] * cc)
+            for q in range(self.power.size):
+                integral = 0.0
+                for i in range(gain.size):
+                    integral += gain[i] * self.numerators[q, i]
+                result[p, self.term[q]] += integral * (1.0, k, c, kk, cc)[self.power[q]]
+        return result
 
     @classmethod
-    def around(cls, ports: Ports, omega: Real, densities: Real) -> "StrutLoop":
+    def around(cls, ports: Ports, omega: Real, densities: Real) -> "OneStrut":
         """Take the ports of a plant with one strut on one road, at angular frequencies `omega` (n,) [rad/s].
 
-        `densities` (m, n) hold for each response what multiplies its squared magnitude in the integral: the
-        road's spectrum, times the squared weighting, times the quadrature weight.
+        The squared magnitude of each term is integrated with its density (k, n): spectrum of the road, squared
+        weighting and quadrature weight.
         """
         p21, p22 = ports.h[:, -1, 0], ports.h[:, -1, 1]
         numerators = np.array(
@@ -46,45 +71,10 @@ class StrutLoop(NamedTuple):
                 density * _square_of_line(by_road, by_strut * p21 - by_road * p22, omega)
                 for density, by_road, by_strut in zip(densities, *ports.h.T[:, : ports.m], strict=True)
             ]
-        )
-        response, term = np.nonzero(numerators.any(axis=2))
-        return cls(_square_of_line(np.ones_like(p22), -p22, omega), numerators[response, term], response, term)
-
-
-# The sums over frequencies may be taken in whatever order suits the processor, the same one for every design;
-# numpy's error model leaves out a check for division by zero that would keep the loop from being vectorised.
-@njit(cache=True, fastmath={"reassoc", "contract", "nsz"}, error_model="numpy")
-def fill_mean_squares(design: Real, loop: StrutLoop, gain: Real, result: Real) -> None:
-    """Put the mean squares (m,) of a design (K [N/m], C [N s/m]) in `result`; `gain` (n,) is for its use."""
-    k, c = design[0], design[1]
-    kk, cc = k * k, c * c
-    d = loop.denominator
-    for i in range(gain.size):
-        gain[i] = 1.0 / (d[0, i] + d[1, i] * k + d[2, i] * c + d[3, i] * kk + d[4, i] * cc)
-    result[:] = 0.0
-    for q in range(loop.term.size):
-        integral = 0.0
-        for i in range(gain.size):
-            integral += gain[i] * loop.numerators[q, i]
-        result[loop.response[q]] += integral * (1.0, k, c, kk, cc)[loop.term[q]]
-
-
-@njit(cache=True)
-def loop_mean_squares(design: Real, loop: StrutLoop) -> Real:
-    """Return the mean squares (m,) of one design (2,)."""
-    result = np.empty(loop.response[-1] + 1)
-    fill_mean_squares(design, loop, np.empty(loop.denominator.shape[1]), result)
-    return result
-
-
-@njit(cache=True)
-def loop_mean_squares_of_all(designs: Real, loop: StrutLoop) -> Real:
-    """Return the mean squares (p, m) of designs (p, 2), to the last bit those of each one alone."""
-    results = np.empty((designs.shape[0], loop.response[-1] + 1))
-    gain = np.empty(loop.denominator.shape[1])
-    for i in range(designs.shape[0]):
-        fill_mean_squares(designs[i], loop, gain, results[i])
-    return results
+        ).reshape(ports.m, 5, omega.size)
+        term, power = np.nonzero(numerators.any(axis=2))
+        denominator = _square_of_line(np.ones_like(p22), -p22, omega)
+        return cls(denominator, numerators[term, power], term, power, ports.m)
 
 
 def _square_of_line(a: Complex, b: Complex, omega: Real) -> Real:

@@ -1,35 +1,17 @@
-"""A vehicle's frequency response from roads and struts to responses and deflections."""
+"""Frequency response of a vehicle from roads and struts to responses and deflections."""
 
-from collections.abc import Sequence
-from typing import NamedTuple, Protocol
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
-import control
 import numpy as np
 
 from ..quantities import Complex, Real
 from ..vehicles.assembly import ResponseName, StrutParameter
 from ..vehicles.feedback import around
+from ..vehicles.vehicle import Vehicle
 
-
-class Plant(Protocol):
-    """The part of a vehicle that its responses to roads are computed from."""
-
-    @property
-    def struts(self) -> tuple[str, ...]:
-        """Names of the struts (q,)."""
-
-    @property
-    def contact_points(self) -> Real:
-        """Where the roads touch (r, 2) [m]."""
-
-    @property
-    def parameters(self) -> tuple[StrutParameter, ...]:
-        """Coefficients of the struts."""
-
-    def plant(
-        self, responses: Sequence[ResponseName] | None = None
-    ) -> control.StateSpace | control.FrequencyResponseData:
-        """Return the model: from roads, their rates, struts to responses, deflections and rates of the struts."""
+ORDERS = 3
+"""Orders of the derivative of a deflection in a tension: springs 0, dampers 1, inerters and masses 2."""
 
 
 class Ports(NamedTuple):
@@ -49,28 +31,45 @@ class Ports(NamedTuple):
 
     @classmethod
     def of(
-        cls, vehicle: Plant, f: Real, responses: Sequence[ResponseName], gains: tuple[Real, Real] | None = None
+        cls,
+        vehicle: Vehicle,
+        f: Real,
+        responses: Sequence[ResponseName],
+        values: Mapping[str, float] | None = None,
     ) -> "Ports":
-        """Take it at the frequencies `f` (n,) [Hz], ascending; `responses` may hold one more than once.
+        """Take it at `f` (n,) [Hz], ascending, around struts with the coefficients `values`, if given.
 
-        With `gains`, tensions of the struts by deflections and by their rates (q, q), there are such struts in
-        place already and the ports are for what is added to them. A body on springs does not drift away at low
-        frequency, which would cost digits.
+        Springs and dampers are closed in state space: a body on springs does not drift away at low frequency,
+        which would cost digits. A response may be asked for more than once.
         """
         omega = 2 * np.pi * f
         q, r = len(vehicle.struts), len(vehicle.contact_points)
-        distinct = list(dict.fromkeys(responses))  # one may be asked for with several weightings
-        plant = vehicle.plant(distinct)
-        if gains is not None:
-            plant = around(plant, np.hstack(gains))
-        h = np.moveaxis(_response(plant, omega), 2, 0)[:, : len(distinct) + q]
+        distinct = list(dict.fromkeys(responses))
+        gains = gains_by_order(vehicle.parameters, values or {}, q)
+        plant = around(vehicle.plant(distinct), np.hstack([gains[0], gains[1]]))
+        h = np.moveaxis(plant.frequency_response(omega, squeeze=False).frdata, 2, 0)
         h = h[:, [*map(distinct.index, responses), *range(len(distinct), len(distinct) + q)]]
         roads, struts = h[:, :, :r], h[:, :, -q:]
         if h.shape[2] > r + q:  # damped tyres follow the road's rate too
             roads = roads + 1j * omega[:, None, None] * h[:, :, r : 2 * r]
-        return cls(np.concatenate([roads, struts], axis=2), len(responses), r)
+        open_ = cls(np.concatenate([roads, struts], axis=2), len(responses), r)
+        return open_.around(-(omega[:, None, None] ** 2) * gains[2]) if gains[2].any() else open_
+
+    def around(self, stiffness: Complex) -> "Ports":
+        """Return the ports around struts of this dynamic stiffness D (n, q, q): h + h_2 (1 - D h_22)^-1 D h_1."""
+        h, m, r = self
+        loop = np.eye(stiffness.shape[1]) - stiffness @ h[:, m:, r:]
+        return self._replace(h=h + h[:, :, r:] @ np.linalg.solve(loop, stiffness @ h[:, m:]))
 
 
-def _response(plant: control.StateSpace | control.FrequencyResponseData, omega: Real) -> Complex:
-    """Return the frequency response (outputs, inputs, n)."""
-    return plant.frequency_response(omega, squeeze=False).frdata
+def gains_by_order(parameters: Sequence[StrutParameter], values: Mapping[str, float], q: int) -> Real:
+    """Return tensions by deflections and their first and second derivatives (3, q, q); none for other names."""
+    gains = np.zeros((ORDERS, q, q))
+    for parameter in parameters:
+        gains[parameter.order] += values.get(parameter.name, 0.0) * parameter.gain
+    return gains
+
+
+def dynamic_stiffness(gains: Real, omega: Real) -> Complex:
+    """Return D (n, q, q) of gains by order (3, q, q): sum of gain (jw)^order."""
+    return np.asarray(np.tensordot((1j * omega[:, None]) ** np.arange(ORDERS), gains, 1))

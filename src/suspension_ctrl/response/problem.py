@@ -13,10 +13,9 @@ from numpy.typing import ArrayLike
 from .. import checks
 from ..quantities import FrozenMapping, Real, Record
 from ..vehicles.vehicle import Setting, Vehicle
-from .judges import NODES, RESOLVED, Judge, Score
-from .limits import limit
 from .load_case import LoadCase, Road
-from .measures import measure, name_of
+from .measures import Measure, case_limit, case_measure, name_of
+from .scores import NODES, RESOLVED, Kernel, Score, Scores, scores_of_design
 from .weightings import Weighting, checked
 
 _CORNERS = 64
@@ -54,10 +53,10 @@ class RideProblem(Record):
         Bounds by name of those coefficients that vary, ``{"front.spring": (1e4, 4e4), ...}``.
     struts : mapping of str to float, optional
         Coefficients that do not vary.
-    measures : sequence of str
-        The objectives, written as in `measures`.
+    measures : sequence of str or Measure
+        The objectives, written as in `measures`, or a `Measure` of your own.
     constraints : sequence of str
-        Limits on measures: ``"SWS <= 0.0287"``, in the worst load case.
+        Limits on measures: ``"SWS <= 0.0287"``, in the worst load case; on one of your own by its name.
     cases : sequence of LoadCase, optional
         Several load cases; beside them a vehicle, road or speed takes the place of theirs. An objective is the
         root mean square over them by their shares, of handling the mean.
@@ -78,7 +77,7 @@ class RideProblem(Record):
     struts: Setting
     weighting: Weighting | None
     band: tuple[float, float]
-    measures: tuple[str, ...]
+    measures: tuple[str | Measure, ...]
     constraints: tuple[str, ...]
     worst_case: bool
     nodes: int
@@ -95,7 +94,7 @@ class RideProblem(Record):
         upper: Sequence[float] = (),
         bounds: Mapping[str, tuple[float, float]] | None = None,
         struts: Setting | None = None,
-        measures: Sequence[str] = ("ACC", "SWS", "DTL"),
+        measures: Sequence[str | Measure] = ("ACC", "SWS", "DTL"),
         constraints: Sequence[str] = (),
         cases: Sequence[LoadCase] = (),
         worst_case: bool = False,
@@ -167,7 +166,7 @@ class RideProblem(Record):
     def units(self) -> Mapping[str, str]:
         """Unit of each variable and each objective by name."""
         of_struts = {parameter.name: parameter.unit for parameter in self.cases[0].vehicle.parameters}
-        judged = {score.measures[0].name: score.measures[0].unit for score in self._judge.scores}
+        judged = {score.measures[0].name: score.measures[0].unit for score in self._scores.scores}
         return FrozenMapping(
             {name: of_struts[name] for name in self.variables} | {name: judged[name] for name in self.objectives}
         )
@@ -194,15 +193,15 @@ class RideProblem(Record):
         """
         x = checks.designs(designs, len(self.variables))
         checks.rows_within("designs", x, self.lower, self.upper)
-        return self._judge.evaluate(x, self.nodes)
+        return self._scores.evaluate(x, self.nodes)
 
     @cached_property
-    def kernel(self) -> tuple[Callable[..., Real], tuple[Any, ...]] | None:
+    def kernel(self) -> tuple[Callable[..., Real], tuple[Kernel]] | None:
         """What `evaluate` gives for a single design (d,), as a compiled function and its further arguments.
 
-        None with measures of handling, which are not compiled.
+        None with measures of handling or of a user's own, which are not compiled.
         """
-        return self._judge.kernel(self.nodes)
+        return (scores_of_design, (self._scores.kernel(self.nodes),)) if self._scores.compiled else None
 
     def __repr__(self) -> str:
         units = self.units
@@ -236,13 +235,13 @@ class RideProblem(Record):
         return taken if nodes else _Found(taken)
 
     @cached_property
-    def _judge(self) -> Judge:
-        def score(text: str) -> Score:
-            found = tuple(measure(text, case.vehicle, self.weighting) for case in self.cases)
+    def _scores(self) -> Scores:
+        def score(measure: str | Measure) -> Score:
+            found = tuple(case_measure(measure, case, self.weighting) for case in self.cases)
             return Score(found, self.worst_case, found[0].sign)
 
         def limited(text: str) -> Score:
-            found = [limit(text, case.vehicle, self.weighting) for case in self.cases]
+            found = [case_limit(text, case, self.weighting, self.measures) for case in self.cases]
             return Score(tuple(one.measure for one in found), True, found[0].scale, found[0].offset)
 
         if len(set(self.objectives)) < max(2, len(self.measures)):
@@ -252,17 +251,17 @@ class RideProblem(Record):
                 raise ValueError(f"{what} must have names of their own, got {list(names)}")
         middle = np.add(self.lower, self.upper) / 2
         scores = [*map(score, self.measures), *map(limited, self.constraints)]
-        if not any(one.measures[0].terms for one in scores):
+        if all(one.measures[0].values for one in scores):
             raise ValueError(f"measures must hold one of the ride, got {self.measures!r}")
         variables = dict(zip(self.variables, middle.tolist(), strict=True))
-        return Judge(self.cases, scores, variables, self.struts, self.band)
+        return Scores(self.cases, scores, variables, self.struts, self.band)
 
     def _error(self, nodes: int) -> float:
         """Return the largest error of a term at corners of the box, where resonances are sharpest."""
         corners = np.array(list(product(*self.bounds.values())), dtype=float)
         if len(corners) > _CORNERS:
             corners = np.random.default_rng(0).permutation(corners)[:_CORNERS]
-        return float(self._judge.errors(corners, nodes).max())
+        return max(float(errors.max(initial=0.0)) for errors in self._scores.errors(corners, nodes))
 
 
 def _load_cases(cases: Sequence[LoadCase], **given: Any) -> tuple[LoadCase, ...]:

@@ -9,10 +9,10 @@ import numpy as np
 from .. import checks
 from ..quantities import Complex, Real, signal_unit
 from ..vehicles.assembly import ResponseName
-from ..vehicles.vehicle import Setting, Vehicle
-from .judges import NODES, RESOLVED, Judge, Score
+from ..vehicles.vehicle import Pair, Setting, Vehicle
 from .load_case import LoadCase, Road
-from .measures import Measure, Term, measure
+from .measures import CaseMeasure, Measure, Term, case_measure
+from .scores import NODES, RESOLVED, Score, Scores
 from .weightings import Weighting, checked
 
 if TYPE_CHECKING:
@@ -24,13 +24,13 @@ _LOWEST = np.array([1e-3, 2e-3])
 
 def ride(
     vehicle: Vehicle,
-    setting: Setting | tuple[float, float],
+    setting: Setting | Pair,
     road: Road,
     speed: float,
     *,
     weighting: Weighting | control.LTI | None = "Wk",
     band: tuple[float, float] = (0.0, 20.0),
-    measures: Sequence[str] = ("ACC", "SWS", "DTL"),
+    measures: Sequence[str | Measure] = ("ACC", "SWS", "DTL"),
 ) -> "pd.DataFrame":
     """Return the ride of a vehicle with its struts: measures, and the root mean square of every response.
 
@@ -45,7 +45,7 @@ def ride(
     speed : float
         Vehicle speed V [m/s].
     weighting, band, measures
-        As of `RideProblem`.
+        As of `RideProblem`. Of a function of designs these are all coefficients, in the vehicle's order.
 
     Returns
     -------
@@ -65,16 +65,18 @@ def ride(
         raise ValueError(f"measures must be a list of measures, got {measures!r}")
     case = LoadCase(vehicle=vehicle, road=road, speed=speed)
     known = checked(weighting)
-    judged = [measure(text, vehicle, known) for text in measures]
+    judged = [case_measure(one, case, known) for one in measures]
     own = {one.name for one in judged}
-    judged += [Measure(name, signal_unit(name), (Term(name),)) for name in vehicle.responses if name not in own]
+    judged += [
+        CaseMeasure(name, signal_unit(name), (Term(name),)) for name in vehicle.responses if name not in own
+    ]
     values = vehicle.coefficients(setting)
-    judge = Judge([case], [Score((one,), False, one.sign) for one in judged], values, {}, band)
+    scores = Scores([case], [Score((one,), False, one.sign) for one in judged], values, {}, band)
     design = np.array([list(values.values())])
-    diverging = _diverging(case, values, judge.terms[0]) if band[0] == 0 else set()
-    nodes, off = _resolved(judge, design, diverging)
+    diverging = _diverging(case, values, scores.terms[0]) if band[0] == 0 else set()
+    nodes, off = _resolved(scores, design, diverging)
     notes = [_note(one, diverging, off, nodes) for one in judged]
-    found = np.where([bool(note) for note in notes], np.nan, judge.evaluate(design, nodes)[0])
+    found = np.where([bool(note) for note in notes], np.nan, scores.evaluate(design, nodes)[0])
     index = pd.Index([one.name for one in judged], name="name")
     return pd.DataFrame({"value": found, "unit": [one.unit for one in judged], "note": notes}, index=index)
 
@@ -88,20 +90,20 @@ def _diverging(case: LoadCase, setting: Setting, terms: Iterable[Term]) -> set[R
     return {name for name, is_rising in zip(responses, rising & (spectra[:, 0] > 0), strict=True) if is_rising}
 
 
-def _resolved(judge: Judge, design: Real, diverging: set[ResponseName]) -> tuple[int, dict[Term, float]]:
+def _resolved(scores: Scores, design: Real, diverging: set[ResponseName]) -> tuple[int, dict[Term, float]]:
     """Return the least nodes that resolve every term that does not diverge, and the error of each term."""
-    kept = [term.response not in diverging for term in judge.terms[0]]
+    kept = [term.response not in diverging for term in scores.terms[0]]
     for nodes in NODES:
-        errors = judge.errors(design, nodes)[0]
+        errors = scores.errors(design, nodes)[0]
         if (errors[kept] < RESOLVED).all():
             break
-    return nodes, dict(zip(judge.terms[0], errors.tolist(), strict=True))
+    return nodes, dict(zip(scores.terms[0], errors.tolist(), strict=True))
 
 
-def _note(one: Measure, diverging: set[ResponseName], off: Mapping[Term, float], nodes: int) -> str:
+def _note(one: CaseMeasure, diverging: set[ResponseName], off: Mapping[Term, float], nodes: int) -> str:
     if any(term.response in diverging for term in one.terms):
         return "diverges towards 0 Hz: begin the band above"
-    worst = max((off[Term(term.response, term.weighting)] for term in one.terms), default=0.0)
+    worst = max((off[term.integral] for term in one.terms), default=0.0)
     return "" if worst < RESOLVED else f"not resolved: {nodes} and {2 * nodes} nodes differ by {worst:.1g}"
 
 

@@ -1,93 +1,226 @@
-"""From mean squares of responses in every load case to objectives and constraints."""
+"""Objectives and constraints of designs from the mean squares of every load case."""
 
-from typing import NamedTuple
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
-from numpy.typing import NDArray
+from numba import literal_unroll, njit
 
 from ..quantities import Real
-from .many_struts import StrutBlock, mean_squares
-from .one_strut import StrutLoop, loop_mean_squares
+from ..vehicles.vehicle import assembled
+from .load_case import LoadCase
+from .mean_squares import Case, case_of
+from .measures import CaseMeasure, Designs, Term
+from .ports import Ports, dynamic_stiffness, gains_by_order
+
+RESOLVED = 1e-6
+"""Largest relative change of a root mean square that twice the nodes may make."""
+
+NODES = (256, 384, 512, 768, 1024, 2048, 4096)
+"""Numbers of nodes to choose from."""
+
+_PARTS = 1000
+"""Equal parts of the band, in whose middles a user's own measure gets spectra."""
 
 
-class Scoring(NamedTuple):
-    """How s scores are made of k mean squares in each of c load cases.
+class Score(NamedTuple):
+    """A measure in each load case, whether the worst case counts or the mean, its factor and its constant."""
+
+    measures: tuple[CaseMeasure, ...]
+    worst_case: bool
+    scale: float = 1.0
+    offset: float = 0.0
+
+
+class Kernel(NamedTuple):
+    """Scores of designs as data of a compiled function.
 
     Parameters
     ----------
-    squares : (c, s, k) ndarray
-        What each mean square is multiplied with.
+    cases : (c,) tuple of OneStrut or ManyStruts
+        The load cases.
+    squares : (c,) tuple of (s, k) ndarray
+        Factor of each mean square of a case in each score.
+    shares : (c,) ndarray
+        Share of each case in a mean over them.
     worst_term, worst_case : (s,) ndarray of bool
         Whether the largest of the terms, and of the cases, counts; otherwise the sum of the terms, and the mean
         over the cases, of which the root is taken.
-    shares : (c,) ndarray
-        Share of each case in that mean.
     scale, offset : (s,) ndarray
-        What the root is multiplied with, and what is then added.
+        Factor of that root, and constant.
     """
 
-    squares: Real
+    cases: tuple[Case, ...]
+    squares: tuple[Real, ...]
+    shares: Real
     worst_term: Real
     worst_case: Real
-    shares: Real
     scale: Real
     offset: Real
 
+    def scores(self, designs: Real) -> Real:
+        """Return the scores (p, s) of designs (p, v), to the last bit those of each one alone.
 
-@njit(cache=True)
-def add_case(mean_square: Real, case: int, scoring: Scoring, total: Real) -> None:
-    """Take the mean squares (k,) of a case into the `total` (s,)."""
-    for score in range(total.size):
-        value = 0.0
-        for k in range(mean_square.size):
-            term = scoring.squares[case, score, k] * mean_square[k]
-            value = max(value, term) if scoring.worst_term[score] else value + term
-        if scoring.worst_case[score]:
-            total[score] = max(total[score], value)
-        else:
-            total[score] += scoring.shares[case] * value
-
-
-@njit(cache=True)
-def finish(total: Real, scoring: Scoring) -> None:
-    """Turn `total` (s,) into scores in place."""
-    for score in range(total.size):
-        total[score] = scoring.scale[score] * np.sqrt(total[score]) + scoring.offset[score]
+        In numpy, as to compile this takes longer than many evaluations.
+        """
+        total = np.zeros((self.scale.size, designs.shape[0]))
+        for case, squares, share in zip(self.cases, self.squares, self.shares, strict=True):
+            found = case.mean_squares(designs).T
+            for s, row in enumerate(squares):
+                value = np.zeros(designs.shape[0])
+                for k in np.flatnonzero(row):
+                    term = row[k] * found[k]
+                    value = np.maximum(value, term) if self.worst_term[s] else value + term
+                total[s] = np.maximum(total[s], value) if self.worst_case[s] else total[s] + share * value
+        return np.asarray(self.scale * np.sqrt(total.T) + self.offset)
 
 
 @njit(cache=True)
-def scores_of_all(mean_square: Real, scoring: Scoring) -> Real:
-    """Return the scores (p, s) of designs whose mean squares are (c, p, k)."""
-    scores = np.zeros((mean_square.shape[1], scoring.scale.size))
-    for i in range(scores.shape[0]):
-        for case in range(mean_square.shape[0]):
-            add_case(mean_square[case, i], case, scoring, scores[i])
-        finish(scores[i], scoring)
-    return scores
-
-
-@njit(cache=True)
-def scores_of_one_strut(design: Real, loops: tuple[StrutLoop, ...], scoring: Scoring) -> Real:
-    """Return the scores (s,) of a spring and a damper (2,)."""
-    total = np.zeros(scoring.scale.size)
-    for case, loop in enumerate(loops):
-        add_case(loop_mean_squares(design, loop), case, scoring, total)
-    finish(total, scoring)
+def scores_of_design(design: Real, kernel: Kernel) -> Real:
+    """Return the scores (s,) of one design (v,)."""
+    designs = design.reshape(1, design.size)
+    total = np.empty(kernel.scale.size)
+    for s in range(total.size):
+        total[s] = 0.0
+    c = 0
+    for case in literal_unroll(kernel.cases):
+        found = case.mean_squares(designs)
+        for s in range(total.size):
+            value = 0.0
+            for k in range(found.shape[1]):
+                term = kernel.squares[c][s, k] * found[0, k]
+                value = max(value, term) if kernel.worst_term[s] else value + term
+            total[s] = max(total[s], value) if kernel.worst_case[s] else total[s] + kernel.shares[c] * value
+        c += 1  # noqa: SIM113  # compiled loops over tuples of several types have no enumerate
+    for s in range(total.size):
+        total[s] = kernel.scale[s] * np.sqrt(total[s]) + kernel.offset[s]
     return total
 
 
-@njit(cache=True)
-def scores_of_struts(
-    design: Real,
-    cases: tuple[tuple[StrutBlock, ...], ...],
-    channel: NDArray[np.int64],
-    scoring: Scoring,
-) -> Real:
-    """Return the scores (s,) of a design (v,); `channel` (c, k) tells where the mean squares of a case stand."""
-    total = np.zeros(scoring.scale.size)
-    for case, blocks in enumerate(cases):
-        found = mean_squares(design, blocks, channel[case].max() + 1)
-        add_case(found[channel[case]], case, scoring, total)
-    finish(total, scoring)
-    return total
+class Scores:
+    """Scores of designs in load cases, at any number of quadrature nodes.
+
+    Parameters
+    ----------
+    cases : sequence of LoadCase
+    scores : sequence of Score
+    variables : mapping of str to float
+        Coefficients that vary, and a value of each in the middle of its range.
+    fixed : mapping
+        The other coefficients that have no default.
+    band : (float, float)
+        Frequencies over which spectra are integrated [Hz].
+    """
+
+    def __init__(
+        self,
+        cases: Sequence[LoadCase],
+        scores: Sequence[Score],
+        variables: Mapping[str, float],
+        fixed: Mapping[str, Any],
+        band: tuple[float, float],
+    ) -> None:
+        self.cases, self.scores, self.variables, self.band = cases, scores, variables, band
+        self.settings = [case.vehicle.coefficients({**fixed, **variables}) for case in cases]
+        self._kernels: dict[int, Kernel] = {}
+
+    @cached_property
+    def terms(self) -> list[tuple[Term, ...]]:
+        """The terms to be integrated in each case."""
+        every = [
+            [term.integral for score in self.scores for term in score.measures[c].terms] for c in self._numbers
+        ]
+        return [tuple(dict.fromkeys(terms)) for terms in every]
+
+    def kernel(self, nodes: int) -> Kernel:
+        """Return the scores as data of a compiled function; those of measures with a function are offsets."""
+        if nodes not in self._kernels:
+            cases = zip(self.cases, self.terms, self.settings, strict=True)
+            shares = np.array([case.share for case in self.cases])
+            first = [score.measures[0] for score in self.scores]
+            self._kernels[nodes] = Kernel(
+                tuple(case_of(*case, list(self.variables), self.band, nodes) for case in cases),
+                tuple(self._squares(c) for c in self._numbers),
+                shares / shares.sum(),
+                np.array([measure.worst for measure in first]),
+                np.array([score.worst_case for score in self.scores]),
+                np.array([score.scale for score in self.scores]),
+                np.array([score.offset for score in self.scores]),
+            )
+        return self._kernels[nodes]
+
+    @property
+    def compiled(self) -> bool:
+        """Whether the kernel alone gives all scores."""
+        return not any(score.measures[0].values for score in self.scores)
+
+    def evaluate(self, designs: Real, nodes: int) -> Real:
+        """Return the scores (p, s) of designs (p, v)."""
+        scores = self.kernel(nodes).scores(designs)
+        for column, score in enumerate(self.scores):
+            if score.measures[0].values:
+                scores[:, column] = score.scale * self._by_function(score, designs) + score.offset
+        return scores
+
+    def errors(self, designs: Real, nodes: int) -> list[Real]:
+        """Return, by case, the largest change (k,) of each term's root mean square by twice the nodes."""
+        both = zip(self.kernel(nodes).cases, self.kernel(2 * nodes).cases, strict=True)
+        return [_change(*(np.sqrt(case.mean_squares(designs)) for case in pair)) for pair in both]
+
+    @property
+    def _numbers(self) -> range:
+        return range(len(self.cases))
+
+    def _squares(self, c: int) -> Real:
+        """Return the factor (s, k) of each mean square of a case in each score."""
+        squares = np.zeros((len(self.scores), len(self.terms[c])))
+        for s, score in enumerate(self.scores):
+            for term in score.measures[c].terms:
+                factor = term.factor / (self._static_load(c, term) if term.relative else 1.0)
+                squares[s, self.terms[c].index(term.integral)] += factor**2
+        return squares
+
+    def _static_load(self, c: int, term: Term) -> float:
+        """Return the load of the term's tyre on level ground [N], on struts in the middle of their range.
+
+        A left-right symmetric vehicle has that load on any struts.
+        """
+        vehicle = assembled(self.cases[c].vehicle)
+        loads = vehicle.statics.static_loads(np.array([list(self.settings[c].values())]))[0]
+        return float(loads[vehicle.tyres.index(str(vehicle.meanings[str(term.response)].where))])
+
+    def _by_function(self, score: Score, designs: Real) -> Real:
+        """Return a measure with a function (p,): its mean over the cases by their shares, or the worst."""
+        by_case = np.array([self._values(c, score.measures[c], designs) for c in self._numbers])
+        shares = np.array([case.share for case in self.cases])
+        if not score.worst_case:
+            return np.asarray(shares / shares.sum() @ by_case)
+        sign = np.sign(score.scale)
+        return np.asarray(sign * (sign * by_case).max(axis=0))
+
+    def _values(self, c: int, measure: CaseMeasure, designs: Real) -> Real:
+        known = self.settings[c]
+        coefficients = np.tile(list(known.values()), (len(designs), 1))
+        coefficients[:, [list(known).index(name) for name in self.variables]] = designs
+        values: Callable[..., Real] = measure.values  # type: ignore[assignment]
+        return values(Designs(designs, coefficients, lambda: self._spectra(c, coefficients)))
+
+    def _spectra(self, c: int, coefficients: Real) -> Iterator[tuple[Real, Mapping[str, Real]]]:
+        """Yield for each of the coefficients (p, c) the frequencies (n,) [Hz] and the spectra of all responses."""
+        case, known, (low, high) = self.cases[c], self.settings[c], self.band
+        f = low + (high - low) * (np.arange(_PARTS) + 0.5) / _PARTS
+        parameters, names = case.vehicle.parameters, case.vehicle.responses
+        ports, roads = Ports.of(case.vehicle, f, names, known), case.cross_spectrum(f)
+        for row in coefficients - np.array(list(known.values())):
+            gains = gains_by_order(
+                parameters, dict(zip(known, row.tolist(), strict=True)), len(case.vehicle.struts)
+            )
+            h = ports.around(dynamic_stiffness(gains, 2 * np.pi * f)).h[:, : ports.m, : ports.r]
+            yield f, dict(zip(names, np.einsum("nmi,nij,nmj->mn", h, roads, h.conj()).real, strict=True))
+
+
+def _change(coarse: Real, fine: Real) -> Real:
+    """Return the largest relative change (k,) over designs (p, k); a zero is resolved."""
+    ratio = np.divide(coarse, fine, out=np.ones_like(fine), where=fine > 0)
+    return np.asarray(np.abs(ratio - 1).max(axis=0))
