@@ -2,6 +2,7 @@ from .response.driving import simulate as simulate
 from .response.files import load_problem as load_problem
 from .response.histories import exposure as exposure
 from .response.load_case import LoadCase as LoadCase
+from .response.measures import Measure as Measure
 from .response.problem import RideProblem as RideProblem
 from .response.responses import response_psds as response_psds
 from .response.responses import ride as ride

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garage import BENDING, DRIVER, FULL, HALF, PASSENGER, QUARTER, ROAD, SPEED, mean_squares, struts_of
-from suspension_ctrl import LoadCase, RideProblem, RollGeometry, Seat
+from suspension_ctrl import LoadCase, Measure, RideProblem, RollGeometry, Seat, response_psds, ride
 from suspension_ctrl.response.measures import Term, case_limit, case_measure, name_of
 from suspension_ctrl.vehicles.assembly import GRAVITY
 from suspension_ctrl.vehicles.vehicle import Vehicle
@@ -253,3 +253,77 @@ def test_measures_of_handling_are_those_of_the_mechanics():
             -mechanics.roll_damping(values)[0],
         ]
         np.testing.assert_allclose(row[1:], expected, rtol=1e-12)
+
+
+def own_problem(measures: tuple, **changes) -> RideProblem:
+    return RideProblem(
+        DRIVER.on(FULL), ROAD, speed=SPEED, band=BAND, nodes=NODES, measures=measures,
+        struts={"rear": (2e4, 1500.0)}, bounds={"front.spring": (1.8e4, 2.2e4), "front.damper": (1.2e3, 1.8e3)}, **changes,
+    )  # fmt: skip
+
+
+DESIGNS = np.array([[1.9e4, 1.3e3], [2.1e4, 1.7e3]])
+
+
+def area(frequency: np.ndarray, spectra: dict) -> float:
+    return float(np.sqrt(np.trapezoid(spectra["driver_acceleration"], frequency)))
+
+
+def test_a_measure_of_ones_own_takes_spectra():
+    """The root of the area under a spectrum is the root mean square, to the steps of the sum."""
+    found = own_problem(("driver_acceleration", Measure("mine", "m/s^2", area))).evaluate(DESIGNS)
+    np.testing.assert_allclose(found[:, 1], found[:, 0], rtol=2e-3)
+
+
+def test_spectra_of_a_measure_are_those_of_the_closed_model():
+    seen = []
+    problem = own_problem(("ACC", Measure("mine", "-", lambda f, spectra: seen.append((f, spectra)) or 1.0)))
+    problem.evaluate(DESIGNS)
+    for design, (f, spectra) in zip(DESIGNS, seen, strict=True):
+        setting = {**problem.struts, **dict(zip(problem.variables, design, strict=True))}
+        cross = ROAD.cross_spectrum(f, SPEED, problem.vehicle.contact_points)
+        expected = response_psds(problem.vehicle.closed(setting), f, cross)
+        assert spectra.keys() == expected.keys()
+        for name, psd in spectra.items():
+            np.testing.assert_allclose(psd, expected[name], rtol=1e-9, atol=1e-12 * expected[name].max())
+
+
+def test_a_measure_of_ones_own_takes_designs():
+    """It may be limited by its name, from either side; then no compiled function stands for all."""
+    cost = Measure("cost", "EUR", lambda designs: designs @ [1e-3, 1e-2])
+    problem = own_problem(("ACC", cost), constraints=("cost <= 35", "cost >= 34", "SWS <= 0.03"))
+    found = problem.evaluate(DESIGNS)
+    np.testing.assert_allclose(found[:, 1], [32.0, 38.0], rtol=1e-12)
+    np.testing.assert_allclose(found[:, 2:4], [[32 / 35 - 1, 1 - 32 / 34], [38 / 35 - 1, 1 - 38 / 34]], rtol=1e-12)
+    assert (problem.units["cost"], problem.objectives, problem.kernel) == ("EUR", ("ACC", "cost"), None)
+
+
+def test_a_measure_of_ones_own_over_load_cases_is_their_mean_or_the_worst():
+    cases = [LoadCase(vehicle=FULL, road=ROAD, speed=v, share=share) for v, share in ((10.0, 3.0), (20.0, 1.0))]
+    own = Measure("mine", "m/s^2", lambda f, spectra: np.sqrt(spectra["body_acceleration"].max()))
+    one = {"struts": {"rear": (2e4, 1500.0), "front.damper": 1500.0}, "bounds": {"front.spring": (1.8e4, 2.2e4)}}
+    options = {"measures": ("ACC", own), "band": BAND, "nodes": NODES, **one}
+    slow, fast = (RideProblem(cases=[case], **options).evaluate([[2e4]])[0, 1] for case in cases)
+    for worst, expected in ((False, (3 * slow + fast) / 4), (True, fast)):
+        found = RideProblem(cases=cases, worst_case=worst, **options).evaluate([[2e4]])[0, 1]
+        assert found == pytest.approx(expected, rel=1e-12)
+
+
+def test_the_ride_takes_a_measure_of_ones_own():
+    table = ride(
+        DRIVER.on(FULL), struts_of(FULL), ROAD, SPEED, band=BAND, measures=[Measure("mine", "m/s^2", area)]
+    )
+    assert table.value["mine"] == pytest.approx(table.value["driver_acceleration"], rel=2e-3)
+    assert table.unit["mine"] == "m/s^2"
+
+
+@pytest.mark.parametrize("function", [lambda: 1.0, lambda a, b, c: 1.0, 3.0])
+def test_a_measure_of_ones_own_takes_designs_or_spectra(function):
+    with pytest.raises(ValueError, match=r"^function must take designs, or frequency and spectra, got "):
+        Measure("mine", "-", function)
+
+
+@pytest.mark.parametrize("value", [np.nan, [1.0, 2.0, 3.0]])
+def test_a_measure_of_ones_own_returns_a_finite_number(value):
+    with pytest.raises(ValueError, match=r"^measure mine must return a finite number for each design, got "):
+        own_problem(("ACC", Measure("mine", "-", lambda designs: value))).evaluate(DESIGNS)

@@ -73,8 +73,8 @@ class Response(NamedTuple):
 class StrutParameter(Record):
     """A coefficient of the struts; required if it has no default.
 
-    The gain (q, q) is the tension of each strut by deflection of each (`order` 0) or its rate (`order` 1), at a
-    coefficient of 1.
+    The gain (q, q) is the tension of each strut by deflection of each (`order` 0), its rate (1) or its second
+    derivative (2, inerters and masses), at a coefficient of 1.
     """
 
     name: str
