@@ -258,7 +258,8 @@ def test_measures_of_handling_are_those_of_the_mechanics():
 def own_problem(measures: tuple, **changes) -> RideProblem:
     return RideProblem(
         DRIVER.on(FULL), ROAD, speed=SPEED, band=BAND, nodes=NODES, measures=measures,
-        struts={"rear": (2e4, 1500.0)}, bounds={"front.spring": (1.8e4, 2.2e4), "front.damper": (1.2e3, 1.8e3)}, **changes,
+        struts={"rear": (2e4, 1500.0)}, **changes,
+        bounds={"front.spring": (1.8e4, 2.2e4), "front.damper": (1.2e3, 1.8e3)},
     )  # fmt: skip
 
 
