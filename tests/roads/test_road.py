@@ -1,12 +1,22 @@
 """What all roads can do: realisations beside their spectrum and coherence, cross-spectra, own roads."""
 
+import pickle
 from dataclasses import dataclass
 
 import numpy as np
 import pytest
 from scipy import stats
 
-from suspension_ctrl import Constant, Exponential, Iso8608Road, MeasuredRoad, PowerLawRoad, TwoSlopeRoad
+from suspension_ctrl import (
+    Constant,
+    Exponential,
+    Iso8608Road,
+    Isotropic,
+    MeasuredRoad,
+    PowerLawRoad,
+    Tabulated,
+    TwoSlopeRoad,
+)
 from suspension_ctrl.roads.coherence import power_law_coherence
 from suspension_ctrl.roads.road import Road
 
@@ -169,3 +179,33 @@ def test_a_road_is_its_spectrum_and_a_coherence():
     )
     np.testing.assert_allclose(mine.profile(32, 0.5, 1).height, there.profile(32, 0.5, 1).height, rtol=1e-12)
     assert mine.breakpoints(20.0) == ()
+
+
+RECORDS = [
+    PowerLawRoad(roughness=5e-6, exponent=2.5, coherence=Exponential(3.0)),
+    TWO_SLOPES,
+    Iso8608Road("C", level="upper", coherence=Constant(0.5)),
+    MeasuredRoad.from_profile(ROAD.profile(409.6, 0.1, 1, (0.75, -0.75)), source="a realisation"),
+    ROAD.profile(32.0, 0.25, 1, (0.7, -0.7)),
+    Isotropic(2.5),
+    Tabulated((0.1, 0.2), (0.5, 0.25), 1.5),
+]
+
+
+@pytest.mark.parametrize("record", RECORDS, ids=lambda record: type(record).__name__)
+def test_roads_and_their_parts_are_equal_by_value_hashable_picklable_and_shown_in_a_few_lines(record):
+    again = pickle.loads(pickle.dumps(record))
+    assert again == record
+    assert hash(again) == hash(record)
+    lines = repr(record).splitlines()
+    assert 1 <= len(lines) <= 6
+    assert max(map(len, lines)) <= 88
+
+
+def test_a_road_is_shown_with_its_units():
+    assert repr(TWO_SLOPES) == (
+        "TwoSlopeRoad(roughness=2e-05 m^3, reference=0.1 cycle/m, lower_exponent=3,\n"
+        "    upper_exponent=2.25, corner=0.2 cycle/m)"
+    )
+    assert repr(Iso8608Road("C")) == "Iso8608Road(road_class='C')"
+    assert repr(Iso8608Road("C")) != repr(Iso8608Road("C", coherence=Constant(1.0)))

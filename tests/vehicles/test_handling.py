@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from functools import cached_property
 
 import control
 import numpy as np
@@ -9,10 +10,24 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from garage import BENDING, DRIVER, FULL, HALF, PASSENGER, QUARTER, axle_struts, axles, inertias, lengths, masses
-from suspension_ctrl import FullCar, Payload, RollGeometry, Seat
-from suspension_ctrl.vehicles.assembly import GRAVITY
-from suspension_ctrl.vehicles.vehicle import Vehicle
+from garage import (
+    BENDING,
+    DRIVER,
+    FULL,
+    HALF,
+    PASSENGER,
+    QUARTER,
+    ROAD,
+    axle_struts,
+    axles,
+    inertias,
+    lengths,
+    masses,
+)
+from suspension_ctrl import FullCar, Payload, RideProblem, RollGeometry, Seat
+from suspension_ctrl.vehicles.assembly import GRAVITY, Assembly, Link
+from suspension_ctrl.vehicles.handling import check_cornering
+from suspension_ctrl.vehicles.vehicle import AssembledVehicle, Vehicle
 
 GEOMETRY = RollGeometry(roll_arm=0.5, front_roll_centre=0.05, rear_roll_centre=0.12, wheel_centre=0.31)
 bars = st.floats(0, 4e4)
@@ -249,3 +264,52 @@ def test_rejects_bad_geometry(changes, message):
     known = {"roll_arm": 0.5, "front_roll_centre": 0.05, "rear_roll_centre": 0.12, "wheel_centre": 0.31}
     with pytest.raises(ValueError, match="^" + re.escape(message) + "$"):
         RollGeometry(**known | changes)
+
+
+class Renamed(AssembledVehicle):
+    """A full car whose wheels are called otherwise."""
+
+    @cached_property
+    def assembly(self) -> Assembly:
+        def new(name):
+            return name.replace("front", "steered").replace("rear", "driven") if isinstance(name, str) else name
+
+        car = FULL.assembly
+        return replace(
+            car,
+            masses={new(name): mass for name, mass in car.masses.items()},
+            contacts={new(name): position for name, position in car.contacts.items()},
+            tyres=[Link(*map(new, tyre)) for tyre in car.tyres],
+            struts=[Link(*map(new, strut)) for strut in car.struts],
+        )
+
+
+@pytest.mark.parametrize(
+    ("car", "measure", "message"),
+    [
+        (HALF, "roll_damping", "roll_damping must be of a vehicle that rolls, got one with body, front_wheel, "
+         "rear_wheel, pitch"),
+        (QUARTER, "roll_gradient", "roll_gradient must be of a vehicle that rolls, got one with wheel, body"),
+        (Renamed(), "front_load_transfer",
+         "front_load_transfer must be of a vehicle with tyres front_left, front_right, "
+         "rear_left, rear_right on wheels of these names, got tyres steered_left, steered_right, driven_left, "
+         "driven_right"),
+    ],
+)  # fmt: skip
+def test_measures_of_vehicles_that_do_not_have_them_are_one_line(car, measure, message):
+    with pytest.raises(ValueError, match="^" + re.escape(message) + "$"):
+        check_cornering(measure, car.assembly)
+
+
+def test_a_problem_with_wheels_of_other_names_is_refused_at_birth_but_for_roll_damping():
+    bounds = {name: (1e4, 2e4) if name.endswith("spring") else (1e3, 2e3) for name in struts_by_name(FULL)}
+    known = {"vehicle": Renamed(), "road": ROAD, "speed": 20.0, "band": (0.5, 20.0), "bounds": bounds}
+    assert RideProblem(**known, measures=["ACC", "- roll_damping"]).objectives == ("ACC", "- roll_damping")
+    with pytest.raises(
+        ValueError, match=r"^roll_gradient must be of a vehicle with tyres front_left, .*driven_right$"
+    ):
+        RideProblem(**known, measures=["ACC", "roll_gradient"])
+
+
+def struts_by_name(car: Vehicle) -> list[str]:
+    return [parameter.name for parameter in car.parameters if parameter.default is None]

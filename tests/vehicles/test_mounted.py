@@ -1,6 +1,7 @@
-"""Seats and bodies that bend: limits, and equations of motion put together in another way."""
+"""Seats, payload and flexible bodies: limits, Steiner's theorem, and equations of motion written out."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -254,3 +255,40 @@ def test_rejects_bodies_and_vehicles_that_do_not_fit():
     named = Seat(**SEAT, name="bending_1", position=CORNERS[0]).on(FULL)
     with pytest.raises(ValueError, match=r"^vehicle must have nothing called bending_1, got bending_1$"):
         body.on(named)
+
+
+@settings(max_examples=25)
+@given(st.floats(1, 500), st.floats(-1.5, 1.2), st.floats(0.2, 20))
+def test_a_loaded_half_car_is_the_one_with_its_centre_of_gravity_moved(mass, x, f):
+    """By Steiner's theorem: inertia about the common centre of gravity, at m x / (m + M) from the old one."""
+    total = HALF.body_mass + mass
+    moved = mass * x / total
+    inertia = HALF.pitch_inertia + HALF.body_mass * moved**2 + mass * (x - moved) ** 2
+    lengths = {"cg_to_front": HALF.cg_to_front - moved, "cg_to_rear": HALF.cg_to_rear + moved}
+    equal = replace(HALF, body_mass=total, pitch_inertia=inertia, **lengths)
+    loaded, setting = Payload(mass=mass, position=(x, 0.0)).on(HALF), struts_of(HALF)
+    responses = ["pitch_acceleration", "front_suspension_travel", "rear_tyre_load"]
+    found = loaded.closed(setting, responses=[*responses, ("acceleration", 0.7, 0.0)])(2j * np.pi * f)
+    expected = equal.closed(setting, responses=[*responses, ("acceleration", 0.7 - moved, 0.0)])(2j * np.pi * f)
+    np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-12 * np.abs(expected).max())
+
+
+def test_a_payload_loads_the_tyres_by_the_lever_rule():
+    loaded = Payload(mass=100.0, position=(-HALF.cg_to_rear, 0.0)).on(HALF)
+    coefficients = np.array([[17e3, 1500.0, 22e3, 1500.0]])
+    more = loaded.statics.static_loads(coefficients) - HALF.statics.static_loads(coefficients)
+    np.testing.assert_allclose(more, [[0.0, 980.665]], atol=1e-9)
+
+
+def test_on_a_quarter_car_a_payload_is_body_mass():
+    loaded = Payload(mass=75.0).on(QUARTER).closed({"spring": 22e3, "damper": 1500.0})
+    heavier = replace(QUARTER, body_mass=QUARTER.body_mass + 75.0).closed(22e3, 1500.0)
+    np.testing.assert_allclose(loaded(20j), heavier(20j), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("mass", "position"), [(0.0, (0.0, 0.0)), (1.0, (0.0,)), (1.0, (np.nan, 0.0)), (1.0, "ab")]
+)
+def test_rejects_bad_loads(mass, position):
+    with pytest.raises(ValueError, match=r"^(mass|position) must be .*, got "):
+        Payload(mass=mass, position=position)

@@ -1,80 +1,173 @@
-import control
+"""What all vehicles have: settings in every form, one assembly, and records equal by value."""
+
+import pickle
+import re
+from dataclasses import replace
+from functools import cached_property
+
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from suspension_ctrl import QuarterCar
+from garage import BENDING, DAMPED_HALF, DRIVER, FULL, HALF, QUARTER, VEHICLES, struts_of
+from suspension_ctrl import Payload, QuarterCar, RollGeometry, load_vehicle
+from suspension_ctrl.vehicles.vehicle import AssembledVehicle
 
-CAR = {"body_mass": 317.5, "wheel_mass": 45.4, "tyre_stiffness": 192e3}
-
-masses = st.floats(1, 5000)
-stiffnesses = st.floats(1e3, 1e6)
-dampers = st.floats(10, 1e5)
-
-
-def textbook(car: QuarterCar, k: float, c: float) -> control.StateSpace:
-    """Equations (1) and (2) of the paper with states z1, dz1/dt, z2, dz2/dt, written out."""
-    m_b, m_w, k_t = car.body_mass, car.wheel_mass, car.tyre_stiffness
-    body = [k / m_b, c / m_b, -k / m_b, -c / m_b]
-    a = [[0, 1, 0, 0], [-(k_t + k) / m_w, -c / m_w, k / m_w, c / m_w], [0, 0, 0, 1], body]
-    return control.ss(a, [[0], [k_t / m_w], [0], [0]], [body, [-1, 0, 1, 0], [k_t, 0, 0, 0]], [[0], [0], [-k_t]])
-
-
-@given(masses, masses, stiffnesses, stiffnesses, dampers)
-def test_closed_loop_is_the_textbook_model(m_b, m_w, k_t, k, c):
-    car = QuarterCar(body_mass=m_b, wheel_mass=m_w, tyre_stiffness=k_t)
-    closed, expected = car.closed(k, c), textbook(car, k, c)
-    for matrix in "ABCD":
-        np.testing.assert_allclose(getattr(closed, matrix), getattr(expected, matrix), rtol=1e-14)
+PAIRS = {"front": (2e4, 1500.0), "rear": (2.2e4, 1600.0)}
+SAME = [
+    (QUARTER, [((22e3, 1500.0), {}), (((22e3, 1500.0),), {}), (({"spring": 22e3, "damper": 1500.0},), {}),
+               ((), {"spring": 22e3, "damper": 1500.0}), (({"": (22e3, 1500.0)},), {})]),
+    (HALF, [((PAIRS,), {}), ((), PAIRS),
+            (({"front": (2e4, 1500.0), "rear.spring": 2.2e4, "rear.damper": 1600.0},), {}),
+            ((), {"front": np.array([2e4, 1500.0]), "rear": [2.2e4, 1600.0]})]),
+    (DRIVER.on(FULL), [((PAIRS,), {}), ((), PAIRS | {"driver": (12e3, 700.0)}),
+                       ((PAIRS | {"driver.spring": 12e3, "front_antiroll": 0.0},), {})]),
+    (DRIVER.on(QUARTER), [(({"spring": 22e3, "damper": 1500.0},), {}), (((22e3, 1500.0),), {}),
+                          ((), {"spring": 22e3, "damper": 1500.0, "driver": (12e3, 700.0)})]),
+]  # fmt: skip
 
 
-def test_signals_have_names():
-    car = QuarterCar(**CAR)
-    closed = car.closed(spring=22e3, damper=1500.0)
-    assert closed.input_labels == ["road"]
-    assert closed.output_labels == ["body_acceleration", "suspension_travel", "tyre_load"]
-    assert car.plant().input_labels == ["road", "strut"]
-    assert car.plant().output_labels[-2:] == ["deflection", "deflection_rate"]
+@pytest.mark.parametrize(("car", "forms"), SAME)
+def test_a_setting_is_one_mapping_keywords_or_the_pair_of_the_one_strut(car, forms):
+    (arguments, keywords), *others = forms
+    closed = car.closed(*arguments, **keywords)
+    for arguments, keywords in others:
+        np.testing.assert_array_equal(car.closed(*arguments, **keywords).A, closed.A)
 
 
-@given(masses, masses, stiffnesses, stiffnesses, dampers, st.floats(0.01, 100))
-def test_forces_equal_mass_times_acceleration(m_b, m_w, k_t, k, c, f):
-    """At any frequency the strut alone moves the body, and the tyre alone both masses.
-
-    The tolerance is the residual of a backward stable solution: some hundred units of rounding of the largest
-    force that any coefficient of the equations of motion makes with the displacements at hand.
-    """
-    car = QuarterCar(body_mass=m_b, wheel_mass=m_w, tyre_stiffness=k_t)
-    s = 2j * np.pi * f
-    acceleration, travel, tyre_tension = car.closed(k, c)(s)[:, 0]
-    z_w, z_b = 1 + tyre_tension / k_t, acceleration / s**2
-    coefficients = k + k_t + c * abs(s) + (m_b + m_w) * abs(s) ** 2
-    residual = 1e-13 * coefficients * (1 + abs(z_w) + abs(z_b))
-    assert abs(m_b * acceleration + (k + c * s) * travel) < residual
-    assert abs(m_b * acceleration + m_w * s**2 * z_w + tyre_tension) < residual
+def test_responses_are_asked_for_beside_the_setting():
+    names = ["rear_tyre_load", ("acceleration", 0.5, 0.0)]
+    closed = HALF.closed(front=(2e4, 1500.0), rear=(2.2e4, 1600.0), responses=names)
+    assert closed.output_labels == ["rear_tyre_load", "acceleration_at_500_0_mm"]
 
 
-def test_a_vehicle_at_rest_on_a_static_step_stays_undeformed():
-    gain = QuarterCar(**CAR).closed(22e3, 1500.0).dcgain()
-    np.testing.assert_allclose(gain.ravel(), 0, atol=1e-9)
+def test_modes_take_a_setting_in_every_form():
+    for table in (HALF.modes(**PAIRS), HALF.modes(HALF.coefficients(PAIRS))):
+        np.testing.assert_array_equal(table["frequency [Hz]"], HALF.modes(PAIRS)["frequency [Hz]"])
+    assert len(QUARTER.modes((22e3, 1500.0))) == 2
 
 
-@pytest.mark.parametrize("name", ["body_mass", "wheel_mass", "tyre_stiffness"])
-@pytest.mark.parametrize("value", [0.0, -1.0, float("nan"), float("inf"), 10**400, "12", None])
-def test_rejects_impossible_parameters(name, value):
-    with pytest.raises(ValueError, match=rf"^{name} must be finite and > 0 .*got"):
-        QuarterCar(**CAR | {name: value})
+FRONT, REAR = {"front": (2e4, 1500.0)}, {"rear": (2e4, 1500.0)}
+KNOWN = "front.spring, front.damper, rear.spring, rear.damper"
 
 
-@pytest.mark.parametrize("strut", [{"spring": 0.0, "damper": 1.0}, {"spring": 1.0, "damper": -3.0}])
-def test_rejects_impossible_struts(strut):
-    with pytest.raises(ValueError, match=r"^(spring|damper) must be finite and > 0 N"):
-        QuarterCar(**CAR).closed(**strut)
+@pytest.mark.parametrize(
+    ("car", "arguments", "keywords", "message"),
+    [
+        (HALF, (FRONT,), {}, f"setting must have {KNOWN}, got none for rear.spring, rear.damper"),
+        (HALF, (), FRONT, f"setting must have {KNOWN}, got none for rear.spring, rear.damper"),
+        (HALF, (), {}, f"setting must have {KNOWN}, got none for {KNOWN}"),
+        (HALF, (FRONT,), REAR, "setting must be one mapping or keywords, got both and rear"),
+        (HALF, (3.0,), {}, "setting must be a mapping of values by name, got 3.0"),
+        (HALF, ("front",), {}, "setting must be a mapping of values by name, got 'front'"),
+        (HALF, ((1.0, 2.0),), {}, f"setting must be one of {KNOWN}, got 'spring'"),
+        (HALF, (FRONT | {"rear": (2e4,)},), {},
+         "setting must have two numbers, spring and damper, for rear, got (20000.0,)"),
+        (HALF, (FRONT | {"front.damper": 1.0},), {},
+         "setting must have each coefficient once, got front.damper twice"),
+        (HALF, (FRONT | {"rear": (2e4, 0.0)},), {}, "rear.damper must be finite and > 0 N s/m, got 0.0"),
+        (HALF, (FRONT | {"rear": "x"},), {}, f"setting must be one of {KNOWN}, got 'rear'"),
+        (HALF, (FRONT | REAR | {"middle": (1.0, 1.0)},), {},
+         f"setting must be one of {KNOWN}, got 'middle.spring'"),
+        (HALF, (FRONT | REAR | {"front_antiroll": 1e4},), {},
+         f"setting must be one of {KNOWN}, got 'front_antiroll'"),
+        (FULL, (FRONT | REAR | {"front_antiroll": -1.0},), {},
+         "front_antiroll must be finite and >= 0 N m/rad, got -1.0"),
+        (DRIVER.on(FULL), (FRONT | REAR | {"driver.spring": 0.0},), {},
+         "driver.spring must be finite and > 0 N/m, got 0.0"),
+        (QUARTER, (22e3,), {}, "setting must be a mapping of values by name, got 22000.0"),
+        (QUARTER, (22e3, 0.0), {}, "damper must be finite and > 0 N s/m, got 0.0"),
+        (QUARTER, (), {"spring": -1.0, "damper": 1.0}, "spring must be finite and > 0 N/m, got -1.0"),
+        (QUARTER, ({"spring": 1.0},), {"road": 3}, "setting must be one mapping or keywords, got both and road"),
+        (QUARTER, (), {"speed": 3}, "setting must be one of spring, damper, got 'speed'"),
+    ],
+)  # fmt: skip
+def test_rejects_settings_that_do_not_fit(car, arguments, keywords, message):
+    for call in (car.closed, car.modes, car.strut_gains) if len(arguments) < 2 else (car.closed,):
+        with pytest.raises(ValueError, match="^" + re.escape(message) + "$"):
+            call(*arguments, **keywords)
 
 
-def test_parameters_are_frozen_and_keyword_only():
+class Counted(AssembledVehicle):
+    """A half car that counts how often its masses and links are worked out."""
+
+    def __init__(self):
+        self.count = 0
+
+    @cached_property
+    def assembly(self):
+        self.count += 1
+        return HALF.assembly
+
+
+def test_an_assembly_is_worked_out_once():
+    car = Counted()
+    assert (car.struts, car.tyres, car.responses) == (HALF.struts, HALF.tyres, HALF.responses)
+    car.closed(PAIRS)
+    car.modes(PAIRS)
+    car.statics.static_loads(np.array([[2e4, 1.0, 2e4, 1.0]]))
+    assert car.count == 1
+    assert HALF.assembly is HALF.assembly
+    assert HALF.statics is HALF.statics
+
+
+RECORDS = {
+    **VEHICLES,
+    "seat": DRIVER,
+    "payload": Payload(mass=75.0),
+    "flexible body": BENDING,
+    "roll geometry": RollGeometry(roll_arm=0.5, front_roll_centre=0.05, rear_roll_centre=0.1, wheel_centre=0.3),
+    "file": load_vehicle("jian_2022_full"),
+    "assembly": DRIVER.on(BENDING.on(FULL)).assembly,
+    "coefficient": FULL.parameters[-1],
+}
+
+
+@pytest.mark.parametrize("name", RECORDS)
+def test_vehicles_and_their_parts_are_equal_by_value_hashable_picklable_and_shown_in_a_few_lines(name):
+    record = RECORDS[name]
+    again = pickle.loads(pickle.dumps(record))
+    assert again == record
+    assert hash(again) == hash(record)
+    lines = repr(record).splitlines()
+    assert 1 <= len(lines) <= 6
+    assert max(map(len, lines)) <= 88
+
+
+def test_vehicles_of_other_numbers_differ():
+    assert replace(HALF, body_mass=651.0) != HALF
+    assert DAMPED_HALF != HALF
+    assert DRIVER.on(HALF) != replace(DRIVER, name="other").on(HALF)
+
+
+def test_what_is_cached_is_not_pickled():
+    car = DRIVER.on(FULL)
+    before = len(pickle.dumps(car))
+    car.closed(struts_of(car))
+    car.statics.static_loads(np.array([list(car.coefficients(struts_of(car)).values())]))
+    assert len(pickle.dumps(car)) == before < 1500
+
+
+def test_a_vehicle_is_shown_with_its_units():
+    assert repr(QUARTER) == "QuarterCar(body_mass=317.5 kg, wheel_mass=45.4 kg, tyre_stiffness=192000 N/m)"
+    assert repr(DRIVER) == (
+        "Seat(mass=80 kg, spring=12000 N/m, damper=700 N s/m, position=(0.3, 0.4) m,\n    name='driver')"
+    )
+
+
+def test_inputs_are_copied_and_cannot_be_changed():
+    shapes = {(0.0, 0.0): [0.1]}
+    body = replace(BENDING, frequencies=[5.0], damping_ratios=[0.02], shapes=shapes)
+    shapes[0.0, 0.0][0] = 7.0
+    assert dict(body.shapes) == {(0.0, 0.0): (0.1,)}
+    with pytest.raises(TypeError, match="item assignment"):
+        body.shapes[0.0, 0.0] = (7.0,)
+    with pytest.raises(TypeError, match="item assignment"):
+        FULL.assembly.masses["body"] = 7.0
+    with pytest.raises(ValueError, match="read-only"):
+        FULL.parameters[0].gain[0, 0] = 7.0
+    with pytest.raises(ValueError, match="read-only"):
+        FULL.contact_points[0] = 7.0
     with pytest.raises(AttributeError):
-        QuarterCar(**CAR).body_mass = 1.0
+        QUARTER.body_mass = 1.0
     with pytest.raises(TypeError):
         QuarterCar(317.5, 45.4, 192e3)

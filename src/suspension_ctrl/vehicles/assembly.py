@@ -133,8 +133,8 @@ class Assembly(Record):
             object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
         for name in ("tyres", "struts", "parameters", "supports", "payload"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
-        if list(self.contacts) != [tyre.name for tyre in self.tyres]:
-            raise ValueError(f"contacts must be those of the tyres, {list(self.tyres)}, got {list(self.contacts)}")
+        if (tyres := [tyre.name for tyre in self.tyres]) != list(self.contacts):
+            raise ValueError(f"contacts must be those of the tyres, {tyres}, got {list(self.contacts)}")
         check_strut_names("struts", (strut.name for strut in self.struts))
         for end in (*(end for strut in self.struts for end in strut[1:3]), *(place for _, place in self.payload)):
             if isinstance(end, tuple):

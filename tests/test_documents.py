@@ -1,0 +1,108 @@
+"""TOML tables: values by keys with units, and one line about a key that is wrong."""
+
+from dataclasses import dataclass, field
+
+import pytest
+
+from suspension_ctrl.documents import Table, keyed, made, naming, read_toml, under
+from suspension_ctrl.quantities import check_numbers, unit
+
+
+@dataclass(frozen=True)
+class Wheel:
+    mass: float = field(metadata=unit("kg"))
+    place: tuple[float, float] = field(metadata=unit("m"))
+    name: str = field(metadata={"key": "called"})
+    camber: float = field(default=0.0, metadata=unit("rad"))
+    slip: float | None = None
+    spokes: tuple[float, ...] = ()
+    other: object = None
+
+    def __post_init__(self) -> None:
+        check_numbers(self)
+
+
+GOOD = {"mass_kg": 20, "place_m": [1, 0.5], "called": "left"}
+
+
+def test_a_dataclass_is_made_by_the_names_and_units_of_its_fields():
+    table = Table("wheel.", GOOD | {"camber_rad": 0.1, "slip": 2, "spokes": [1, 2], "beside": 3})
+    wheel = made(table, Wheel, beside=["beside"], other="given")
+    assert wheel == Wheel(20.0, (1.0, 0.5), "left", 0.1, 2.0, (1.0, 2.0), "given")
+    assert made(Table("", GOOD), Wheel) == Wheel(20.0, (1.0, 0.5), "left")
+
+
+NUMBER = "a number from 1e-12 to 1e+12 in size or 0"
+KEYS = "mass_kg, place_m, called, camber_rad, slip, spokes"
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"mass_kg": -1}, "wheel.mass_kg must be finite and > 0 kg, got -1.0"),
+        ({"mass_kg": "1"}, f"wheel.mass_kg must be {NUMBER}, got '1'"),
+        ({"mass_kg": True}, f"wheel.mass_kg must be {NUMBER}, got True"),
+        ({"mass_kg": 1e13}, f"wheel.mass_kg must be {NUMBER}, got 10000000000000.0"),
+        ({"place_m": [1]}, "wheel.place_m must be an array of two numbers, got [1.0]"),
+        ({"place_m": 1}, f"wheel.place_m must be an array, each {NUMBER}, got 1"),
+        ({"place_m": []}, f"wheel.place_m must be an array, each {NUMBER}, got []"),
+        ({"called": " "}, "wheel.called must be a text, got ' '"),
+        ({"camber_rad": -0.1}, "wheel.camber_rad must be finite and >= 0 rad, got -0.1"),
+        ({"mass_t": 1}, "wheel.mass_t must be mass_kg, got 1"),
+        ({"colour": 1}, f"wheel.colour must be one of the keys {KEYS}, got 1"),
+    ],
+)
+def test_a_wrong_key_is_one_line(changes, message):
+    with pytest.raises(ValueError) as error:  # noqa: PT011  # the whole message is compared
+        made(Table("wheel.", GOOD | changes), Wheel)
+    assert str(error.value) == message
+
+
+def test_a_key_that_is_needed_is_missed():
+    with pytest.raises(ValueError, match=f"^called must be given, got none: keys are {KEYS}$"):
+        made(Table("", {"mass_kg": 1, "place_m": [0, 0]}), Wheel)
+
+
+def test_tables_in_tables():
+    table = Table("", {"a": {"b": {"c": 1}, "d": 2}, "e": [{"f": 3}], "on": True})
+    assert table.table("a").name == "a."
+    assert table.table("none").content == {}
+    assert table.table("a").flat().content == {"b.c": 1, "d": 2}
+    assert [one.name for one in table.tables("e")] == ["e[1]."]
+    assert table.tables("none") == []
+    assert table.boolean("on") is True
+    assert Table("x.", {"kind": "b"}).choice("kind", {"a": 1, "b": 2}) == 2
+
+
+@pytest.mark.parametrize(
+    ("read", "message"),
+    [
+        (lambda table: table.table("number"), "x.number must be a table, got 3"),
+        (lambda table: table.tables("number"), "x.number must be an array of tables, got 3"),
+        (lambda table: table.tables("numbers"), "x.numbers[1] must be a table, got 1"),
+        (lambda table: table.boolean("number"), "x.number must be true or false, got 3"),
+        (lambda table: table.choice("number", {"a": 1, "b": 2}), "x.number must be one of a, b, got 3"),
+        (lambda table: table.choice("none", {"a": 1, "b": 2}), "x.none must be one of a, b, got None"),
+    ],
+)
+def test_values_of_another_kind_are_one_line(read, message):
+    with pytest.raises(ValueError) as error:  # noqa: PT011  # the whole message is compared
+        read(Table("x.", {"number": 3, "numbers": [1]}))
+    assert str(error.value) == message
+
+
+def test_errors_name_the_file_and_the_key(tmp_path):
+    path = tmp_path / "a.toml"
+    with pytest.raises(ValueError, match=r"must be > 0 kg$") as error:
+        with naming(path), under("cases[2]"), keyed("seats[1].", {"mass_kg": "mass"}):
+            raise ValueError("mass must be\n> 0 kg")
+    assert str(error.value) == f"{path}: cases[2]: seats[1].mass_kg must be > 0 kg"
+
+
+def test_a_file_is_toml_in_utf_8_with_or_without_a_mark(tmp_path):
+    path = tmp_path / "a.toml"
+    path.write_bytes(b"\xef\xbb\xbfx = 1")
+    assert read_toml(path).content == {"x": 1}
+    path.write_bytes(b"x = ")
+    with pytest.raises(ValueError, match=r"^the file must be TOML in UTF-8, got Invalid value"):
+        read_toml(path)
