@@ -93,7 +93,7 @@ def test_values_of_another_kind_are_one_line(read, message):
 
 def test_errors_name_the_file_and_the_key(tmp_path):
     path = tmp_path / "a.toml"
-    refused = pytest.raises(ValueError, match="> 0 kg$")
+    refused = pytest.raises(ValueError, match=r"> 0 kg$")
     with refused as error, naming(path), under("cases[2]"), keyed("seats[1].", {"mass_kg": "mass"}):
         raise ValueError("mass must be\n> 0 kg")
     assert str(error.value) == f"{path}: cases[2]: seats[1].mass_kg must be > 0 kg"
