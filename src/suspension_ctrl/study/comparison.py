@@ -1,4 +1,4 @@
-"""Algorithms compared on one problem: the runs that are timed, and the studies that judge them over many seeds."""
+"""Algorithms compared on one problem: the timed runs, and the studies over many seeds."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -30,7 +30,7 @@ EQUAL_ITERATIONS, EQUAL_EVALUATIONS = "iterations", "evaluations"
 
 
 def optimiser(algorithm: str, population: int) -> Optimiser:
-    """Return the algorithm called `algorithm`, one of `ALGORITHMS`; ValueError for any other."""
+    """Return the algorithm of this name in `ALGORITHMS`."""
     checks.one_of("algorithms", algorithm, ALGORITHMS)
     return ALGORITHMS[algorithm](population=population)
 
@@ -46,11 +46,10 @@ class Comparison(Record):
         Names in `ALGORITHMS`; the first is the baseline.
     populations, iterations : sequence of int
         The configurations.
-    repeats : int
-        Timed runs of each algorithm at each configuration; repeat r has the seed `seed` + r - 1.
-    seeds : int
-        Runs of each algorithm that are judged, from `seed` on.
+    repeats, seeds : int
+        Timed runs of each algorithm at each configuration, and judged runs at each population.
     seed : int
+        Seed of the first of each; the next run has the next.
     """
 
     problem: Described
@@ -80,10 +79,10 @@ class Comparison(Record):
         }
 
     def timed_runs(self) -> list[PlannedRun]:
-        """Return the runs that are timed, in the order in which they are made, algorithms taking turns.
+        """Return the timed runs in their order, algorithms taking turns.
 
-        An algorithm that spends fewer evaluations than another in as many iterations runs once more with as many,
-        up to a part of an iteration.
+        An algorithm that spends fewer evaluations than another in equal iterations runs once more with equal
+        evaluations, up to a part of an iteration.
         """
         return [
             self._timed(name, population, count, repeat, budget, evaluations)
@@ -117,14 +116,14 @@ class Comparison(Record):
         )
 
     def budgets(self, population: int) -> list[int]:
-        """Return the evaluations at which runs are judged: by N/5 up to 5 N, by N beyond, and all compared."""
+        """Return the evaluations at which runs are judged: steps of N/5 up to 5 N, of N beyond, all compared."""
         spent = {n for count in self.iterations for _, _, n in self._budgets_of(population, count)}
         fine = {population + k * (population // 5) for k in range(21)}
         coarse = set(range(population, max(spent), population))
         return sorted(budget for budget in fine | coarse | spent if budget <= max(spent))
 
     def studies(self, reference: ReferenceFront | None = None) -> dict[int, Study]:
-        """Return by population the study that judges the algorithms over all seeds, against a front if given."""
+        """Return by population the study over all seeds, against a reference front if given."""
         return {
             n: Study(
                 problems={"ride": self.problem},

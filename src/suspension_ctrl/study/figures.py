@@ -10,7 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
-from numpy.typing import NDArray
+
+from ..quantities import Real
 
 LABELS = {
     "relative_hypervolume": "hypervolume / reference [-]",
@@ -28,17 +29,9 @@ STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (1, 1)), (0, (3, 1, 1, 1)))
 def anytime(
     ax: Axes, quality: pd.DataFrame, over: str = "evaluations", value: str = "relative_hypervolume"
 ) -> None:
-    """Draw the median of a value with its interquartile band, a line per algorithm.
+    """Draw the median of an indicator with its interquartile band, a line per algorithm.
 
-    Parameters
-    ----------
-    ax : Axes
-    quality : DataFrame
-        Rows of one population and set, from `lenses.with_seconds`.
-    over : {"evaluations", "seconds"}
-        What the horizontal axis shows.
-    value : str
-        An indicator.
+    `quality` holds rows of one population and set, from `lenses.with_seconds`; `over` is evaluations or seconds.
     """
     by_algorithm = quality.groupby("algorithm", sort=False)
     for colour, style, (algorithm, part) in zip(COLOURS, STYLES, by_algorithm, strict=False):
@@ -53,10 +46,7 @@ def anytime(
 
 
 def boxes(ax: Axes, runs: pd.DataFrame, value: str) -> None:
-    """Draw a box per algorithm of a value over the runs: median, quartiles, and what lies beyond 1.5 ranges.
-
-    Values that are not finite, those of runs without a feasible design, are left out.
-    """
+    """Draw a box plot per algorithm of a value over the runs; runs without a feasible design are left out."""
     groups = list(runs.groupby("algorithm", sort=False))
     box = ax.boxplot(
         [part[value][np.isfinite(part[value])] for _, part in groups],
@@ -75,20 +65,10 @@ def boxes(ax: Axes, runs: pd.DataFrame, value: str) -> None:
 def attainment_differences(
     ax: Axes, first: pd.DataFrame, second: pd.DataFrame, objectives: tuple[str, str]
 ) -> Any:
-    """Draw where the runs of one algorithm attain more often than those of another, in two objectives.
+    """Draw the share of runs of one algorithm that attain a place less that of another, in two objectives.
 
-    Parameters
-    ----------
-    ax : Axes
-    first, second : DataFrame
-        Final populations of both, feasible designs, with a column ``seed``; seeds that both have are shown.
-    objectives : (str, str)
-        The columns for the horizontal and the vertical axis.
-
-    Returns
-    -------
-    Colormappable
-        For a colour bar: share of the runs of the first that attain a point, less that of the second.
+    `first` and `second` hold the feasible designs of final populations with a column ``seed``; seeds of both are
+    shown. Returned are the coloured patches, for a colour bar.
 
     References
     ----------
@@ -112,8 +92,8 @@ def attainment_differences(
     return patches
 
 
-def _fronts(populations: pd.DataFrame, seeds: list[int], objectives: tuple[str, str]) -> NDArray[np.float64]:
-    """Objectives and number of the run, from 1, of what is not dominated within its run in these two alone."""
+def _fronts(populations: pd.DataFrame, seeds: list[int], objectives: tuple[str, str]) -> Real:
+    """Non-dominated pairs of objectives of each run, and its number from 1, (n, 3)."""
     fronts = []
     for run, seed in enumerate(seeds, start=1):
         points = populations.loc[populations.seed == seed, list(objectives)].to_numpy(dtype=float)
@@ -123,7 +103,7 @@ def _fronts(populations: pd.DataFrame, seeds: list[int], objectives: tuple[str, 
 
 
 def panels(count: int, columns: int = 3, width: float = 4.2, height: float = 3.4) -> tuple[Figure, list[Axes]]:
-    """Return a figure with `count` panels, `columns` in a row, and their Axes."""
+    """Return a figure with `count` panels, `columns` in a row, and its Axes."""
     rows = -(-count // columns)
     figure = Figure(figsize=(width * columns, height * rows + 0.5), layout="constrained")
     axes = list(figure.subplots(rows, columns, squeeze=False).flat)
@@ -135,16 +115,9 @@ def panels(count: int, columns: int = 3, width: float = 4.2, height: float = 3.4
 def final_populations(
     populations: pd.DataFrame, across: str = "SWS [m]", up: Sequence[str] = ("ACC [m/s^2]", "DTL [N]")
 ) -> Figure:
-    """Draw Figure 5: the final populations by their objectives, a panel per configuration.
+    """Draw Figure 5: populations of `timing.final_populations` by their objectives, a panel per configuration.
 
-    Parameters
-    ----------
-    populations : DataFrame
-        From `experiments.final_populations`.
-    across : str
-        Column of the objective on the horizontal axis.
-    up : sequence of str
-        Columns of the others, one above another.
+    `across` is the column on the horizontal axis, `up` those on vertical axes, one above another.
     """
     panels = list(populations.groupby(["population", "iterations"]))
     columns = min(2, len(panels))
@@ -163,7 +136,7 @@ def final_populations(
 
 
 def final_population_panel(ax: Axes, populations: pd.DataFrame, across: str, up: str) -> None:
-    """Draw one objective of the populations of one configuration over another, by one or two algorithms."""
+    """Draw one objective over another for the populations of one or two algorithms."""
     # Rings first, then small marks over them, so that neither population hides the other.
     marks: list[dict[str, Any]] = [
         {"marker": "o", "s": 22, "facecolors": "none", "linewidths": 0.5},
@@ -180,7 +153,7 @@ def final_population_panel(ax: Axes, populations: pd.DataFrame, across: str, up:
 
 
 def _shown(header: str) -> tuple[str, float]:
-    """Return what a column's header is as the label of an axis, and what its values are multiplied with."""
+    """Return the label of an axis by the header of a column, and the factor of its values."""
     if header.endswith("[N]"):
         return header.replace("[N]", "[kN]"), 1e-3
     return header.replace("^2", "²"), 1.0

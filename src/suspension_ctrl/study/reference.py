@@ -25,42 +25,18 @@ _CHUNK = 500_000  # designs at a time
 
 
 class Refined(NamedTuple):
-    """A reference front and the grid it was made from.
-
-    Parameters
-    ----------
-    front : ReferenceFront
-    points : int
-        Values per variable of the finest grid.
-    change : float
-        Relative change of the hypervolume from half as many values.
-    second : float
-        Relative difference from the hypervolume of a second grid, with a factor sqrt(2) fewer values, which
-        shares only the corners with the first.
-    """
+    """A reference front and the grid it was made from."""
 
     front: ReferenceFront
-    points: int
-    change: float
-    second: float
+    points: int  # per variable
+    change: float  # of the hypervolume from half as many points, relative
+    second: float  # the same from a second grid, of sqrt(2) fewer points: it shares the corners alone
 
 
 def refined(problem: Minimisable, tolerance: float = TOLERANCE, most: int = MOST) -> Refined:
-    """Return the front of a grid fine enough that neither half as many values nor a second grid changes it.
+    """Return the front of a grid that neither half as many points nor a second grid changes.
 
-    Parameters
-    ----------
-    problem : Problem or RideProblem
-        The problem, of few variables.
-    tolerance : float
-        Largest relative change of the hypervolume.
-    most : int
-        Designs of the finest grid.
-
-    Raises
-    ------
-    ValueError
-        If that would take more designs, also where none of them is feasible.
+    ValueError if that takes more than `most` designs: it is for problems of few variables.
     """
     checks.positive("tolerance", tolerance)
     variables = len(problem.lower)
@@ -103,13 +79,7 @@ def _best(objectives: Real) -> Real:
 
 
 def best_known(found: Sequence[Real]) -> ReferenceFront:
-    """Return the front of the best of several sets of feasible objectives (n, m).
-
-    Raises
-    ------
-    ValueError
-        If all sets are empty, or the best designs are all alike in an objective, so that nothing scales it.
-    """
+    """Return the front of the best of several sets of feasible objectives (n, m)."""
     merged = np.concatenate(found)
     if len(merged) == 0:
         raise ValueError("constraints must leave a feasible design, got none in any run")
@@ -127,7 +97,7 @@ def digest(front: ReferenceFront) -> str:
 
 
 def kept(path: Path, problem: Minimisable, tolerance: float = TOLERANCE) -> Refined:
-    """Return `refined` from a file, written first if it is absent, spoilt or of another `key`."""
+    """Return `refined` from a file, which is written first if it is absent, spoilt or of another `key`."""
     wanted = key(problem, tolerance)
     with suppress(OSError, ValueError, KeyError, EOFError, BadZipFile):
         return _read(path, wanted)

@@ -16,18 +16,10 @@ VIOLATION = "violation"
 
 
 class StoredRun(NamedTuple):
-    """The tables of a finished run.
+    """The tables of a finished run."""
 
-    Parameters
-    ----------
-    course : DataFrame
-        A row per iteration, or per budget and set judged.
-    final : DataFrame
-        A row per individual of its final population, with a column `VIOLATION` where there are constraints.
-    """
-
-    course: "pd.DataFrame"
-    final: "pd.DataFrame"
+    course: "pd.DataFrame"  # a row per iteration, or per budget and set judged
+    final: "pd.DataFrame"  # a row per design of its final population; `VIOLATION` where there are constraints
 
 
 class FolderStore(MutableMapping[str, StoredRun]):

@@ -33,26 +33,13 @@ INDICATORS = ("relative_hypervolume", "igd_plus", "epsilon", "spread")
 
 
 class PlannedRun(NamedTuple):
-    """One run of a study or of a timed comparison.
+    """One run of a study or of a timed comparison."""
 
-    Parameters
-    ----------
-    name : str
-        Its name, fit for a file.
-    optimiser : Optimiser
-        The algorithm with its settings.
-    seed : int
-    evaluations : int
-        Designs it may evaluate.
-    key : dict
-        Values of the columns that identify it in a table, ``algorithm`` and ``population`` among them.
-    """
-
-    name: str
+    name: str  # fit for a file
     optimiser: Optimiser
     seed: int
-    evaluations: int
-    key: dict[str, Any]
+    evaluations: int  # at most
+    key: dict[str, Any]  # columns that identify it in a table, algorithm and population among them
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -130,10 +117,9 @@ class Study(Record):
     def carry_out(
         self, store: MutableMapping[str, StoredRun], client: "Client | None" = None
     ) -> Iterator[tuple[PlannedRun, str]]:
-        """Make the runs that `store` does not hold, put each in it when done, and hand it out with its error.
+        """Make the runs that `store` does not hold, store each when done, and yield it with its error or ``""``.
 
-        The error is empty where there was none. With a client the runs come in whatever order they end; their
-        results do not depend on it.
+        With a client the runs come in the order in which they end; their results do not depend on it.
         """
         missing = {run.name: run for run in self.runs() if run.name not in store}
         work: dict[str, tuple[Any, ...]] = {}
@@ -151,13 +137,7 @@ class Study(Record):
             yield missing[name], error
 
     def reference(self, problem: str) -> ReferenceFront:
-        """Return the front that measures the runs on a problem.
-
-        Raises
-        ------
-        ValueError
-            If it is to be made of the first seed's runs and none of them has found a feasible design.
-        """
+        """Return the front that measures the runs on a problem, made of the first seed's runs if none is given."""
         if problem in self.references:
             return self.references[problem]
         seen = [

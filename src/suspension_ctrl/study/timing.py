@@ -47,11 +47,7 @@ def carry_out(comparison: Comparison, store: MutableMapping[str, StoredRun]) -> 
 
 
 def population(problem: Described, run: Run, size: int) -> pd.DataFrame:
-    """Return the final designs of a run with their objectives, units in the column names.
-
-    Where the problem has constraints, a last column ``violation`` holds the total violations.
-    Of a sample, which keeps all it has found, `size` designs are taken, spread evenly over its front.
-    """
+    """Return `size` final designs of a run, spread evenly if it has more, with objectives and any violation."""
     names = column_headers([*problem.variables, *problem.objectives], problem.units)
     kept = evenly_spread(run.objectives, size)
     table = pd.DataFrame(np.hstack([run.designs[kept], run.objectives[kept]]), columns=names)
@@ -75,11 +71,9 @@ def objectives_of(problem: Described, final: pd.DataFrame) -> Real:
 
 
 def tidy(comparison: Comparison, store: Mapping[str, StoredRun], reference: ReferenceFront) -> pd.DataFrame:
-    """Return one row per timed run.
+    """Return one row per timed run: its key, evaluations, seconds, hypervolume and igd_plus.
 
-    Columns: algorithm, population, iterations, budget, repeat, seed, evaluations, seconds, cpu_seconds,
-    ``<phase>_seconds`` for each phase of its algorithm (see `Run`), hypervolume and igd_plus of the feasible
-    designs of its final population.
+    The seconds are those of `Run.history`, the indicators those of the feasible designs of its final population.
     """
     return pd.DataFrame(
         [

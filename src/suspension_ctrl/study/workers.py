@@ -21,7 +21,7 @@ T = TypeVar("T")
 
 @contextmanager
 def local_cluster(jobs: int) -> Iterator["Client"]:
-    """Start a cluster of `jobs` processes of one thread each on this machine, reachable from it alone."""
+    """Start `jobs` processes of one thread each on this machine, reachable from it alone."""
     checks.at_least("jobs", jobs, 1)
     with installed("study"):
         from distributed import Client, LocalCluster  # over a second: only where it is used
