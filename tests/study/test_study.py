@@ -1,5 +1,6 @@
 """Studies: a tidy table of every run, judged by what was seen, whoever makes the runs and in whatever order."""
 
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -155,6 +156,23 @@ def test_nothing_is_judged_twice_by_name(small):
     assert len(set(names)) == len(names) == 8
     assert names[0] == "zdt1_nsga2_n20_s3"
     assert small.runs()[0].key == {"problem": "zdt1", "algorithm": "nsga2", "population": 20, "seed": 3}
+
+
+def test_a_study_is_compared_hashed_pickled_and_shown(small, table1_problem):
+    """Also with its reference front, whose arrays are equal but others."""
+    fronts = {"ride": ReferenceFront.of(ZDT1_FRONT.objectives.copy())}
+    study = replace(small, problems={"ride": table1_problem}, references=fronts)
+    same = replace(study, references={"ride": ZDT1_FRONT})
+    assert study == same
+    assert hash(study) == hash(same)
+    assert study != replace(study, seeds=[3, 5])
+    assert pickle.loads(pickle.dumps(study)).references == study.references
+    assert repr(study) == (
+        "Study(problems=['ride'], algorithms=['nsga2', 'sobol'], seeds=2 from 3 to 4, budgets=2\n"
+        "    from 40 to 205, references=['ride'])"
+    )
+    with pytest.raises(ValueError, match="read-only"):
+        fronts["ride"].objectives[0, 0] = 1
 
 
 def test_any_name_makes_a_file(small):

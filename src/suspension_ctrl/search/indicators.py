@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
 
+from ..quantities import Record, frozen_array
 from .decomposition import farthest_first
 
 
@@ -33,8 +34,8 @@ def evenly_spread(objectives: NDArray[np.float64], size: int) -> NDArray[np.int6
     return np.sort(farthest_first(objectives / np.where(span > 0, span, 1.0), ends, size))
 
 
-@dataclass(frozen=True)
-class ReferenceFront:
+@dataclass(frozen=True, eq=False, repr=False)
+class ReferenceFront(Record):
     """A front to measure others by; its ideal point becomes 0 and its nadir 1 in every objective.
 
     An empty set, as of a search that found no feasible design, has hypervolume 0 and is infinitely far in IGD+ and
@@ -61,6 +62,10 @@ class ReferenceFront:
 
     SAMPLE = 2000
     """Points of a fine front to which distances are taken."""
+
+    def __post_init__(self) -> None:
+        for name in ("objectives", "ideal", "nadir"):
+            object.__setattr__(self, name, frozen_array(getattr(self, name)))
 
     @classmethod
     def of(cls, objectives: NDArray[np.float64]) -> "ReferenceFront":

@@ -32,6 +32,11 @@ Of each the feasible designs; a set may be empty.
 INDICATORS = ("relative_hypervolume", "igd_plus", "epsilon", "spread")
 
 
+def span(numbers: Sequence[int]) -> str:
+    """Return numbers in short, as in ``31 from 0 to 30``."""
+    return f"{len(numbers)} from {min(numbers)} to {max(numbers)}"
+
+
 class PlannedRun(NamedTuple):
     """One run of a study or of a timed comparison."""
 
@@ -67,11 +72,13 @@ class Study(Record):
         of a reference is not one of a problem.
     """
 
-    problems: Mapping[str, Minimisable]
-    algorithms: Mapping[str, Optimiser]
-    seeds: Sequence[int]
-    budgets: Sequence[int]
-    references: Mapping[str, ReferenceFront] = field(default_factory=lambda: FrozenMapping({}))
+    problems: Mapping[str, Minimisable] = field(metadata={"show": list})
+    algorithms: Mapping[str, Optimiser] = field(metadata={"show": list})
+    seeds: Sequence[int] = field(metadata={"show": span})
+    budgets: Sequence[int] = field(metadata={"show": span})
+    references: Mapping[str, ReferenceFront] = field(
+        default_factory=lambda: FrozenMapping({}), metadata={"show": list}
+    )
 
     def __post_init__(self) -> None:
         for name in ("problems", "algorithms", "references"):
