@@ -82,7 +82,7 @@ KNOWN = "front.spring, front.damper, rear.spring, rear.damper"
     ],
 )  # fmt: skip
 def test_rejects_settings_that_do_not_fit(car, arguments, keywords, message):
-    for call in (car.closed, car.modes, car.strut_gains) if len(arguments) < 2 else (car.closed,):
+    for call in (car.closed, car.modes, car.coefficients) if len(arguments) < 2 else (car.closed,):
         with pytest.raises(ValueError, match="^" + re.escape(message) + "$"):
             call(*arguments, **keywords)
 

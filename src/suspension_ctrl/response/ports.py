@@ -6,12 +6,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..quantities import Complex, Real
-from ..vehicles.assembly import ResponseName, StrutParameter
-from ..vehicles.feedback import around
+from ..vehicles.assembly import ResponseName
+from ..vehicles.feedback import ORDERS, around, gains_by_order
 from ..vehicles.vehicle import Vehicle
-
-ORDERS = 3
-"""Orders of the derivative of a deflection in a tension: springs 0, dampers 1, inerters and masses 2."""
 
 
 class Ports(NamedTuple):
@@ -39,35 +36,25 @@ class Ports(NamedTuple):
     ) -> "Ports":
         """Take it at `f` (n,) [Hz], ascending, around struts with the coefficients `values`, if given.
 
-        Springs and dampers are closed in state space: a body on springs does not drift away at low frequency,
-        which would cost digits. A response may be asked for more than once.
+        They are closed in state space: a body on springs does not drift away at low frequency, which would cost
+        digits. A response may be asked for more than once.
         """
         omega = 2 * np.pi * f
         q, r = len(vehicle.struts), len(vehicle.contact_points)
         distinct = list(dict.fromkeys(responses))
-        gains = gains_by_order(vehicle.parameters, values or {}, q)
-        plant = around(vehicle.plant(distinct), np.hstack([gains[0], gains[1]]))
+        plant = around(vehicle.plant(distinct), gains_by_order(vehicle.parameters, values or {}, q))
         h = np.moveaxis(plant.frequency_response(omega, squeeze=False).frdata, 2, 0)
         h = h[:, [*map(distinct.index, responses), *range(len(distinct), len(distinct) + q)]]
         roads, struts = h[:, :, :r], h[:, :, -q:]
         if h.shape[2] > r + q:  # damped tyres follow the road's rate too
             roads = roads + 1j * omega[:, None, None] * h[:, :, r : 2 * r]
-        open_ = cls(np.concatenate([roads, struts], axis=2), len(responses), r)
-        return open_.around(-(omega[:, None, None] ** 2) * gains[2]) if gains[2].any() else open_
+        return cls(np.concatenate([roads, struts], axis=2), len(responses), r)
 
     def around(self, stiffness: Complex) -> "Ports":
         """Return the ports around struts of this dynamic stiffness D (n, q, q): h + h_2 (1 - D h_22)^-1 D h_1."""
         h, m, r = self
         loop = np.eye(stiffness.shape[1]) - stiffness @ h[:, m:, r:]
         return self._replace(h=h + h[:, :, r:] @ np.linalg.solve(loop, stiffness @ h[:, m:]))
-
-
-def gains_by_order(parameters: Sequence[StrutParameter], values: Mapping[str, float], q: int) -> Real:
-    """Return tensions by deflections and their first and second derivatives (3, q, q); none for other names."""
-    gains = np.zeros((ORDERS, q, q))
-    for parameter in parameters:
-        gains[parameter.order] += values.get(parameter.name, 0.0) * parameter.gain
-    return gains
 
 
 def dynamic_stiffness(gains: Real, omega: Real) -> Complex:

@@ -8,11 +8,12 @@ import numpy as np
 from numba import literal_unroll, njit
 
 from ..quantities import Real
+from ..vehicles.feedback import gains_by_order
 from ..vehicles.vehicle import assembled
 from .load_case import LoadCase
 from .mean_squares import Case, case_of
 from .measures import CaseMeasure, Designs, Term
-from .ports import Ports, dynamic_stiffness, gains_by_order
+from .ports import Ports, dynamic_stiffness
 
 RESOLVED = 1e-6
 """Largest relative change of a root mean square that twice the nodes may make."""

@@ -192,7 +192,8 @@ class Assembly(Record):
         """Return the elongation of links by unit of each coordinate (l, n) and by metre of each road (l, r)."""
         by_coordinate = [self.shape(link.upper) - self.shape(link.lower) for link in links]
         by_road = [[-float(link.lower == road) for road in self.roads] for link in links]
-        return np.reshape(by_coordinate, (len(links), -1)), np.reshape(by_road, (len(links), -1))
+        n, r = len(self.coordinates), len(self.roads)
+        return np.reshape(by_coordinate, (len(links), n)), np.reshape(by_road, (len(links), r))
 
     def plant(self, responses: Sequence[ResponseName]) -> control.StateSpace:
         """Return the vehicle without its struts; `Vehicle.plant` names the inputs and outputs.

@@ -1,6 +1,6 @@
-"""Struts as feedback: a plant with a static gain from deflections and their rates to tensions."""
+"""Struts as feedback: a plant with gains from deflections and their derivatives to tensions."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import Any, TypeAlias
 
@@ -8,6 +8,10 @@ import control
 import numpy as np
 
 from ..quantities import Complex, Real
+from .assembly import StrutParameter
+
+ORDERS = 3
+"""Orders of the derivative of a deflection in a tension: springs 0, dampers 1, inerters and masses 2."""
 
 System: TypeAlias = control.StateSpace | control.FrequencyResponseData
 
@@ -39,20 +43,33 @@ def check_measured(omega: Real, lines: Real) -> None:
         )
 
 
-def around(plant: System, gain: Real) -> System:
-    """Return the plant with a static `gain` (q, 2 q) from its last outputs to its last inputs, which all stay.
+def gains_by_order(parameters: Iterable[StrutParameter], values: Mapping[str, float], q: int) -> Real:
+    """Return tensions by deflections and their first and second derivatives (3, q, q); none for other names."""
+    gains = np.zeros((ORDERS, q, q))
+    for parameter in parameters:
+        gains[parameter.order] += values.get(parameter.name, 0.0) * parameter.gain
+    return gains
 
-    `control.StateSpace.lft` is the same but for its check, which refuses gains above some 1e7.
+
+def around(plant: System, gains: Real) -> System:
+    """Return the plant with the struts of these gains (3, q, q) from its last outputs to its last inputs.
+
+    All inputs and outputs stay. `control.StateSpace.lft` is the same but for its check, which refuses gains above
+    some 1e7, and for second derivatives.
     """
-    q, names = len(gain), {"inputs": plant.input_labels, "outputs": plant.output_labels}
+    q, names = gains.shape[1], {"inputs": plant.input_labels, "outputs": plant.output_labels}
     if isinstance(plant, control.StateSpace):
         b, c, d, fed = plant.B[:, -q:], plant.C[-2 * q :], plant.D[:, -q:], plant.D[-2 * q :]
+        if gains[2].any():
+            c, fed = np.vstack([c, c[-q:] @ plant.A]), np.vstack([fed, c[-q:] @ plant.B])
+        gain = np.hstack([*gains[: len(c) // q]])
         k = np.linalg.solve(np.eye(q) - gain @ fed[:, -q:], gain)
         matrices = plant.A + b @ k @ c, plant.B + b @ k @ fed, plant.C + d @ k @ c, plant.D + d @ k @ fed
         return control.ss(*matrices, states=plant.state_labels, **names)
     h = np.moveaxis(plant.frdata, 2, 0)
-    loop = np.eye(q) - gain @ h[:, -2 * q :, -q:]
-    closed = h + h[:, :, -q:] @ np.linalg.solve(loop, gain @ h[:, -2 * q :])
+    stiffness = np.tensordot((1j * plant.omega[:, None]) ** np.arange(ORDERS), gains, 1)
+    fed = stiffness @ h[:, -2 * q : -q]
+    closed = h + h[:, :, -q:] @ np.linalg.solve(np.eye(q) - fed[:, :, -q:], fed)
     return MeasuredResponse(np.moveaxis(closed, 0, 2), plant.omega, **names)
 
 

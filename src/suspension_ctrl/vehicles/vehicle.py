@@ -14,7 +14,7 @@ import numpy as np
 from .. import checks
 from ..quantities import Real, frozen_array
 from .assembly import Assembly, Position, Response, ResponseName, StrutParameter
-from .feedback import System, around, selected
+from .feedback import System, around, gains_by_order, selected
 from .handling import Mechanics
 from .modes import modes_of
 
@@ -114,17 +114,10 @@ class Vehicle(ABC):
         ValueError
             If a coefficient is unknown, missing or out of range, or a response is unknown.
         """
-        closed = around(self.plant(responses), np.hstack(self.strut_gains(setting, **struts)))
         q = len(self.struts)
+        gains = gains_by_order(self.parameters, self.coefficients(setting, **struts), q)
+        closed = around(self.plant(responses), gains)
         return selected(closed, closed.output_labels[: -2 * q], closed.input_labels[:-q], "vehicle")
-
-    def strut_gains(self, setting: Setting | Pair | None = None, /, **struts: Any) -> tuple[Real, Real]:
-        """Return tensions of the struts by their deflections and by the rates of these, (q, q) each."""
-        values = self.coefficients(setting, **struts)
-        gains = np.zeros((2, len(self.struts), len(self.struts)))
-        for parameter in self.parameters:
-            gains[parameter.order] += values[parameter.name] * parameter.gain
-        return gains[0], gains[1]
 
     def coefficients(self, setting: Setting | Pair | None = None, /, **struts: Any) -> dict[str, float]:
         """Return every coefficient by its name, defaults included; arguments and errors as of `closed`."""
