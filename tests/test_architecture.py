@@ -50,7 +50,6 @@ UNTESTED = {
     "commands/reports.py",
     "commands/terminal.py",
     "commands/weighting.py",
-    "paper/tables.py",
     "response/figures.py",
     "response/many_struts.py",
     "response/one_strut.py",

@@ -2,13 +2,11 @@ import subprocess
 import sys
 
 import numpy as np
-import pandas as pd
 import pytest
 
 from functions import srn
 from suspension_ctrl import InfeasibleWarning, Problem
 from suspension_ctrl.paper import experiment as paper
-from suspension_ctrl.paper import tables
 from suspension_ctrl.search.indicators import ReferenceFront
 from suspension_ctrl.study import timing as experiments
 from suspension_ctrl.study.comparison import Comparison
@@ -81,62 +79,6 @@ def test_clock_is_the_median_of_the_longest_runs(comparison, plan, store):
     assert len(longest) == 2
     times = [course[course.evaluations == 90].seconds.item() for course in longest]
     assert clock.seconds["moead-dra", 30, 90] == np.median(times)
-
-
-def test_tables_2_and_3_put_published_beside_measured(runs):
-    published = paper.published_seconds().replace(
-        {"population": {500: 20, 1000: 30}, "iterations": {10: 2, 20: 4}}
-    )
-    table2 = tables.seconds_by_repeat(runs, published, "nsga2")
-    assert len(table2) == 8
-    row = table2[(table2.population == 30) & (table2.iterations == 4) & (table2.repeat == 2)].iloc[0]
-    assert row.published_seconds == 549.3
-    assert row.microseconds_per_evaluation == pytest.approx(1e6 * row.seconds / 150)
-    printed = tables.as_printed(table2)
-    assert printed["repeat"].tolist() == ["1", "2", "mean", "evaluations", "µs per evaluation"]
-    assert printed["N=30, 4 iterations"][1].startswith("549.3 / 0.")
-    assert tables.seconds_by_repeat(runs, paper.published_seconds(), "moead-dra").published_seconds.isna().all()
-
-
-def made_up_runs(rows: list[tuple]) -> pd.DataFrame:
-    columns = ("algorithm", "budget", "repeat", "evaluations", "seconds", "hypervolume")
-    common = {"population": 500, "iterations": 10, "igd_plus": 0.1}
-    return pd.DataFrame([common | dict(zip(columns, row, strict=True)) for row in rows])
-
-
-def test_table_4_compares_with_the_first_algorithm():
-    """By hand, two repeats each: mean seconds 3 / 1.5 at equal iterations, 3 / 6 at equal evaluations."""
-    runs = made_up_runs(
-        [
-            ("nsga2", "iterations", 1, 5500, 2.0, 0.9), ("nsga2", "iterations", 2, 5500, 4.0, 0.8),
-            ("moead-dra", "iterations", 1, 1500, 1.0, 0.7), ("moead-dra", "iterations", 2, 1500, 2.0, 0.7),
-            ("moead-dra", "evaluations", 1, 5500, 5.0, 0.7), ("moead-dra", "evaluations", 2, 5500, 7.0, 0.7),
-        ]
-    )  # fmt: skip
-    table = tables.comparison(runs, paper.published_seconds()).set_index(["algorithm", "budget"])
-    assert len(table) == 4  # NSGA-II stands in both budgets, as it spends the most
-    assert table.ratio_percent["nsga2", "iterations"] == table.ratio_percent["nsga2", "evaluations"] == 100
-    assert table.ratio_percent["moead-dra", "iterations"] == pytest.approx(200)
-    assert table.ratio_percent["moead-dra", "evaluations"] == pytest.approx(50)
-    assert table.published_ratio_percent["moead-dra", "iterations"] == pytest.approx(239, rel=2e-3)
-    assert np.isnan(table.published_ratio_percent["moead-dra", "evaluations"])
-    assert table.microseconds_per_evaluation["moead-dra", "iterations"] == pytest.approx(1e3)
-    assert table.hypervolume["nsga2", "iterations"] == pytest.approx(0.85)
-
-
-def test_table_4_with_a_baseline_that_spends_less():
-    """NSGA-II's only run stands against both of the baseline's: 1 / 2 and 4 / 2 seconds."""
-    runs = made_up_runs(
-        [
-            ("moead-dra", "iterations", 1, 1500, 1.0, 0.7),
-            ("nsga2", "iterations", 1, 5500, 2.0, 0.9),
-            ("moead-dra", "evaluations", 1, 5500, 4.0, 0.7),
-        ]
-    )
-    ratio = tables.comparison(runs, paper.published_seconds()).set_index(["algorithm", "budget"]).ratio_percent
-    assert ratio["nsga2", "iterations"] == pytest.approx(50)
-    assert ratio["nsga2", "evaluations"] == pytest.approx(200)
-    assert ratio["moead-dra", "iterations"] == ratio["moead-dra", "evaluations"] == 100
 
 
 FRESH_PROCESS = """

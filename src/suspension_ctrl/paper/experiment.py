@@ -90,16 +90,16 @@ ROAD_HELP = "Road in place of the paper's: class of ISO 8608 (C, C-lower, C-uppe
 def chosen(
     vehicle: str | None, road: str | None, speed: float | None, **settings: Any
 ) -> tuple[RideProblem, Mapping[str, float]]:
-    """Return the paper's problem with another vehicle, road or speed, and the vehicle's own struts by name.
+    """Return the paper's problem with another vehicle, road or speed, and the vehicle's own setting.
 
     Parameters
     ----------
     vehicle, road : str, optional
-        As for `vehicle_files.load_vehicle` and `road_files.load_road`.
+        As for `load_vehicle` and `load_road`.
     speed : float, optional
-        [m/s].
+        Vehicle speed [m/s].
     **settings
-        What else of `RideProblem` is to be other than in the paper.
+        Further parameters of `RideProblem`.
 
     Raises
     ------

@@ -12,17 +12,17 @@ from ..study.comparison import EQUAL_EVALUATIONS, EQUAL_ITERATIONS
 CONFIGURATION = ["population", "iterations"]
 
 
-def seconds_by_repeat(runs: pd.DataFrame, published: pd.DataFrame, family: str) -> pd.DataFrame:
-    """Return Table 2 (`family` ``"nsga2"``) or Table 3 (``"moead-dra"``).
+def seconds_by_repeat(runs: pd.DataFrame, published: pd.DataFrame, algorithm: str) -> pd.DataFrame:
+    """Return Table 2 (`algorithm` ``"nsga2"``) or Table 3 (``"moead-dra"``).
 
     Parameters
     ----------
     runs : DataFrame
-        One row per run, from `experiments.tidy`.
+        A row per run, from `timing.tidy`.
     published : DataFrame
-        From `paper.published_seconds`.
-    family : str
-        The published algorithm; measured ones whose names begin with it belong to the table.
+        From `experiment.published_seconds`.
+    algorithm : str
+        The published algorithm.
 
     Returns
     -------
@@ -30,16 +30,15 @@ def seconds_by_repeat(runs: pd.DataFrame, published: pd.DataFrame, family: str) 
         Columns algorithm, population, iterations, repeat, published_seconds, seconds, evaluations and
         microseconds_per_evaluation.
     """
-    measured = runs[runs.algorithm.str.startswith(family) & (runs.budget == EQUAL_ITERATIONS)]
-    beside = published[published.algorithm == family].drop(columns="algorithm")
-    table = measured.merge(beside, on=[*CONFIGURATION, "repeat"], how="left")
+    measured = runs[(runs.algorithm == algorithm) & (runs.budget == EQUAL_ITERATIONS)]
+    keys = ["algorithm", *CONFIGURATION, "repeat"]
+    table = measured.merge(published, on=keys, how="left")
     table["microseconds_per_evaluation"] = 1e6 * table.seconds / table.evaluations
-    columns = ["published_seconds", "seconds", "evaluations", "microseconds_per_evaluation"]
-    return table[["algorithm", *CONFIGURATION, "repeat", *columns]]
+    return table[[*keys, "published_seconds", "seconds", "evaluations", "microseconds_per_evaluation"]]
 
 
 def as_printed(table: pd.DataFrame) -> pd.DataFrame:
-    """Return Table 2 or 3 of one algorithm as the paper lays it out, a column per configuration.
+    """Return Table 2 or 3 as printed, a column per configuration.
 
     Each cell of a repeat holds "published / measured" seconds; below them stand both means, the evaluations
     per run and the microseconds per evaluation.
@@ -58,7 +57,7 @@ def as_printed(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def comparison(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
-    """Return Table 4, each algorithm against the first one in `runs`, at equal iterations and evaluations.
+    """Return Table 4, each algorithm against the first of the runs, at equal iterations and evaluations.
 
     Parameters
     ----------
@@ -68,21 +67,18 @@ def comparison(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        One row per configuration, budget and algorithm: evaluations, mean of published and of measured
-        seconds, microseconds per evaluation, ``published_ratio_percent`` and ``ratio_percent`` (the
-        baseline's mean seconds over this algorithm's, times 100), median hypervolume and IGD+.
+        A row per configuration, budget and algorithm: evaluations, means of published and measured seconds,
+        microseconds per evaluation, ``published_ratio_percent`` and ``ratio_percent`` (mean seconds of the first
+        over those of this algorithm, times 100), median hypervolume and IGD+.
     """
     keys = [*CONFIGURATION, "algorithm", "budget"]
-    table = (
-        runs.groupby(keys, sort=False)
-        .agg(
-            evaluations=("evaluations", "first"),
-            seconds=("seconds", "mean"),
-            hypervolume=("hypervolume", "median"),
-            igd_plus=("igd_plus", "median"),
-        )
-        .reset_index()
-    )
+    summary = {
+        "evaluations": ("evaluations", "first"),
+        "seconds": ("seconds", "mean"),
+        "hypervolume": ("hypervolume", "median"),
+        "igd_plus": ("igd_plus", "median"),
+    }
+    table = runs.groupby(keys, sort=False).agg(**summary).reset_index()
     table = pd.concat([table, _also_at_equal_evaluations(table)]).sort_values(keys[:2], kind="stable")
     means = published.groupby(["algorithm", *CONFIGURATION]).published_seconds.mean().reset_index()
     table = table.merge(means.assign(budget=EQUAL_ITERATIONS), on=keys, how="left")
@@ -91,23 +87,13 @@ def comparison(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
     baseline = table[table.algorithm == runs.algorithm.iloc[0]].set_index(same)
     for seconds, ratio in (("published_seconds", "published_ratio_percent"), ("seconds", "ratio_percent")):
         table[ratio] = 100 * table.join(baseline[seconds].rename("first"), on=same)["first"] / table[seconds]
-    return table[
-        [
-            *keys,
-            "evaluations",
-            "published_seconds",
-            "seconds",
-            "microseconds_per_evaluation",
-            "published_ratio_percent",
-            "ratio_percent",
-            "hypervolume",
-            "igd_plus",
-        ]
-    ]
+    times = ["published_seconds", "seconds", "microseconds_per_evaluation"]
+    ratios = ["published_ratio_percent", "ratio_percent"]
+    return table[[*keys, "evaluations", *times, *ratios, "hypervolume", "igd_plus"]]
 
 
 def _also_at_equal_evaluations(table: pd.DataFrame) -> pd.DataFrame:
-    """Rows of those that spend the most evaluations anyway, which others match: again, as equal evaluations."""
+    """Repeat, as equal evaluations, the rows of the algorithms whose evaluations the others match."""
     others = table[table.budget == EQUAL_EVALUATIONS]
     matched = table.merge(others[CONFIGURATION].drop_duplicates(), on=CONFIGURATION)
     theirs = pd.MultiIndex.from_frame(others[[*CONFIGURATION, "algorithm"]])
@@ -117,7 +103,7 @@ def _also_at_equal_evaluations(table: pd.DataFrame) -> pd.DataFrame:
 
 def beside_published(
     problem: RideProblem,
-    designs: Mapping[str, tuple[float, float]],
+    designs: Mapping[str, tuple[float, ...]],
     published: Mapping[str, Mapping[str, float]],
 ) -> pd.DataFrame:
     """Return Table 5: objectives of named designs, with published values and the deviation from them.
@@ -125,16 +111,16 @@ def beside_published(
     Parameters
     ----------
     problem : RideProblem
-        What gives the objectives.
+        The problem.
     designs : mapping
         Spring [N/m] and damper [N s/m] by name.
     published : mapping
-        By name of a design, its published objectives by name, in the problem's units.
+        Published objectives by name of a design, then of the objective, in the problem's units.
 
     Returns
     -------
     DataFrame
-        One row per design: weighting, design, variables, objectives, ``published <objective>`` and
+        A row per design: weighting, design, variables, objectives, ``published <objective>`` and
         ``<objective> off [%]``; NaN where nothing is published.
     """
     values = np.array(list(designs.values()), dtype=float)
