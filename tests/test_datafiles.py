@@ -1,7 +1,5 @@
 """Data files are found in a checkout; `test_packaging` finds them in a wheel."""
 
-from pathlib import Path
-
 import pytest
 
 from suspension_ctrl import datafiles
@@ -15,18 +13,6 @@ def test_files_are_found_and_read():
     assert len({len(row) for row in rows}) == 1
 
 
-@pytest.mark.parametrize(("find", "kind"), [(datafiles.path, "file"), (datafiles.stems, "folder")])
-def test_a_name_that_is_none_is_told(find, kind):
-    with pytest.raises(FileNotFoundError, match=f"^data {kind} 'nowhere' is neither in the package nor in the"):
-        find("nowhere")
-
-
-def test_a_file_by_its_name_or_its_path(tmp_path):
-    known = datafiles.path("vehicles/jian_2022_full.toml")
-    assert datafiles.named("vehicle", "vehicles", "jian_2022_full") == known
-    assert datafiles.named("vehicle", "vehicles", Path("jian_2022_full")) == known
-    assert datafiles.named("vehicle", "vehicles", tmp_path / "mine.toml") == tmp_path / "mine.toml"
-    with pytest.raises(
-        ValueError, match=r"^vehicle must be one of .*_half, .* or the path of a .toml file, got 'x'$"
-    ):
-        datafiles.named("vehicle", "vehicles", "x")
+def test_a_file_that_is_none_is_told():
+    with pytest.raises(FileNotFoundError, match=r"^data file 'nowhere' must be in '.*data'$"):
+        datafiles.path("nowhere")

@@ -4,18 +4,16 @@ import csv
 from os import PathLike
 from pathlib import Path
 
-_PACKAGE = Path(__file__).parent
+_FOLDERS = (Path(__file__).parent / "data", Path(__file__).parents[2] / "data")
+DATA = next(filter(Path.is_dir, _FOLDERS))
+"""The top-level folder ``data``: a wheel carries it inside the package, in a checkout it lies beside ``src``."""
 
 
 def path(name: str) -> Path:
-    """Path of the data file `name`, e.g. ``"paper/table1_vehicle.csv"``.
-
-    A wheel carries the top-level folder ``data`` inside the package; in a checkout it lies beside ``src``.
-    """
-    for folder in (_PACKAGE / "data", _PACKAGE.parents[1] / "data"):
-        if (folder / name).is_file():
-            return folder / name
-    raise FileNotFoundError(f"data file {name!r} is neither in the package nor in the checkout")
+    """Return the path of the data file `name`, e.g. ``"paper/table1_vehicle.csv"``."""
+    if not (DATA / name).is_file():
+        raise FileNotFoundError(f"data file {name!r} must be in {str(DATA)!r}")
+    return DATA / name
 
 
 def named(kind: str, folder: str, source: str | PathLike[str]) -> Path:
@@ -32,10 +30,7 @@ def named(kind: str, folder: str, source: str | PathLike[str]) -> Path:
 
 def stems(folder: str) -> list[str]:
     """Return the names, without their endings, of the data files in a folder, in alphabetical order."""
-    for root in (_PACKAGE / "data", _PACKAGE.parents[1] / "data"):
-        if (root / folder).is_dir():
-            return sorted(file.stem for file in (root / folder).iterdir())
-    raise FileNotFoundError(f"data folder {folder!r} is neither in the package nor in the checkout")
+    return sorted(file.stem for file in (DATA / folder).iterdir())
 
 
 def rows(name: str) -> list[dict[str, str]]:

@@ -60,15 +60,7 @@ def read_toml(path: Path) -> "Table":
 
 @dataclass(frozen=True)
 class Table:
-    """A table of a file.
-
-    Parameters
-    ----------
-    name : str
-        What goes before its keys in errors, ``"struts.front."``; empty for the file itself.
-    content : mapping of str to object
-        Values by key.
-    """
+    """A table of a file: in errors its `name` stands before its keys, such as ``"struts.front."``."""
 
     name: str
     content: Mapping[str, object]
@@ -82,12 +74,17 @@ class Table:
             if key not in self.content:
                 raise ValueError(f"{self.name}{key} must be given, got none: keys are {', '.join(allowed)}")
 
+    def value(self, key: str, fits: Callable[[Any], bool], words: str, default: object = None) -> Any:
+        """Return the value of a key; ValueError unless it `fits`, whose meaning is told in `words`."""
+        value = self.content.get(key, default)
+        if not fits(value):
+            raise ValueError(f"{self.name}{key} must be {words}, got {reprlib.repr(value)}")
+        return value
+
     def text(self, key: str) -> str:
         """Return a text that is not empty."""
-        value = self.content.get(key)
-        if not (isinstance(value, str) and value.strip()):
-            raise ValueError(f"{self.name}{key} must be a text, got {reprlib.repr(value)}")
-        return value
+        text: str = self.value(key, lambda value: isinstance(value, str) and bool(value.strip()), "a text")
+        return text
 
     def choice(self, key: str, choices: Mapping[str, T]) -> T:
         """Return the choice that the key names."""
@@ -96,24 +93,15 @@ class Table:
 
     def boolean(self, key: str) -> bool:
         """Return true or false."""
-        value = self.content.get(key)
-        if not isinstance(value, bool):
-            raise ValueError(f"{self.name}{key} must be true or false, got {reprlib.repr(value)}")
-        return value
+        return bool(self.value(key, lambda value: isinstance(value, bool), "true or false"))
 
     def number(self, key: str) -> float:
         """Return a finite number."""
-        value = self.content.get(key)
-        if not _is_number(value):
-            raise ValueError(f"{self.name}{key} must be {_NUMBER}, got {reprlib.repr(value)}")
-        return float(value)  # type: ignore[arg-type]
+        return float(self.value(key, _is_number, _NUMBER))
 
     def numbers(self, key: str) -> tuple[float, ...]:
         """Return an array of finite numbers, one or more."""
-        value = self.content.get(key)
-        if not (isinstance(value, list) and value and all(map(_is_number, value))):
-            raise ValueError(f"{self.name}{key} must be an array, each {_NUMBER}, got {reprlib.repr(value)}")
-        return tuple(map(float, value))
+        return tuple(map(float, self.value(key, _are_numbers, f"an array, each {_NUMBER}")))
 
     def pair(self, key: str) -> tuple[float, float]:
         """Return an array of two finite numbers."""
@@ -124,14 +112,13 @@ class Table:
 
     def table(self, key: str) -> "Table":
         """Return a table in this one, empty if there is none."""
-        return _table(f"{self.name}{key}", self.content.get(key, {}))
+        return Table(f"{self.name}{key}.", self.value(key, lambda value: isinstance(value, dict), "a table", {}))
 
     def tables(self, key: str) -> "list[Table]":
         """Return an array of tables, numbered from 1 in errors, empty if there is none."""
-        value = self.content.get(key, [])
-        if not isinstance(value, list):
-            raise ValueError(f"{self.name}{key} must be an array of tables, got {reprlib.repr(value)}")
-        return [_table(f"{self.name}{key}[{i}]", one) for i, one in enumerate(value, start=1)]
+        array = self.value(key, lambda value: isinstance(value, list), "an array of tables", [])
+        numbered = Table(self.name, {f"{key}[{i}]": one for i, one in enumerate(array, start=1)})
+        return [numbered.table(one) for one in numbered.content]
 
     def flat(self) -> "Table":
         """Return the table with those in it spread out under dotted keys."""
@@ -176,10 +163,8 @@ def _is_number(value: Any) -> bool:
     return real and (value == 0 or _SMALLEST <= abs(value) <= _LARGEST)
 
 
-def _table(name: str, content: object) -> Table:
-    if not isinstance(content, dict):
-        raise ValueError(f"{name} must be a table, got {reprlib.repr(content)}")
-    return Table(f"{name}.", content)
+def _are_numbers(value: Any) -> bool:
+    return isinstance(value, list) and len(value) > 0 and all(map(_is_number, value))
 
 
 def _meant(key: str, allowed: Mapping[str, str]) -> str:
