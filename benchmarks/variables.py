@@ -19,7 +19,7 @@ from typer import Option
 
 from suspension_ctrl import Problem, checks
 from suspension_ctrl import tables as files
-from suspension_ctrl.commands import results, terminal
+from suspension_ctrl.commands import options, results, terminal
 from suspension_ctrl.search.indicators import ReferenceFront
 from suspension_ctrl.study import inference as statistics
 from suspension_ctrl.study import study
@@ -36,15 +36,15 @@ FUNCTIONS: dict[str, tuple[Callable[..., Any], int]] = {
 
 def main(
     variables: Annotated[str, Option(help="Numbers of variables.")] = "2,3,4,5,6,7,8",
-    population: Annotated[int, Option(parser=terminal.whole_number, help="Population size N.")] = 500,
-    evaluations: Annotated[int, Option(parser=terminal.whole_number, help="Evaluations of each run.")] = 5500,
-    seeds: Annotated[int, Option(parser=terminal.whole_number, help="Runs of each algorithm.")] = 11,
-    jobs: Annotated[int | None, Option(parser=terminal.whole_number, help="Processes for the runs.")] = None,
+    population: Annotated[int, Option(parser=options.whole_number, help="Population size N.")] = 500,
+    evaluations: Annotated[int, Option(parser=options.whole_number, help="Evaluations of each run.")] = 5500,
+    seeds: Annotated[int, Option(parser=options.whole_number, help="Runs of each algorithm.")] = 11,
+    jobs: Annotated[int | None, Option(parser=options.whole_number, help="Processes for the runs.")] = None,
     out: Annotated[Path | None, Option(help="Folder for the results, absent or empty.")] = None,
 ) -> None:
     """Compare evolutionary algorithms with samples on problems of 2 to 8 variables."""
     checks.at_least("seeds", seeds, 1)
-    numbers = terminal.whole_numbers("variables", variables)
+    numbers = options.whole_numbers("variables", variables)
     if not all(2 <= d <= 30 for d in numbers):
         raise ValueError(f"variables must be >= 2 and <= 30, got {variables!r}")
     if evaluations < 2 * population:

@@ -1,6 +1,5 @@
 """Fixtures shared by the tests: the paper's problem, and where the checkout is."""
 
-import importlib
 import os
 import subprocess
 import sys
@@ -10,8 +9,7 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
-from suspension_ctrl import RideProblem
-from suspension_ctrl.commands import terminal
+from suspension_ctrl import RideProblem, commands
 from suspension_ctrl.paper import experiment as paper
 
 Script = Callable[..., subprocess.CompletedProcess]
@@ -51,12 +49,12 @@ def script(checkout: Path, tmp_path_factory) -> Script:
 def called(monkeypatch, capsys, tmp_path) -> Script:
     """Run a script of the project in this process, which saves seconds of imports, in the test's folder."""
 
-    def run(name: str, *arguments: object) -> subprocess.CompletedProcess:
-        command = [name, *map(str, arguments)]
+    def run(name: str | None, *arguments: object) -> subprocess.CompletedProcess:
+        command = [str(name), *map(str, arguments)]
         monkeypatch.setattr(sys, "argv", command)
         monkeypatch.chdir(tmp_path)
         with pytest.raises(SystemExit) as ended:
-            terminal.run_script(importlib.import_module(f"suspension_ctrl.commands.{name}").main)
+            commands.main(*filter(None, [name]))
         return subprocess.CompletedProcess(command, ended.value.code or 0, *capsys.readouterr())
 
     return run

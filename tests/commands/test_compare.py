@@ -60,9 +60,9 @@ def test_figure_is_a_picture_of_its_size(quick):
     assert (out / "figure5.pdf").read_bytes().startswith(b"%PDF")
 
 
-def test_same_seed_same_results_but_for_the_times(quick, script, tmp_path):
+def test_same_seed_same_results_but_for_the_times(quick, called, tmp_path):
     out, _ = quick
-    again = script("compare", "--quick", "--seed", 5, "--weighting", "Wb", "--out", tmp_path / "again")
+    again = called("compare", "--quick", "--seed", 5, "--weighting", "Wb", "--out", tmp_path / "again")
     assert again.returncode == 0, again.stderr
     quality = [
         "algorithm",
@@ -79,48 +79,9 @@ def test_same_seed_same_results_but_for_the_times(quick, script, tmp_path):
     assert len(shared) == len(second)
 
 
-def test_default_folder_is_new_and_below_results(script, tmp_path):
-    done = script("compare", "--quick", "--algorithms", "nsga2", cwd=tmp_path)
+def test_default_folder_is_new_and_below_results(called, tmp_path):
+    done = called("compare", "--quick", "--algorithms", "nsga2")
     assert done.returncode == 0, done.stderr
     folder = tmp_path / done.stdout.splitlines()[-1]
     assert folder.parent == tmp_path / "results"
     assert np.isnan(pd.read_csv(folder / "table2.csv").published_seconds).all()
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["--populations", "3"], "population must be a whole number >= 4, got 3"),
-        (["--populations", "12"], "population must be >= 15 for 3 objectives"),
-        (["--populations", "500,x"], "populations must be whole numbers separated by commas, got '500,x'"),
-        (["--iterations", "0"], "iterations must be a whole number >= 1, got 0"),
-        (["--quick", "--repeats", "3"], "quick must stand without populations, iterations, repeats and seeds"),
-        (["--repeats", "0"], "repeats must be a whole number >= 1, got 0"),
-        (["--repeats", "two"], "Invalid value for '--repeats': must be a whole number, got 'two'"),
-        (["--algorithms", "nsga3"], "algorithms must be one of nsga2, "),
-        (["--weighting", "Wz"], "weighting must be one of Wk, "),
-        (["--seed", "-1"], "seed must be a whole number >= 0, got -1"),
-        (["--fast", "3"], "--fast"),
-        (["--jobs", "2"], "jobs and scheduler must stand with quality, got 2 without it"),
-        (["--quality", "--jobs", "0"], "jobs must be a whole number >= 1, got 0"),
-        (["--quality", "--jobs", "2", "--scheduler", "tcp://h:1"], "jobs must stand without scheduler, got 2 and"),
-        (
-            ["--quality", "--scheduler", "host:8786"],
-            "scheduler must be tcp://host:port or tls://host:port, got",
-        ),
-        (["--quality", "--seeds", "0"], "seeds must be a whole number >= 1, got 0"),
-        (["--quality", "--target", "1.5"], "target must be a number from 0 to 1, got 1.5"),
-        (["--quick", "--seeds", "5"], "quick must stand without populations, iterations, repeats and seeds"),
-        (["--out", "/proc/results"], "out must be a folder that can be written, got '/proc/results'"),
-        (["--out", "."], "out must be a folder that is absent or empty, got '.', which is not empty"),
-    ],
-)
-def test_bad_input_is_one_line_and_status_2(script, tmp_path, arguments, message):
-    (tmp_path / "mine.txt").write_text("kept")
-    done = script("compare", *arguments, cwd=tmp_path)
-    assert done.returncode == 2
-    assert done.stdout == ""
-    assert done.stderr.count("\n") == 1
-    assert done.stderr.startswith("error: ")
-    assert message in done.stderr
-    assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]

@@ -5,12 +5,12 @@ import pandas as pd
 import pytest
 
 from suspension_ctrl import Problem
-from suspension_ctrl.commands import campaign as campaigns
-from suspension_ctrl.commands import reports
+from suspension_ctrl.commands import comparing, quality
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.indicators import ReferenceFront
 from suspension_ctrl.study import comparison
 from suspension_ctrl.study.comparison import Comparison
+from suspension_ctrl.study.findings import findings
 from suspension_ctrl.study.reference import grid_front
 from suspension_ctrl.study.store import FolderStore
 
@@ -39,8 +39,10 @@ def clock() -> pd.DataFrame:
 def reported(one: Comparison, folder) -> pd.DataFrame:
     store = FolderStore(folder / "quality", {})
     reference = ReferenceFront.of(grid_front(paper.ride_problem(), 40))
-    table = campaigns.carry_out(one, reference, store, campaigns.Workers())
-    reports.report(one, table, store, clock(), 0.9, folder)
+    table = comparing.judge_seeds(one, reference, store, comparing.cluster_of(None, None))
+    request = comparing.Request(one, one.problem, 0.9, {}, folder)
+    if found := findings(one, table, clock(), 0.9):
+        quality.write(request, found, store)
     return table
 
 
@@ -50,7 +52,7 @@ def test_runs_that_raise_leave_the_others_in_tables_and_figures(tmp_path):
     ride = paper.ride_problem()
     limit = ride.lower[0] + (ride.upper[0] - ride.lower[0]) * first
     table = reported(campaign(lambda x: x[0, 0] >= limit - 1e-6), tmp_path)
-    rows = reports.last_rows(table)
+    rows = quality.last_rows(table)
     assert len(rows) == 16
     raised = rows[rows.error != ""]
     assert ("nsga2", 0) in set(zip(raised.algorithm, raised.seed, strict=True))
@@ -90,4 +92,4 @@ def test_a_campaign_in_which_all_raise_says_only_that(tmp_path):
 
 def test_runs_are_made_in_one_place():
     with pytest.raises(ValueError, match=r"^jobs must stand without scheduler, got 2 and 'tcp://h:1'$"):
-        campaigns.Workers(2, "tcp://h:1")
+        comparing.cluster_of(2, "tcp://h:1")

@@ -1,106 +1,104 @@
-"""Table 5: the reference car, the published optimum, and the best struts of the same suspension travel.
+"""Table 5: the reference car, the published optimum, and the best struts of the same suspension travel."""
 
-For each of the weightings Wk, Wb and Wb-table: exact solutions on the curve SWS = limit, and designs picked
-from a MOEA/D-DRA Pareto set. Of any other vehicle, road or speed: its own struts, the best designs up to the
-limit, and designs picked. Writes table5.csv to a folder whose path is the last line printed.
-"""
+from typing import TYPE_CHECKING
 
-from pathlib import Path
-from typing import Annotated
+from . import options as o
 
-import numpy as np
-import pandas as pd
-from typer import Option
+if TYPE_CHECKING:
+    import pandas as pd
 
-from .. import checks
-from .. import tables as files
-from ..paper import experiment as paper
-from ..paper import optimum, tables
-from ..quantities import column_headers
-from ..response.problem import RideProblem
-from ..search.driver import Run, minimise
-from ..search.moead_dra import MoeadDra
-from . import results, terminal
+    from ..quantities import Real
+    from ..response.problem import RideProblem
+    from ..search.driver import Run
 
 WEIGHTINGS = ("Wk", "Wb", "Wb-table")
 STARTS = 8  # designs of the Pareto set from which a search goes downhill
 SHOWN = {"SWS": 1.0, "ACC": 1.0, "DTL": 1e-3}  # in m, m/s^2, kN
+Designs = dict[str, tuple[float, ...]]
 
 
-def main(
-    sws_limit: Annotated[
-        float, Option(parser=terminal.number, help="Suspension working space [m].")
-    ] = paper.SWS_LIMIT,
-    vehicle: Annotated[str | None, Option(help=paper.VEHICLE_HELP)] = None,
-    road: Annotated[str | None, Option(help=paper.ROAD_HELP)] = None,
-    speed: Annotated[float | None, Option(parser=terminal.number, help="Speed [m/s].")] = None,
-    population: Annotated[int, Option(parser=terminal.whole_number, help="Subproblems of MOEA/D-DRA.")] = 4000,
-    iterations: Annotated[int, Option(parser=terminal.whole_number, help="Iterations of MOEA/D-DRA.")] = 25,
-    band: Annotated[str | None, Option(help="Frequencies [Hz]: 0.1,20.")] = None,
-    seed: Annotated[int, Option(parser=terminal.whole_number, help="Seed of MOEA/D-DRA.")] = 0,
-    out: Annotated[Path | None, Option(help="Folder for the results, absent or empty.")] = None,
+def optimum(
+    sws_limit: o.SwsLimit = 0.0287,
+    vehicle: o.Vehicle = None,
+    road: o.Road = None,
+    speed: o.Speed = None,
+    population: o.Population = 4000,
+    iterations: o.Generations = 25,
+    band: o.Band = None,
+    seed: o.Seed = 0,
+    out: o.Out = None,
 ) -> None:
-    """Find the best spring and damper within a limit of suspension travel."""
+    """Find the best struts within a travel limit: Table 5.
+
+    For ACC weighted by Wk, Wb and Wb-table: the least ACC and the least DTL within the limit, and designs picked
+    from a Pareto set of MOEA/D-DRA. Writes table5.csv to a folder; its path is the last line printed.
+    """
+    import pandas as pd
+
+    from .. import checks
+    from ..paper import experiment as paper
+    from ..paper import tables
+    from ..search.driver import minimise
+    from ..search.moead_dra import MoeadDra
+    from . import results, terminal
+
     checks.at_least("iterations", iterations, 1)
     checks.at_least("seed", seed, 0)
     checks.positive("sws_limit", sws_limit, "m")
     optimiser = MoeadDra(population=population)
     columns = paper.table5()
     published = {"reference car": columns["reference"], "published optimum": columns["optimised"]}
-    parts, below = [], optimum.AT_LIMIT
-    settings = terminal.band_of(band)
-    for weighting in WEIGHTINGS:
-        problem, struts = paper.chosen(vehicle, road, speed, weighting=weighting, **settings)
-        run = minimise(problem, optimiser, iterations=iterations, seed=seed)
-        if (vehicle, road, speed) == (None, None, None):
-            designs = exact_designs(problem, run, sws_limit)
-        else:
-            designs = best_designs(problem, run, sws_limit, [struts[name] for name in problem.variables])
-            published, below = {}, 1.0
-        designs |= picked_designs(problem, run, sws_limit, below)
-        parts.append(tables.beside_published(problem, designs, published))
+    of_paper = (vehicle, road, speed) == (None, None, None)
+    problems, parts = [], []
+    for weighting in terminal.progress(WEIGHTINGS, len(WEIGHTINGS), "weightings"):
+        problem, own = paper.chosen(vehicle, road, speed, **o.settings(weighting, band))
+        with terminal.compiling():
+            run = minimise(problem, optimiser, iterations=iterations, seed=seed)
+        values = None if of_paper else tuple(own[name] for name in problem.variables)
+        designs = found_designs(problem, run, sws_limit, values)
+        problems.append(problem)
+        parts.append(tables.beside_published(problem, designs, published if of_paper else {}))
     folder = results.results_folder(out)
-    for weighting, part in zip(WEIGHTINGS, parts, strict=True):
-        said = ": published / here" if published else ""
-        terminal.show(f"Table 5, ACC weighted by {weighting}{said}", as_printed(problem, part))
-    files.write_csv(folder / "table5.csv", pd.concat(parts))
+    results.write_csv(folder / "table5.csv", pd.concat(parts))
+    for problem, part in zip(problems, parts, strict=True):
+        said = ": published / here" if of_paper else ""
+        terminal.show(f"Table 5, ACC weighted by {problem.weighting}{said}", as_printed(problem, part))
     print(folder)
 
 
-def exact_designs(problem: RideProblem, run: Run, limit: float) -> dict[str, tuple[float, ...]]:
-    designs: dict[str, tuple[float, ...]] = {
-        "reference car": paper.reference_design(),
-        "published optimum": paper.optimised_design(),
-    }
+def found_designs(problem: "RideProblem", run: "Run", limit: float, own: "tuple[float, ...] | None") -> Designs:
+    """Return the best designs within the limit, and those picked, after the vehicle's own or the paper's two."""
+    from ..paper import experiment as paper
+    from ..paper import optimum
+
+    of_paper = own is None
+    papers = {"reference car": paper.reference_design(), "published optimum": paper.optimised_design()}
+    designs: Designs = {"its own struts": own} if own is not None else dict(papers)
     for objective in ("ACC", "DTL"):
-        starts = run.designs[np.abs(run.objectives[:, 1] - limit).argsort(kind="stable")[:STARTS]]
-        best = optimum.least_within_limit(problem, limit, objective, starts, at_limit=True)
-        designs[f"exact, least {objective}"] = best
+        found = starts(problem, run, limit, objective, of_paper)
+        name = f"exact, least {objective}" if of_paper else f"least {objective} up to the limit"
+        designs[name] = optimum.least_within_limit(problem, limit, objective, found, at_limit=of_paper)
+    for objective in ("ACC", "DTL"):
+        below = optimum.AT_LIMIT if of_paper else 1.0
+        designs[f"picked, least {objective}"] = optimum.pick_at_limit(problem, run, limit, objective, below)
     return designs
 
 
-def best_designs(problem: RideProblem, run: Run, limit: float, own: list[float]) -> dict[str, tuple[float, ...]]:
-    """Return the vehicle's own struts, and the least of each objective up to the limit."""
-    designs = {"its own struts": tuple(own)}
-    over = np.maximum(run.objectives[:, problem.objectives.index("SWS")] - limit, 0)
-    for objective in ("ACC", "DTL"):
-        best_first = np.lexsort((run.objectives[:, problem.objectives.index(objective)], over))
-        starts = run.designs[best_first[:STARTS]]
-        designs[f"least {objective} up to the limit"] = optimum.least_within_limit(
-            problem, limit, objective, starts
-        )
-    return designs
+def starts(problem: "RideProblem", run: "Run", limit: float, objective: str, at_limit: bool) -> "Real":
+    """Return designs of a run from which to search on: nearest to the limit, or the best within it."""
+    import numpy as np
+
+    travel, value = (run.objectives[:, problem.objectives.index(name)] for name in ("SWS", objective))
+    off = np.abs(travel - limit) if at_limit else np.maximum(travel - limit, 0)
+    return run.designs[np.lexsort((value, off))[:STARTS]]
 
 
-def picked_designs(problem: RideProblem, run: Run, limit: float, below: float) -> dict[str, tuple[float, ...]]:
-    return {
-        f"picked, least {objective}": optimum.pick_at_limit(problem, run, limit, objective, below)
-        for objective in ("ACC", "DTL")
-    }
+def as_printed(problem: "RideProblem", table: "pd.DataFrame") -> "pd.DataFrame":
+    """Return Table 5 in kilo-units, and with "published / here (deviation)" where there is a published value."""
+    import pandas as pd
 
+    from ..quantities import column_headers
 
-def as_printed(problem: RideProblem, table: pd.DataFrame) -> pd.DataFrame:
-    """Kilo-units, and where there is a published value "published / here (deviation)"."""
     printed = {"design": table["design"]}
     for header in column_headers(problem.variables, problem.units):
         decimals = 3 if "spring" in header else 4
@@ -109,11 +107,11 @@ def as_printed(problem: RideProblem, table: pd.DataFrame) -> pd.DataFrame:
     for name, scale in SHOWN.items():
         unit = problem.units[name]
         cells = table[[f"{name} [{unit}]", f"published {name} [{unit}]", f"{name} off [%]"]]
-        printed[f"{name} [{'kN' if unit == 'N' else unit.replace('^2', '²')}]"] = [
+        printed[f"{name} [{'kN' if unit == 'N' else unit.replace('^2', '²')}]"] = pd.Series(
             f"{here * scale:.4f}" if pd.isna(there) else f"{there * scale:.4f} / {here * scale:.4f} ({off:+.2f} %)"
             for here, there, off in cells.itertuples(index=False)
-        ]
+        )
     shown = pd.DataFrame(printed)
-    if len(problem.variables) == len(paper.reference_design()):
+    if len(problem.variables) == 2:
         return shown
     return shown.set_index("design").T.rename_axis("", axis=0).reset_index()  # more variables, down the page

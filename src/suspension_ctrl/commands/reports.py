@@ -1,106 +1,108 @@
-"""What follows from the runs of a comparison: tables, the verdict, figures."""
+"""Tables 2 to 4, Figure 5 and the fronts of the timed runs: written to a folder, and printed."""
 
-from collections.abc import Mapping, Sequence
-from pathlib import Path
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from .. import tables as files
-from ..study import inference as statistics
-from ..study import inference as verdicts
-from ..study import lenses, study
-from ..study.comparison import Comparison
+from ..paper import tables as printed
+from ..response.measures import case_measure
+from ..response.problem import RideProblem
+from ..search.moead_dra import MoeadDra
+from ..study import figures, timing
 from ..study.store import StoredRun
-from ..study.study import INDICATORS
 from . import results, terminal
-from .pictures import draw
 
-VALUE = "relative_hypervolume"
-CONFIGURATION = ["lens", "population", "iterations"]
+if TYPE_CHECKING:
+    from .comparing import Request
+
+Store = Mapping[str, StoredRun]
+FAMILIES = {2: "nsga2", 3: "moead-dra"}
+SHORT = {
+    "population": "N", "iterations": "iter.", "budget": "equal", "evaluations": "evals",
+    "published_seconds": "publ. [s]", "seconds": "here [s]", "microseconds_per_evaluation": "µs/eval",
+    "published_ratio_percent": "publ. [%]", "ratio_percent": "here [%]", "hypervolume": "HV", "igd_plus": "IGD+",
+}  # fmt: skip
+DECIMALS = {
+    "publ. [s]": 1, "here [s]": 4, "µs/eval": 2, "publ. [%]": 0, "here [%]": 0, "HV": 4, "IGD+": 5,
+}  # fmt: skip
 
 
-def last_rows(quality: pd.DataFrame) -> pd.DataFrame:
-    """Return one row per run, as in the table of timed runs: its population at the end, or its error."""
-    ends = quality[quality.error.ne("") | quality.set.eq(study.POPULATION)]
-    return (
-        ends.groupby(["population", "algorithm", "seed"], sort=False)
-        .tail(1)
-        .drop(columns=["set", "members", "budget"])
+def write(request: "Request", store: Store, timed: pd.DataFrame) -> None:
+    """Write runs, tables, fronts and Figure 5."""
+    folder = request.folder
+    results.write_csv(folder / "runs.csv", timed)
+    for name, table in _tables(request, timed).items():
+        results.write_table(folder / name, table)
+    (folder / "fronts").mkdir(exist_ok=True)
+    for run in request.comparison.timed_runs():
+        front = timing.front(request.problem, store[run.name].final)
+        results.write_csv(folder / "fronts" / f"{run.name}.csv", front)
+    with terminal.waiting("drawing"):
+        _write_figure5(request, timing.final_populations(request.comparison, store))
+
+
+def say(request: "Request", store: Store, timed: pd.DataFrame, origin: str) -> None:
+    """Print the tables and what they rest on."""
+    found = _tables(request, timed)
+    for number in FAMILIES:
+        for algorithm, part in found.get(f"table{number}", timed.iloc[:0]).groupby("algorithm", sort=False):
+            terminal.show(f"Table {number}: {algorithm}, seconds published / here", printed.as_printed(part))
+    title = f"Table 4: % is the time of {request.comparison.algorithms[0]} over the time of each"
+    terminal.show(title, found["table4"].rename(columns=SHORT), DECIMALS, keys=4)
+    _explain(request, origin)
+    finals = [store[run.name].final for run in request.comparison.timed_runs()]
+    barren = sum(timing.feasible_rows(request.problem, final).empty for final in finals)
+    if barren:
+        terminal.note(f"{barren} of {len(finals)} timed runs found no design within the limits.")
+
+
+def _tables(request: "Request", timed: pd.DataFrame) -> dict[str, pd.DataFrame]:
+    """Return Tables 2 to 4 by the names of their files, without those of algorithms that did not run."""
+    published = request.published()
+    found = {
+        f"table{number}": printed.seconds_by_repeat(timed, published, family)
+        for number, family in FAMILIES.items()
+    }
+    found["table4"] = printed.comparison(timed, published)
+    return {name: table for name, table in found.items() if len(table)}
+
+
+def _write_figure5(request: "Request", populations: pd.DataFrame) -> None:
+    """Draw the first algorithm beside the second, and in further figures beside each of the others."""
+    across, *up = request.headers().values()
+    first, *others = request.comparison.algorithms
+    for number, other in enumerate(others or [first]):
+        shown = populations[populations.algorithm.isin([first, other])]
+        stem = f"figure5_{other}" if number else "figure5"
+        results.write_figure(request.folder / stem, figures.final_populations(shown, across, up))
+
+
+def uses_weighting(problem: RideProblem) -> bool:
+    """Return whether a measure depends on the weighting of the problem."""
+    case = problem.cases[0]
+    unweighted, weighted = (
+        [case_measure(measure, case, weighting).terms for measure in problem.measures]
+        for weighting in (None, problem.weighting)
     )
+    return unweighted != weighted
 
 
-def report(
-    comparison: Comparison,
-    quality: pd.DataFrame,
-    store: Mapping[str, StoredRun],
-    clock: pd.DataFrame,
-    target: float,
-    folder: Path,
-) -> None:
-    """Write and print what follows from the runs that ended, if any: tables, verdict, figures."""
-    ended = quality[quality.error.eq("")].drop(columns="error")
-    if ended.empty:
-        return
-    timed = lenses.with_seconds(ended, clock)
-    files.write_csv(folder / "quality.csv", timed.drop(columns="seconds"))
-    equal = lenses.at_equal(timed, comparison.algorithms, comparison.iterations, comparison.cost())
-    by = [*CONFIGURATION, "set", "algorithm"]
-    spent = equal.groupby(by, sort=False)[["evaluations", "seconds"]].median().reset_index()
-    summary = spent.merge(statistics.quartiles(equal, by, INDICATORS), on=by)
-    compared = statistics.pairwise(equal, [*CONFIGURATION, "set"], INDICATORS, comparison.algorithms)
-    reached = lenses.reached_by(lenses.to_reach(timed, target))
-    for name, table in (("equal", summary), ("differences", compared), ("to_reach", reached)):
-        results.write_table(folder / name, table.rename(columns=_headers(table.columns)))
-    judged = {"final population": study.POPULATION, "archive cut to N": study.CUT_ARCHIVE}
-    words = [
-        verdicts.verdict(
-            compared[(compared.set == chosen) & (compared.value == VALUE)],
-            *comparison.algorithms[:2],
-            f"Hypervolume of the {what}",
+def _explain(request: "Request", origin: str) -> None:
+    """Print limits, load cases, weighting, reference front, and whether MOEA/D-DRA allocated resources."""
+    problem, comparison = request.problem, request.comparison
+    if problem.constraints:
+        terminal.note(f"Limits: {', '.join(problem.constraints)}.")
+    if len(problem.cases) > 1:
+        how = "their worst" if problem.worst_case else "their mean square by shares"
+        terminal.note(f"Objectives are over {len(problem.cases)} load cases, {how}; limits hold in each.")
+    for number, case in enumerate(problem.cases, start=1):
+        terminal.note(f"Case {number}, share {case.share:g}: {terminal.driven(case.road, case.speed)}.")
+    weighted = f"ACC is weighted with {problem.weighting}. " if uses_weighting(problem) else ""
+    terminal.note(f"{weighted}Hypervolume and IGD+ are medians over the repeats, against {origin}.")
+    period = MoeadDra.utility_period
+    if min(comparison.iterations) <= period and any(name.startswith("moead") for name in comparison.algorithms):
+        terminal.note(
+            f"In up to {period} iterations MOEA/D-DRA has not allocated resources yet: its utilities first change "
+            f"after iteration {period}."
         )
-        for what, chosen in judged.items()
-        if len(compared)
-    ]
-    files.write_text(folder / "verdict.md", "\n\n".join(words) + "\n")
-    _show(summary, reached, words, target)
-    draw(comparison, timed, equal, store, folder)
-
-
-def _headers(columns: Sequence[str]) -> dict[str, str]:
-    units = {"seconds": "s"}
-    plain = {
-        "value",
-        "lens",
-        "population",
-        "iterations",
-        "set",
-        "algorithm",
-        "first",
-        "second",
-        "effect",
-        "members",
-        "runs",
-        "reached",
-    }
-    return {c: c if c in plain else f"{c.replace('_', ' ')} [{units.get(c, '-')}]" for c in columns}
-
-
-def _show(summary: pd.DataFrame, reached: pd.DataFrame, words: Sequence[str], target: float) -> None:
-    final = summary[summary.set == study.POPULATION]
-    kept = [*CONFIGURATION, "algorithm", "evaluations", *INDICATORS]
-    short = {
-        "population": "N",
-        "iterations": "iter.",
-        "evaluations": "evals",
-        VALUE: "HV / ref.",
-        "igd_plus": "IGD+",
-    }
-    digits = {"evals": 0, "HV / ref.": 4, "IGD+": 5, "epsilon": 4, "spread": 3}
-    terminal.show("Final populations, medians", final[kept].rename(columns=short), digits)
-    terminal.show(
-        f"To {target:g} of the reference hypervolume, medians",
-        reached.rename(columns={"population": "N", "evaluations": "evals", "seconds": "time [s]"}),
-        {"evals": 0, "time [s]": 4},
-    )
-    for paragraph in words:
-        terminal.note(paragraph)

@@ -7,7 +7,9 @@ from pathlib import Path
 from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING
 
-from ..tables import write_csv, write_text, write_whole
+from ..tables import write_csv, write_json, write_text, write_whole
+
+__all__ = ["write_csv", "write_json", "write_text"]
 
 if TYPE_CHECKING:
     import pandas as pd

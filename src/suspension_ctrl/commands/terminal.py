@@ -1,37 +1,49 @@
-"""What the scripts share: one-line errors, lists on the command line, tables and progress in the terminal."""
+"""The terminal: one-line errors, tables that fit its width, progress."""
 
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any, TypeVar
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from io import TextIOWrapper
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
-import numpy as np
-import pandas as pd
 import typer
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeElapsedColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
 from rich.table import Table
 from rich.text import Text
 
+if TYPE_CHECKING:
+    import pandas as pd
+
 console = Console(width=None if sys.stdout.isatty() else 130)
-_stderr = Console(stderr=True, soft_wrap=True)
+stderr = Console(stderr=True)
 T = TypeVar("T")
 
 
-def run_script(main: Callable[..., None]) -> None:
-    """Run `main` as a command; bad input ends it with one line on standard error and exit status 2.
+def run(app: typer.Typer, *before: str, name: str | None = None) -> NoReturn:
+    """Run an app with the arguments of this process, after those `before`, and end with its exit status.
 
-    A file that cannot be read or written ends it with one line and status 1, an interrupt with 130.
+    Bad input ends it with one line on standard error and status 2, a file that cannot be read or written and a
+    package that is not installed with one line and status 1, an interrupt with 130.
     """
-    app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-    app.command()(main)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="replace")  # a symbol that the encoding lacks is no error
     try:
-        sys.exit(app(standalone_mode=False))
+        sys.exit(app([*before, *sys.argv[1:]], prog_name=name, standalone_mode=False))
     except typer.TyperException as error:
         _fail(error.format_message(), 2)
     except ValueError as error:
         _fail(str(error), 2)
-    except OSError as error:
+    except (OSError, ImportError) as error:
         _fail(str(error), 1)
     except MemoryError as error:
         _fail(f"not enough memory: {error}", 1)
@@ -39,72 +51,66 @@ def run_script(main: Callable[..., None]) -> None:
         _fail("interrupted", 130)
 
 
-def _fail(message: str, status: int) -> None:
+def run_script(main: Callable[..., None]) -> NoReturn:
+    """Run `main` as an app of one command."""
+    app = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
+    app.command()(main)
+    run(app)
+
+
+def _fail(message: str, status: int) -> NoReturn:
     complain(message)
     sys.exit(status)
 
 
 def complain(message: str) -> None:
     """Print one line on standard error."""
-    _stderr.print(f"error: {' '.join(message.split())}", markup=False, highlight=False, emoji=False)
+    print(f"error: {' '.join(message.split())}", file=sys.stderr)
 
 
-def whole_number(text: str) -> int:
-    """Return the whole number that an option's text stands for."""
-    try:
-        return int(text)
-    except ValueError:
-        raise typer.BadParameter(f"must be a whole number, got {text!r}") from None
-
-
-def number(text: str) -> float:
-    """Return the number that an option's text stands for."""
-    try:
-        return float(text)
-    except ValueError:
-        raise typer.BadParameter(f"must be a number, got {text!r}") from None
-
-
-def whole_numbers(name: str, text: str) -> list[int]:
-    """Return the whole numbers of a comma-separated list, each once; ValueError naming `name` otherwise."""
-    try:
-        return list(dict.fromkeys(int(part) for part in text.split(",")))
-    except ValueError:
-        raise ValueError(f"{name} must be whole numbers separated by commas, got {text!r}") from None
-
-
-def numbers(name: str, text: str, count: int) -> list[float]:
-    """Return the `count` numbers of a comma-separated list; ValueError naming `name` otherwise."""
-    try:
-        values = [float(part) for part in text.split(",")]
-    except ValueError:
-        values = []
-    if len(values) != count:
-        raise ValueError(f"{name} must be {count} numbers separated by commas, got {text!r}")
-    return values
-
-
-def band_of(text: str | None) -> dict[str, tuple[float, float]]:
-    """Return the setting ``band`` [Hz] that an option's text stands for, none if it is not given."""
-    if text is None:
-        return {}
-    low, high = numbers("band", text, 2)
-    return {"band": (low, high)}
-
-
-def names(text: str) -> list[str]:
-    """Return the names of a comma-separated list, each once."""
-    return list(dict.fromkeys(part.strip() for part in text.split(",")))
-
-
-def progress(items: Iterable[T], total: int) -> Iterator[T]:
+def progress(items: Iterable[T], total: int, text: str = "") -> Iterator[T]:
     """Pass `items` through with a progress bar, drawn only between them so as not to disturb a timed one."""
-    columns = (BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True, auto_refresh=False) as bar:
+    columns = (TextColumn(text), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(),
+               TextColumn("left"), TimeRemainingColumn())  # fmt: skip
+    with Progress(*columns, console=stderr, transient=True, auto_refresh=False, disable=_in_pipe()) as bar:
         task = bar.add_task("", total=total)
         for item in items:
             bar.update(task, advance=1, refresh=True)
             yield item
+
+
+def waiting(text: str) -> AbstractContextManager[Any]:
+    """Return a context in which the terminal says what is being waited for."""
+    return nullcontext() if _in_pipe() else stderr.status(text, spinner="line")
+
+
+@contextmanager
+def compiling() -> Iterator[None]:
+    """Say in the terminal when numba begins to compile within this context, with nothing on disk to load."""
+    from numba.core import event
+
+    class Compilation(event.Listener):
+        said = _in_pipe()
+
+        def on_start(self, _event: object) -> None:
+            if not self.said:
+                stderr.print("compiling, once after installation: up to half a minute", highlight=False)
+            self.said = True
+
+        def on_end(self, _event: object) -> None:
+            """Not of interest."""
+
+    with event.install_listener("numba:compile", Compilation()):
+        yield
+
+
+def _in_pipe() -> bool:
+    return not stderr.is_terminal
+
+
+def driven(road: Any, speed: float) -> str:
+    """Return a road and a speed in words."""
+    return f"{road.describe()}; {speed:g} m/s"
 
 
 def note(text: str) -> None:
@@ -112,21 +118,42 @@ def note(text: str) -> None:
     console.print(text, markup=False, highlight=False, emoji=False)
 
 
-def show(title: str, table: pd.DataFrame, digits: dict[str, int] | None = None) -> None:
-    """Print a table; numbers with the decimals that `digits` names by column, blank where there is none."""
-    shown = Table(title=title, title_justify="left", title_style="bold", box=SIMPLE_HEAD, pad_edge=False)
-    for column in table.columns:
-        numeric = pd.api.types.is_numeric_dtype(table[column])
-        shown.add_column(Text(str(column)), justify="right" if numeric else "left", no_wrap=True)
-    for row in table.itertuples(index=False):
-        cells = zip(table.columns, row, strict=True)
-        shown.add_row(
-            *(Text(_cell(v, (digits or {}).get(c))) for c, v in cells)
-        )  # units in brackets are no markup
-    console.print(shown)
+def show(title: str, table: "pd.DataFrame", digits: dict[str, int] | None = None, keys: int = 1) -> None:
+    """Print a table; numbers with the decimals that `digits` names by column, blank where there is none.
+
+    Where it is wider than the terminal its columns stand in blocks, the first `keys` of them in each.
+    """
+    cells = {str(c): [_cell(value, (digits or {}).get(c)) for value in table[c]] for c in table.columns}
+    right = {str(c) for c in table.columns if table[c].dtype.kind in "iuf"}
+    widths = {name: max(map(len, [name, *column])) + _GAP for name, column in cells.items()}
+    first = list(cells)[:keys]
+    console.print(Text(title, style="bold"))
+    for block in _blocks(first, list(cells)[keys:], widths, console.width):
+        shown = Table(box=SIMPLE_HEAD, pad_edge=False, show_edge=False)
+        for name in block:
+            justify: Any = "right" if name in right else "left"
+            shown.add_column(Text(name), justify=justify, no_wrap=True)  # units in brackets are no markup
+        for row in zip(*(cells[name] for name in block), strict=True):
+            shown.add_row(*map(Text, row))
+        console.print(shown)
+        console.print()
+
+
+_GAP = 3
+"""Columns between two columns of a table."""
+
+
+def _blocks(keys: list[str], others: list[str], widths: dict[str, int], most: int) -> list[list[str]]:
+    """Return the columns in blocks up to `most` wide, one at least of the others in each."""
+    blocks: list[list[str]] = []
+    for name in others:
+        if not blocks or sum(widths[c] for c in blocks[-1]) + widths[name] > most:
+            blocks.append(list(keys))
+        blocks[-1].append(name)
+    return blocks or [keys]
 
 
 def _cell(value: Any, digits: int | None) -> str:
-    if isinstance(value, float | np.floating):
-        return "" if np.isnan(value) else f"{value:.{digits}f}" if digits is not None else f"{value:.6g}"
+    if isinstance(value, float):  # numpy's are among them
+        return "" if value != value else f"{value:.{digits}f}" if digits is not None else f"{value:.6g}"
     return str(value)

@@ -1,6 +1,7 @@
 """Figures of a comparison over many seeds: DataFrame and Axes in, nothing is saved here."""
 
 from collections.abc import Sequence
+from itertools import combinations, product
 from typing import Any
 
 import moocore
@@ -43,6 +44,36 @@ def anytime(
     ax.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     ax.xaxis.set_minor_formatter(NullFormatter())
     ax.grid(which="both", alpha=0.25)
+
+
+def anytime_panels(quality: pd.DataFrame, sets: Sequence[str]) -> Figure:
+    """Draw `anytime` of one population, a row per set, over evaluations and over time."""
+    figure, axes = panels(2 * len(sets), columns=2)
+    for ax, (chosen, over) in zip(axes, product(sets, ("evaluations", "seconds")), strict=True):
+        anytime(ax, quality[quality.set == chosen], over)
+        ax.set_title(f"{chosen}, N = {quality.population.iloc[0]}", fontsize=10)
+    axes[0].legend(frameon=False, fontsize=8)
+    return figure
+
+
+def box_panels(runs: pd.DataFrame, values: Sequence[str]) -> Figure:
+    """Draw `boxes` of several values."""
+    figure, axes = panels(len(values), columns=2)
+    for ax, value in zip(axes, values, strict=True):
+        boxes(ax, runs, value)
+    return figure
+
+
+def attainment_panels(
+    first: pd.DataFrame, second: pd.DataFrame, objectives: Sequence[str], names: Sequence[str]
+) -> Figure:
+    """Draw `attainment_differences` of every two objectives; `names` are those of the algorithms."""
+    pairs = list(combinations(objectives, 2))
+    figure, axes = panels(len(pairs))
+    for ax, pair in zip(axes, pairs, strict=True):
+        drawn = attainment_differences(ax, first, second, pair)
+    figure.colorbar(drawn, ax=axes, label=f"share of runs attaining: {names[0]} less {names[1]}")
+    return figure
 
 
 def boxes(ax: Axes, runs: pd.DataFrame, value: str) -> None:

@@ -177,6 +177,15 @@ class Study(Record):
         columns = ["problem", "algorithm", "population", "seed", "budget", "evaluations", "set", "members"]
         return pd.concat(parts, ignore_index=True).reindex(columns=[*columns, *INDICATORS, "seconds", "error"])
 
+    def finals(self, store: Mapping[str, StoredRun]) -> pd.DataFrame:
+        """Return the feasible designs of the final populations of stored runs, stacked.
+
+        Columns: problem, algorithm, population, seed, and an objective each.
+        """
+        parts = [store[run.name].final.assign(**run.key) for run in self.runs() if run.name in store]
+        finals = pd.concat(parts, ignore_index=True)
+        return finals[finals[VIOLATION] == 0].drop(columns=VIOLATION) if VIOLATION in finals else finals
+
 
 def judged_run(
     problem: Minimisable, optimiser: Optimiser, budgets: Sequence[int], seed: int, reference: ReferenceFront

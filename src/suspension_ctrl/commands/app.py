@@ -1,0 +1,45 @@
+"""The command line `suspension-ctrl`: its commands with examples; a command imports the library when it runs."""
+
+from collections.abc import Callable
+
+from typer import Typer
+
+from . import bode, compare, optimum, ride, weighting
+
+app = Typer(
+    add_completion=False, pretty_exceptions_enable=False,
+    rich_markup_mode=None,  # units in brackets are not markup
+)  # fmt: skip
+
+
+@app.callback()
+def suspension_ctrl() -> None:
+    """Ride optimisation of vehicle suspensions."""
+
+
+def _add(command: Callable[..., None], *examples: str) -> None:
+    """Add a command, with a paragraph of examples that is not wrapped."""
+    lines = ["\b", "Examples:", *(f"  suspension-ctrl {command.__name__} {text}".rstrip() for text in examples)]
+    app.command(epilog="\n".join(lines))(command)
+
+
+_add(
+    compare.compare,
+    "--quick",
+    "--quality --jobs 2 --algorithms nsga2,moead-dra",
+    "--vehicle jian_2022_full --road C --repeats 1",
+)
+_add(optimum.optimum, "--band 0.1,20", "--vehicle jian_2022_full --road C --sws-limit 0.01")
+_add(
+    bode.bode,
+    "",
+    "--design 22000,1500 --design 12389.2,1616.3",
+    "--vehicle minaker_half --response pitch_acceleration",
+)
+_add(weighting.weighting, "--out figure2")
+_add(
+    ride.ride,
+    "--vehicle jian_2022_full --road C --speed 20",
+    "--vehicle minaker_half --setting front.damper=2000",
+    "--body-mass 400 --wheel-mass 45 --tyre-stiffness 22e4 \\\n      --spring 25e3 --damper 2e3 --road C",
+)

@@ -1,0 +1,76 @@
+"""Quality over many seeds: tables, verdict and figures, written to a folder and printed."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+from ..study import figures, lenses, study
+from ..study.findings import CONFIGURATION, Findings
+from ..study.store import StoredRun
+from ..study.study import INDICATORS
+from . import results, terminal
+
+if TYPE_CHECKING:
+    from .comparing import Request
+
+PLAIN = {
+    *("value", "lens", "population", "iterations", "set", "algorithm", "first", "second"),
+    *("effect", "members", "runs", "reached"),
+}
+SHORT = {
+    "population": "N", "iterations": "iter.", "evaluations": "evals", "relative_hypervolume": "HV / ref.",
+    "igd_plus": "IGD+", "seconds": "time [s]",
+}  # fmt: skip
+DECIMALS = {"evals": 0, "HV / ref.": 4, "IGD+": 5, "epsilon": 4, "spread": 3, "time [s]": 4}
+
+
+def last_rows(table: pd.DataFrame) -> pd.DataFrame:
+    """Return one row per run, as in the table of timed runs: its population at the end, or its error."""
+    ends = table[table.error.ne("") | table.set.eq(study.POPULATION)]
+    last = ends.groupby(["population", "algorithm", "seed"], sort=False).tail(1)
+    return last.drop(columns=["set", "members", "budget"]).assign(timing=False)
+
+
+def write(request: "Request", found: Findings, store: Mapping[str, StoredRun]) -> None:
+    """Write tables, verdict and figures."""
+    results.write_csv(request.folder / "quality.csv", found.course.drop(columns="seconds"))
+    for name, table in (("equal", found.medians), ("differences", found.differences), ("to_reach", found.reached)):
+        results.write_table(request.folder / name, table.rename(columns=_header))
+    results.write_text(request.folder / "verdict.md", "\n\n".join(found.verdict) + "\n")
+    with terminal.waiting("drawing"):
+        for population in request.comparison.populations:
+            _draw(request, found, store, population)
+
+
+def _header(column: str) -> str:
+    unit = {"seconds": "s"}.get(column, "-")
+    return column if column in PLAIN else f"{column.replace('_', ' ')} [{unit}]"
+
+
+def _draw(request: "Request", found: Findings, store: Mapping[str, StoredRun], population: int) -> None:
+    comparison, folder = request.comparison, request.folder
+    course = found.course[found.course.population == population]
+    sets = (study.POPULATION, study.CUT_ARCHIVE)
+    results.write_figure(folder / f"anytime_n{population}", figures.anytime_panels(course, sets))
+    equal = found.equal
+    at_end = (equal.population == population) & (equal.iterations == max(comparison.iterations))
+    last = equal[at_end & (equal.lens == lenses.EVALUATIONS) & (equal.set == study.POPULATION)]
+    results.write_figure(folder / f"boxes_n{population}", figures.box_panels(last, INDICATORS))
+    names = comparison.algorithms[:2]
+    finals = comparison.studies()[population].finals(store).rename(columns=request.headers())
+    first, second = (finals[finals.algorithm == name] for name in (names[0], names[-1]))
+    if len(names) == 2 and set(first.seed) & set(second.seed):
+        drawn = figures.attainment_panels(first, second, list(request.headers().values()), names)
+        results.write_figure(folder / f"attainment_n{population}", drawn)
+
+
+def say(found: Findings, target: float) -> None:
+    """Print medians, evaluations and time to the target, and the verdict."""
+    final = found.medians[found.medians.set == study.POPULATION]
+    kept = [*CONFIGURATION, "algorithm", "evaluations", *INDICATORS]
+    terminal.show("Final populations, medians", final[kept].rename(columns=SHORT), DECIMALS, keys=4)
+    title = f"To {target:g} of the reference hypervolume, medians"
+    terminal.show(title, found.reached.rename(columns=SHORT), DECIMALS, keys=3)
+    for paragraph in found.verdict:
+        terminal.note(paragraph)

@@ -1,0 +1,77 @@
+"""The ride of one vehicle on one road, and its modes, in the terminal and as CSV."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from . import options as o
+
+if TYPE_CHECKING:
+    from ..vehicles.vehicle import AssembledVehicle
+
+PAPERS = "yuen_ramli_2010"
+
+
+def ride(
+    vehicle: o.Vehicle = None,
+    setting: o.Setting = None,
+    body_mass: o.BodyMass = None,
+    wheel_mass: o.WheelMass = None,
+    tyre_stiffness: o.TyreStiffness = None,
+    spring: o.Spring = None,
+    damper: o.Damper = None,
+    road: o.Road = None,
+    speed: o.Speed = None,
+    band: o.Band = None,
+    weighting: o.Weighting = None,
+    out: o.Out = None,
+) -> None:
+    """Print the ride and the modes of one vehicle.
+
+    The vehicle is that of a file with its own struts, or a quarter car of given masses, tyre, spring and damper.
+    Writes ride.csv and modes.csv to a folder; its path is the last line printed.
+    """
+    from ..paper import experiment as paper
+    from ..response.responses import ride
+    from ..roads.files import load_road
+    from . import results, terminal
+
+    masses = {"body_mass": body_mass, "wheel_mass": wheel_mass, "tyre_stiffness": tyre_stiffness}
+    title, car, own = chosen_vehicle(vehicle, masses)
+    strut = {name: value for name, value in {"spring": spring, "damper": damper}.items() if value is not None}
+    values = car.coefficients({**own, **o.by_name("setting", setting or ""), **strut})
+    problem = paper.ride_problem(**o.settings(weighting, band))
+    case, (low, high) = problem.cases[0], problem.band
+    on = case.road if road is None else load_road(road)
+    at = case.speed if speed is None else speed
+    found = ride(car, values, on, speed=at, weighting=problem.weighting, band=problem.band)
+    table = (found if found.note.any() else found.drop(columns="note")).reset_index()
+    modes = car.modes(values)
+    modes = modes[["name", *(column for column in modes.columns if column.endswith("]"))]]  # no amplitudes
+    folder = results.results_folder(out)
+    results.write_csv(folder / "ride.csv", table)
+    results.write_csv(folder / "modes.csv", modes)
+    units = {parameter.name: parameter.unit for parameter in car.parameters}
+    terminal.note(f"{title}: {', '.join(f'{name} {value:g} {units[name]}' for name, value in values.items())}.")
+    terminal.note(f"Road: {terminal.driven(on, at)}; {low:g} to {high:g} Hz.")
+    terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table)
+    terminal.show("Modes", modes, dict.fromkeys(modes.columns[1:], 3))
+    print(folder)
+
+
+def chosen_vehicle(
+    name: str | None, masses: Mapping[str, float | None]
+) -> "tuple[str, AssembledVehicle, Mapping[str, float]]":
+    """Return a vehicle with its title and its own setting: of a file, or a quarter car of given parameters."""
+    from ..vehicles.cars import QuarterCar
+    from ..vehicles.files import load_vehicle
+
+    given = {parameter: value for parameter, value in masses.items() if value is not None}
+    if not given:
+        file = load_vehicle(PAPERS if name is None else name)
+        return file.name, file.vehicle, file.setting
+    options = ", ".join(masses)
+    if name is not None:
+        raise ValueError(f"vehicle must stand without {options}, got {name!r} with one")
+    if missing := [parameter for parameter in masses if parameter not in given]:
+        raise ValueError(f"{options} must stand together, got no {missing[0]}")
+    return "Quarter car", QuarterCar(**given), {}

@@ -1,0 +1,70 @@
+"""Curves of one design over frequency: its responses to the road and their spectra, for figures and tables."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+
+from ..quantities import Real, signal_unit
+from . import weightings
+from .figures import DesignCurves, weighted_name
+from .problem import RideProblem
+from .responses import frequency_responses, natural_frequencies, phase_degrees, response_psds
+
+LOWEST = 0.1  # Hz, of a band from 0 on
+
+
+def frequencies(band: tuple[float, float], points: int) -> Real:
+    """Return logarithmically spaced frequencies above 0 [Hz]."""
+    low, high = band
+    return np.geomspace(low or min(LOWEST, high / 10), high, points)
+
+
+def setting_of(problem: RideProblem, design: Sequence[float]) -> dict[str, float]:
+    """Return all coefficients of the struts by name."""
+    varied = dict(zip(problem.variables, design, strict=True))
+    return problem.cases[0].vehicle.coefficients({**problem.struts, **varied})
+
+
+def design_curves(
+    problem: RideProblem, label: str, design: Sequence[float], responses: Sequence[str], points: int = 800
+) -> DesignCurves:
+    """Return the curves of a design in the first load case; accelerations weighted too.
+
+    Parameters
+    ----------
+    problem : RideProblem
+    label : str
+        What the design is called.
+    design : sequence of float
+        Values of the problem's variables.
+    responses : sequence of str
+        Names of the responses.
+    points : int
+        Frequencies.
+    """
+    case = problem.cases[0]
+    closed = case.vehicle.closed(setting_of(problem, design), responses=responses)
+    f = frequencies(problem.band, points)
+    densities = response_psds(closed, f, case.cross_spectrum(f))
+    if problem.weighting is not None:
+        factor = weightings.by_name(problem.weighting).factor(f)
+        for name in responses:
+            if name.endswith("acceleration"):
+                densities[weighted_name(name)] = densities[name] * factor**2
+    x = case.vehicle.contact_points[:, 0]
+    h = frequency_responses(closed, f, (x.max() - x) / case.speed)
+    return DesignCurves(label, f, h, densities, natural_frequencies(closed))
+
+
+def curve_table(curves: DesignCurves) -> pd.DataFrame:
+    """Return the curves of a design as columns, units in the headers."""
+    table = pd.DataFrame({"design": curves.label, "frequency [Hz]": curves.f})
+    for name, h in curves.responses.items():
+        unit = signal_unit(name)
+        table[f"{name} magnitude [{unit}/m]"] = np.abs(h)
+        table[f"{name} phase [deg]"] = phase_degrees(h)
+        table[f"{name} PSD [({unit})^2/Hz]"] = curves.densities[name]
+        if (weighted := weighted_name(name)) in curves.densities:
+            table[f"{weighted} PSD [({unit})^2/Hz]"] = curves.densities[weighted]
+    return table

@@ -1,0 +1,224 @@
+"""The command line: help without the library, units in it, bad input in one line, streams of any encoding."""
+
+import importlib.metadata
+import os
+import re
+import subprocess
+import sys
+import tomllib
+
+import pytest
+
+from suspension_ctrl.commands import main, options
+from suspension_ctrl.study.comparison import ALGORITHMS
+
+COMMANDS = ("compare", "optimum", "bode", "weighting", "ride")
+MEASURED = "wavenumber [cycle/m],psd [m^3]\n0.02,1e-3\n0.1,1e-4\n1,1e-6\n2,2e-7\n"
+HEAVY = ("control", "matplotlib", "numba", "pandas", "scipy", "moocore", "deap", "distributed")
+
+
+@pytest.mark.parametrize("arguments", [("--help",), *((name, "--help") for name in COMMANDS)])
+def test_help_needs_none_of_the_library(arguments, tmp_path):
+    program = (
+        "import sys; from suspension_ctrl.commands import main\n"
+        "try: main()\n"
+        "finally: print('loaded:', *(name for name in sys.modules if '.' not in name))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, *arguments], capture_output=True, text=True, cwd=tmp_path
+    )
+    assert done.returncode == 0, done.stderr
+    loaded = done.stdout.split("loaded:")[1].split()
+    assert "typer" in loaded
+    assert not set(loaded) & set(HEAVY)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_help_fits_80_columns_and_has_units_and_an_example(called, monkeypatch, name):
+    monkeypatch.setenv("COLUMNS", "80")
+    done = called(name, "--help")
+    assert done.returncode == 0
+    assert max(map(len, done.stdout.splitlines())) <= 80
+    assert f"  suspension-ctrl {name}" in done.stdout.split("Examples:")[1]
+
+
+def test_every_unit_of_every_help_text_is_printed(called):
+    """Brackets are not taken for markup."""
+    aliases = [alias for alias in vars(options).values() if hasattr(alias, "__metadata__")]
+    wanted = {unit for alias in aliases for unit in re.findall(r"\[[^]:]+\]", alias.__metadata__[0].help)}
+    assert {"[m/s]", "[m]", "[Hz]", "[kg]", "[N/m]", "[N s/m]"} <= wanted
+    printed = " ".join(" ".join(called(name, "--help").stdout.split()) for name in COMMANDS)
+    assert {unit for unit in wanted if unit not in printed} == set()
+
+
+def test_help_of_algorithms_names_them_all():
+    assert options.ALGORITHMS.split(", ") == list(ALGORITHMS)
+
+
+def test_without_a_command_it_shows_its_commands(called):
+    done = called(None)
+    assert done.returncode == 0
+    listed = done.stdout.split("Commands:")[1]
+    assert tuple(line.split()[0] for line in listed.splitlines() if line) == COMMANDS
+    assert "..." not in listed
+
+
+def test_the_console_command_is_the_app(checkout):
+    project = tomllib.loads((checkout / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    point = importlib.metadata.EntryPoint(
+        "suspension-ctrl", project["scripts"]["suspension-ctrl"], "console_scripts"
+    )
+    assert point.load() is main
+
+
+def test_a_missing_extra_is_named_in_one_line(tmp_path):
+    program = "import sys; sys.modules['typer'] = None; from suspension_ctrl.commands import main; main()"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=tmp_path)
+    assert done.returncode == 1
+    assert done.stderr == 'error: typer must be installed, by: pip install "suspension-ctrl[cli]"\n'
+
+
+@pytest.mark.parametrize("encoding", ["cp1252", "ascii", "utf-8"])
+def test_a_pipe_of_any_encoding_is_written(checkout, tmp_path, encoding):
+    """With files that the package opens without an encoding being errors."""
+    program = (
+        "import warnings; from suspension_ctrl.commands import main\n"
+        "warnings.filterwarnings('error', category=EncodingWarning, module='suspension_ctrl')\n"
+        "main('compare')"
+    )
+    environment = os.environ | {"PYTHONIOENCODING": encoding, "PYTHONWARNDEFAULTENCODING": "1", "PYTHONUTF8": "0"}
+    sizes = ("--populations", "20", "--iterations", "1", "--repeats", "1", "--vehicle", "minaker_half")
+    command = [sys.executable, "-c", program, *sizes]
+    done = subprocess.run(command, capture_output=True, cwd=tmp_path, env=environment)
+    assert done.returncode == 0, done.stderr
+    assert "Table 4" in done.stdout.decode(encoding)
+
+
+BAD = [
+    (["--vehicle", "car"], "vehicle must be one of cantero_2022_half, jian_2022_full, ", 2),
+    (["--vehicle", ""], "vehicle must be one of cantero_2022_half, jian_2022_full, ", 2),
+    (["--vehicle", "no.toml"], "No such file or directory: 'no.toml'", 1),
+    (["--vehicle", "bad.toml"], "bad.toml: kind must be one of quarter-car, half-car, full-car, got 'sledge'", 2),
+    (["--road", "c"], "road must be a class of ISO 8608 such as C, C-lower or C-upper, or the path of a ", 2),
+    (["--road", ""], "road must be a class of ISO 8608 such as C, C-lower or C-upper, or the path of a ", 2),
+    (["--road", "Z"], "road_class must be one of A, B, C, D, E, F, G, H, got 'Z'", 2),
+    (["--road", "no.csv"], "No such file or directory: 'no.csv'", 1),
+    (["--road", "bad.csv"], "bad.csv: ", 2),
+    (["--road", "road.csv"], "f must lie from 0.4 to 40 Hz at 20 m/s, as the road is known from ", 2),
+    (["--speed", "0"], "speed must be finite and > 0 m/s, got 0.0", 2),
+    (["--speed", "nan"], "speed must be finite and > 0 m/s, got nan", 2),
+    (["--speed", "fast"], "Invalid value for '--speed': must be a number, got 'fast'", 2),
+    (["--band", "20"], "band must be 2 numbers separated by commas, got '20'", 2),
+    (["--band", "20,1"], "band must be finite with 0 <= lower < upper [Hz], got (20.0, 1.0)", 2),
+    (["--band", "0.5,inf"], "band must be finite with 0 <= lower < upper [Hz], got (0.5, inf)", 2),
+    (["--out", "."], "out must be a folder that is absent or empty, got '.', which is not empty", 2),
+    (["--out", "/proc/results"], "out must be a folder that can be written, got '/proc/results'", 2),
+    (["--fast", "3"], "No such option: --fast", 2),
+]
+BOUNDS = (["--vehicle", "cantero_2022_half"], "vehicle must be a file with bounds, got 'cantero_2022_half'", 2)
+CSV = "in the columns spring [N/m], damper [N s/m], got"
+OF = {
+    "compare": [
+        BOUNDS,
+        (["--problem", "no.toml"], "No such file or directory: 'no.toml'", 1),
+        (["--problem", "bad.toml"], "bad.toml: kind must be one of the keys title, measures, ", 2),
+        (["--problem", "x.toml", "--speed", "3"], "problem must stand without weighting, vehicle, ", 2),
+        (["--problem", "x.toml", "--weighting", ""], "problem must stand without weighting, vehicle, ", 2),
+        (["--weighting", ""], "weighting must be one of Wk, ", 2),
+        (["--weighting", "Wz"], "weighting must be one of Wk, ", 2),
+        (["--populations", "3"], "population must be a whole number >= 4, got 3", 2),
+        (["--populations", "12"], "population must be >= 15 for 3 objectives", 2),
+        (["--populations", "500,x"], "populations must be whole numbers separated by commas, got '500,x'", 2),
+        (["--iterations", "0"], "iterations must be a whole number >= 1, got 0", 2),
+        (["--repeats", "0"], "repeats must be a whole number >= 1, got 0", 2),
+        (["--repeats", "two"], "Invalid value for '--repeats': must be a whole number, got 'two'", 2),
+        (["--algorithms", "nsga3"], "algorithms must be one of nsga2, ", 2),
+        (["--seed", "-1"], "seed must be a whole number >= 0, got -1", 2),
+        (["--quick", "--repeats", "3"], "quick must stand without populations, iterations, repeats and seeds", 2),
+        (["--quick", "--seeds", "5"], "quick must stand without populations, iterations, repeats and seeds", 2),
+        (["--jobs", "2"], "jobs and scheduler must stand with quality, got 2 without it", 2),
+        (["--quality", "--jobs", "0"], "jobs must be a whole number >= 1, got 0", 2),
+        (["--quality", "--jobs", "2", "--scheduler", "tcp://h:1"], "jobs must stand without scheduler, got 2", 2),
+        (["--quality", "--scheduler", "h:1"], "scheduler must be tcp://host:port or tls://host:port, got 'h", 2),
+        (["--quality", "--seeds", "0"], "seeds must be a whole number >= 1, got 0", 2),
+        (["--quality", "--target", "1.5"], "target must be a number from 0 to 1, got 1.5", 2),
+    ],
+    "optimum": [
+        BOUNDS,
+        (["--sws-limit", "0"], "sws_limit must be finite and > 0 m, got 0.0", 2),
+        (["--sws-limit", "1"], "sws_limit must be a travel that a design within the bounds has", 2),
+        (["--sws-limit", "0.0449", "--population", "20"], "within 0.2 % of which the Pareto set has a design", 2),
+        (["--sws-limit", "soft"], "must be a number, got 'soft'", 2),
+        (["--population", "3"], "population must be a whole number >= 4, got 3", 2),
+        (["--iterations", "0"], "iterations must be a whole number >= 1, got 0", 2),
+        (["--seed", "-1"], "seed must be a whole number >= 0, got -1", 2),
+        (["--vehicle", "minaker_half", "--sws-limit", "1e-4", "--population", "20", "--iterations", "1"],
+         "sws_limit must be a travel that a design within the bounds has, got 0.0001 m", 2),
+    ],
+    "bode": [
+        BOUNDS,
+        (["--design", "22000"], "design must be 2 numbers separated by commas, got '22000'", 2),
+        (["--design", "22000,-1"], "damper must be finite and > 0 N s/m, got -1.0", 2),
+        (["--designs", "columns.csv"], f"{CSV} 'columns.csv': ", 2),
+        (["--designs", "text.csv"], "could not convert string to float: 'soft'", 2),
+        (["--designs", "header.csv"], f"{CSV} 'header.csv' without a row", 2),
+        (["--designs", "empty.csv"], "designs must be a CSV file with numbers", 2),
+        (["--designs", "binary.csv"], "designs must be a CSV file with numbers", 2),
+        (["--designs", "absent.csv"], f"{CSV} 'absent.csv': No such file or directory", 2),
+        (["--designs", "."], "designs must be a CSV file with numbers", 2),
+        (["--designs", "nan.csv"], "damper must be finite and > 0 N s/m, got nan", 2),
+        (["--points", "1"], "points must be a whole number >= 2, got 1", 2),
+        (["--weighting", "Wz"], "weighting must be one of Wk, ", 2),
+        (["--response", "pitch_acceleration"], "response must be one of body_acceleration, ", 2),
+        (["--vehicle", "minaker_half", "--design", "1,2"], "design must be 4 numbers separated by commas, got", 2),
+        (["--vehicle", "minaker_half", "--designs", "road.csv"], "in the columns front.spring [N/m], front.", 2),
+    ],
+    "ride": [
+        (["--setting", "spring"], "setting must be like front.spring=1e4,front.damper=2000, got 'spring'", 2),
+        (["--setting", "spring=soft"], "setting must be like front.spring=1e4,front.damper=2000, got", 2),
+        (["--setting", "front.spring=1e4"], "must be one of spring, damper, got 'front.spring'", 2),
+        (["--spring", "-1"], "spring must be finite and > 0 N/m, got -1.0", 2),
+        (["--body-mass", "400"], "body_mass, wheel_mass, tyre_stiffness must stand together, got no whe", 2),
+        (["--vehicle", "minaker_half", "--body-mass", "400"],
+         "vehicle must stand without body_mass, wheel_mass, tyre_stiffness, got 'minaker_half' with one", 2),
+        (["--body-mass", "400", "--wheel-mass", "45", "--tyre-stiffness", "2e5", "--spring", "2e4"],
+         "must have spring, damper, got none for damper", 2),
+    ],
+}  # fmt: skip
+CASES = [(name, *one) for name, of in OF.items() for one in BAD + of]
+
+
+@pytest.mark.parametrize(("name", "arguments", "message", "status"), CASES)
+def test_bad_input_is_one_line(called, tmp_path, name, arguments, message, status):
+    """Status 2; of files that cannot be read, 1."""
+    if arguments == ["--out", "/proc/results"] and not sys.platform.startswith("linux"):
+        pytest.skip("/proc is Linux's")
+    header = "spring [N/m],damper [N s/m]\n"
+    texts = {
+        "road.csv": MEASURED, "bad.csv": "a,b\n1,2\n", "bad.toml": 'kind = "sledge"',
+        "columns.csv": "spring,damper\n1,2\n", "text.csv": f"{header}22000,soft\n", "nan.csv": f"{header}22000,\n",
+        "header.csv": header, "empty.csv": "",
+    }  # fmt: skip
+    for file, text in texts.items():
+        (tmp_path / file).write_text(text, encoding="utf-8")
+    (tmp_path / "binary.csv").write_bytes(bytes(range(256)))
+    before = set(tmp_path.iterdir())
+    done = called(name, *arguments)
+    assert done.returncode == status
+    assert done.stdout == ""
+    assert done.stderr.startswith("error: ")
+    assert done.stderr.count("\n") == 1
+    assert message in done.stderr
+    assert set(tmp_path.iterdir()) == before
+
+
+def test_a_script_itself_ends_so(script, tmp_path):
+    """As a process of its own."""
+    path = tmp_path / "study.toml"
+    case = '[[cases]]\nvehicle = "minaker_half"\nroad = "C"\nspeed_m_per_s = 15\n'
+    path.write_text(f'measures = ["ACC", "SWS"]\nconstraints = ["SWS"]\n{case}', encoding="utf-8")
+    done = script("compare", "--problem", path)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.count("\n") == 1
+    assert "study.toml: constraints[1]: constraint must be like" in done.stderr

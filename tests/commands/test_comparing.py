@@ -1,0 +1,136 @@
+"""Comparisons on other vehicles, roads and speeds, and on problems from files."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from suspension_ctrl.commands import comparing
+from suspension_ctrl.paper.experiment import chosen
+
+TINY = ("--populations", "20,25", "--iterations", 2, "--repeats", 1)
+PICTURES = {"figure5.png", "figure5.pdf"}
+TABLES = {f"table{n}{ending}" for n in (2, 3, 4) for ending in (".csv", ".md", ".tex")}
+CASE = '[[cases]]\nvehicle = "minaker_half"\nroad = "C"\nspeed_m_per_s = 15\n'
+VARIABLES = [
+    "front.spring [N/m]", "front.damper [N s/m]", "rear.spring [N/m]", "rear.damper [N s/m]",
+    "front_antiroll [N m/rad]", "rear_antiroll [N m/rad]",
+]  # fmt: skip
+
+
+def study(folder: Path, text: str) -> Path:
+    path = folder / "study.toml"
+    path.write_text(text + CASE)
+    return path
+
+
+def assert_nothing_published(out):
+    """Columns of published values are there, and empty."""
+    for number in (2, 3):  # of NSGA-II and MOEA/D-DRA
+        assert pd.read_csv(out / f"table{number}.csv").published_seconds.isna().all()
+    table = pd.read_csv(out / "table4.csv")
+    assert table[["published_seconds", "published_ratio_percent"]].isna().all(axis=None)
+
+
+def test_compare_on_another_vehicle(called, tmp_path):
+    done = called("compare", "--vehicle", "jian_2022_full", "--road", "C", "--speed", 20, *TINY, "--out", "out")
+    assert done.returncode == 0, done.stderr
+    out = tmp_path / "out"
+    assert {path.name for path in out.iterdir()} == TABLES | PICTURES | {
+        "runs.csv", "environment.json", "fronts", "timed",
+    }  # fmt: skip
+    assert_nothing_published(out)
+    assert "Case 1, share 1: ISO 8608 class C, geometric mean" in done.stdout
+    assert "20 m/s" in done.stdout
+    assert "the non-dominated designs of all these runs" in done.stdout
+    front = pd.read_csv(out / "fronts" / "nsga2_n25_i2_r1.csv")
+    assert list(front.columns) == [*VARIABLES, "ACC [m/s^2]", "SWS [m]", "DTL [N]"]
+    problem, _ = chosen("jian_2022_full", "C", 20.0)
+    np.testing.assert_allclose(
+        front.iloc[:, 6:], problem.evaluate(front.iloc[:, :6].to_numpy()), rtol=1e-12
+    )  # by another number of threads
+    assert json.loads((out / "environment.json").read_text())["arguments"]["vehicle"] == "jian_2022_full"
+
+
+def test_another_speed_is_not_beside_the_paper(called, tmp_path, monkeypatch):
+    monkeypatch.setattr(comparing, "GRID_VARIABLES", 1)  # a reference front of the runs is made at once
+    sizes = ("--populations", 500, "--iterations", 10, "--repeats", 1)  # of the paper
+    done = called("compare", "--speed", 30, "--algorithms", "moead-dra", *sizes, "--out", "out")
+    assert done.returncode == 0, done.stderr
+    assert pd.read_csv(tmp_path / "out" / "table3.csv").published_seconds.isna().all()
+    assert "Case 1, share 1: power law: " in done.stdout
+
+
+def test_compare_on_a_study_goes_on_and_judges_quality(called, checkout, tmp_path):
+    """Eight variables, three cases and limits; then the same with `--quality` in the same folder, then another."""
+    path = checkout / "data/studies/full_car.toml"
+    command = ("compare", "--problem", path, *TINY, "--out", "out")
+    done = called(*command)
+    assert done.returncode == 0, done.stderr
+    out = tmp_path / "out"
+    assert_nothing_published(out)
+    assert "Limits: SWS <= 0.012, roll_gradient <= 6." in done.stdout
+    assert "Case 3, share 0.2: ISO 8608 class C, geometric mean" in done.stdout
+    assert "ACC is weighted" not in done.stdout  # comfort has weightings of its own
+    front = pd.read_csv(out / "fronts" / "moead-dra_n20_i2_r1.csv")
+    assert list(front.columns) == [
+        *VARIABLES, "driver.spring [N/m]", "driver.damper [N s/m]",
+        "comfort [m/s^2]", "SWS [m]", "DLC [-]", "violation",
+    ]  # fmt: skip
+    assert front.violation.eq(0).all()
+    before = {path: path.stat().st_mtime_ns for path in (out / "timed" / "runs").iterdir()}
+
+    again = called(*command, "--quality", "--seeds", 2)
+    assert again.returncode == 0, again.stderr
+    assert {path: path.stat().st_mtime_ns for path in (out / "timed" / "runs").iterdir()} == before
+    assert {f"{kind}_n{n}.png" for kind in ("anytime", "boxes", "attainment") for n in (20, 25)} <= {
+        path.name for path in out.iterdir()
+    }
+    runs = pd.read_csv(out / "runs.csv")
+    assert len(runs[~runs.timing]) == 2 * 2 * 2
+    assert "Hypervolume of the archive cut to N" in (out / "verdict.md").read_text()
+
+    other = study(tmp_path, 'measures = ["ACC", "SWS", "DTL"]\n')
+    refused = called("compare", "--problem", other, *TINY, "--out", "out")
+    assert refused.returncode == 2
+    assert refused.stderr.startswith("error: problem must be '")
+    assert refused.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("measures", ['["ACC", "SWS"]', '["comfort = ACC", "SWS", "DTL front", "DTL rear"]'])
+def test_compare_takes_any_number_of_objectives(called, tmp_path, measures):
+    path = study(tmp_path, f"measures = {measures}\n")
+    sizes = ("--populations", 40, "--iterations", 1, "--repeats", 1, "--quality", "--seeds", 2)
+    done = called("compare", "--problem", path, "--algorithms", "nsga2,random", *sizes, "--out", "out")
+    assert done.returncode == 0, done.stderr
+    assert "ACC is weighted with Wk" in done.stdout
+    assert (tmp_path / "out" / "attainment_n40.png").exists()
+
+
+@pytest.mark.parametrize(
+    ("limit", "message"),
+    [
+        (0.001, "constraints must leave a feasible design, got none in any run"),
+        (0.00696, "the best designs of all runs must differ in every objective, got 1 that do not"),
+    ],
+)
+def test_limits_that_leave_no_front_are_one_line(called, tmp_path, limit, message):
+    """With limits near the least travel that 20 designs have: none within them, and a single one."""
+    path = study(tmp_path, f'measures = ["ACC", "SWS", "DTL"]\nconstraints = ["SWS <= {limit}"]\n')
+    done = called("compare", "--problem", path, "--populations", 20, "--iterations", 2, "--repeats", 1)
+    assert done.returncode == 2
+    assert done.stderr.strip() == f"error: {message}"
+    assert not done.stdout
+
+
+def test_runs_without_a_feasible_design_are_counted(called, tmp_path):
+    """Just above the least travel some runs find designs within the limits and some do not."""
+    path = study(tmp_path, 'measures = ["ACC", "SWS", "DTL"]\nconstraints = ["SWS <= 0.0071"]\n')
+    sizes = ("--populations", 20, "--iterations", 2, "--repeats", 1)
+    done = called("compare", "--problem", path, *sizes, "--out", "out")
+    assert done.returncode == 0, done.stderr
+    empty = sum(pd.read_csv(path).empty for path in (tmp_path / "out" / "fronts").iterdir())
+    assert 0 < empty < 3
+    assert f"{empty} of 3 timed runs found no design within the limits." in done.stdout

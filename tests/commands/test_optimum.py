@@ -1,0 +1,51 @@
+"""Table 5, and the best struts of another vehicle."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from suspension_ctrl.paper.experiment import chosen
+
+VARIABLES = [
+    "front.spring [N/m]", "front.damper [N s/m]", "rear.spring [N/m]", "rear.damper [N s/m]",
+    "front_antiroll [N m/rad]", "rear_antiroll [N m/rad]",
+]  # fmt: skip
+
+
+def test_optimum_makes_table_5(script, tmp_path):
+    done = script("optimum", "--band", "0.1,20", "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    table = pd.read_csv(tmp_path / "out" / "table5.csv").set_index(["weighting", "design"])
+    assert len(table) == 3 * 6
+    for design in ("reference car", "published optimum"):
+        row = table.loc[("Wb-table", design)]
+        assert abs(row["ACC off [%]"]) < 0.1
+        assert abs(row["DTL off [%]"]) < 0.1
+        assert round(row["SWS [m]"], 4) == 0.0287
+    exact = table.loc[("Wb-table", "exact, least ACC")]
+    assert exact["SWS [m]"] == pytest.approx(0.0287, rel=1e-9)
+    assert exact["ACC [m/s^2]"] <= table.loc[("Wb-table", "published optimum"), "ACC [m/s^2]"] + 1e-3
+
+
+def test_optimum_of_another_vehicle(called, tmp_path):
+    done = called(
+        "optimum", "--vehicle", "jian_2022_full", "--road", "C", "--sws-limit", 0.01,
+        "--population", 200, "--iterations", 5, "--out", "out",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert "published" not in done.stdout
+    table = pd.read_csv(tmp_path / "out" / "table5.csv").set_index(["weighting", "design"])
+    assert len(table) == 3 * 5
+    assert table.filter(like="published").isna().all(axis=None)
+    for weighting in ("Wk", "Wb", "Wb-table"):
+        part = table.loc[weighting]
+        problem, struts = chosen("jian_2022_full", "C", None, weighting=weighting)
+        own = part.loc["its own struts"]
+        assert own[VARIABLES].tolist() == [struts[name] for name in problem.variables]
+        found = part[["ACC [m/s^2]", "SWS [m]", "DTL [N]"]]
+        np.testing.assert_allclose(found, problem.evaluate(part[VARIABLES].to_numpy(float)), rtol=1e-9)
+        within = part.drop("its own struts")
+        assert within["SWS [m]"].le(0.01 * (1 + 1e-6)).all()
+        for header in ("ACC [m/s^2]", "DTL [N]"):
+            least = part.loc[f"least {header.split()[0]} up to the limit", header]
+            assert least <= within[header].min() * (1 + 1e-6)

@@ -1,0 +1,66 @@
+"""The ride of one vehicle from the command line: the numbers of `ride` and `modes`, of a file and of flags."""
+
+import numpy as np
+import pandas as pd
+
+from suspension_ctrl import Iso8608Road, QuarterCar, load_vehicle, ride
+
+QUARTER = ("--body-mass", 400, "--wheel-mass", 45, "--tyre-stiffness", "220e3")
+
+
+def written(folder) -> tuple[pd.DataFrame, pd.DataFrame]:
+    return tuple(pd.read_csv(folder / "out" / f"{name}.csv").set_index("name") for name in ("ride", "modes"))
+
+
+def test_ride_of_a_file_with_a_coefficient_changed(called, tmp_path):
+    done = called(
+        "ride", "--vehicle", "jian_2022_full", "--road", "C", "--speed", 25, "--band", "0.5,20",
+        "--weighting", "Wb", "--setting", "front.damper=1500, rear.damper=1800", "--out", "out",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    table, modes = written(tmp_path)
+    file = load_vehicle("jian_2022_full")
+    setting = {**file.setting, "front.damper": 1500.0, "rear.damper": 1800.0}
+    wanted = ride(file.vehicle, setting, Iso8608Road("C"), 25.0, weighting="Wb", band=(0.5, 20.0))
+    np.testing.assert_allclose(table.value, wanted.value, rtol=1e-12)
+    assert table.index.tolist() == wanted.index.tolist()
+    assert table.unit.tolist() == wanted.unit.tolist()
+    of_vehicle = file.vehicle.modes(setting)
+    assert modes.index.tolist() == of_vehicle["name"].tolist()
+    np.testing.assert_allclose(modes["frequency [Hz]"], of_vehicle["frequency [Hz]"], rtol=1e-12)
+    np.testing.assert_allclose(modes["damping ratio [-]"], of_vehicle["damping ratio [-]"], rtol=1e-12)
+    said = done.stdout
+    assert "front.damper 1500 N s/m" in said
+    assert "Road: ISO 8608 class C, geometric mean" in said
+    assert "25 m/s; 0.5 to 20 Hz." in said
+    assert "ACC weighted with Wb" in said
+    assert said.splitlines()[-1] == "out"
+
+
+def test_ride_of_a_quarter_car_by_flags(called, tmp_path):
+    done = called("ride", *QUARTER, "--spring", "25e3", "--damper", "2e3", "--road", "D", "--out", "out")
+    assert done.returncode == 0, done.stderr
+    table, _ = written(tmp_path)
+    car = QuarterCar(body_mass=400.0, wheel_mass=45.0, tyre_stiffness=220e3)
+    wanted = ride(car, (25e3, 2e3), Iso8608Road("D"), 20.0)
+    np.testing.assert_allclose(table.value, wanted.value, rtol=1e-12)
+
+
+def test_without_flags_it_is_the_papers_reference_car(called, tmp_path, table1_problem):
+    """As a new folder below results, with the folder last."""
+    done = called("ride")
+    assert done.returncode == 0, done.stderr
+    folder = tmp_path / done.stdout.splitlines()[-1]
+    assert folder.parent == tmp_path / "results"
+    table = pd.read_csv(folder / "ride.csv").set_index("name")
+    reference = table1_problem.evaluate([[22e3, 1500.0]])[0]
+    np.testing.assert_allclose(table.value[["ACC", "SWS", "DTL"]], reference, rtol=1e-9)
+
+
+def test_spring_alone_changes_the_car_of_a_file(called, tmp_path):
+    done = called(
+        "ride", "--spring", "12389.2", "--damper", "1616.3", "--weighting", "Wb-table", "--band", "0.1,20"
+    )
+    assert done.returncode == 0, done.stderr
+    assert "spring 12389.2 N/m, damper 1616.3 N s/m" in done.stdout  # the published optimum
+    assert " 2.066" in done.stdout
