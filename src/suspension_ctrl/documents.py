@@ -9,6 +9,7 @@ import tomllib
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import MISSING, dataclass, fields
+from os import PathLike
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -22,8 +23,8 @@ _SMALLEST, _LARGEST = 1e-12, 1e12
 
 
 @contextmanager
-def naming(path: Path) -> Iterator[None]:
-    """Have whatever is wrong with a file be a ValueError of one line that names it."""
+def naming(path: str | PathLike[str]) -> Iterator[None]:
+    """Name the file in a ValueError about its content, in one line."""
     try:
         yield
     except (ValueError, RecursionError) as error:

@@ -94,6 +94,11 @@ class Record:
             textwrap.wrap(text, _WIDTH, subsequent_indent="    ", max_lines=_LINES, placeholder=" ...")
         )
 
+    def _keep(self, **values: object) -> None:
+        """Set fields of this frozen record, in ``__post_init__``."""
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
     def _values(self) -> tuple[object, ...]:
         return tuple(_hashable(getattr(self, f.name)) for f in self._fields() if f.compare)
 

@@ -155,8 +155,7 @@ class Tabulated(Record):
             raise ValueError("wavenumber must be above zero, finite and ascending")
         if not ((gamma >= 0) & (gamma <= 1)).all():
             raise ValueError(f"coherence must be from 0 to 1, got {gamma.min()} to {gamma.max()}")
-        object.__setattr__(self, "wavenumber", tuple(n.tolist()))
-        object.__setattr__(self, "coherence", tuple(gamma.tolist()))
+        self._keep(wavenumber=tuple(n.tolist()), coherence=tuple(gamma.tolist()))
 
     def between(self, n: Real, distance: float) -> Real:
         """Return the coherence; see `Coherence`."""

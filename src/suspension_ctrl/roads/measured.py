@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import checks
+from ..documents import naming
 from ..quantities import Complex, Real, frozen_array, unit
 from ..tables import read_table, table_rows
 from .coherence import Coherence, Isotropic, Tabulated
@@ -73,8 +74,7 @@ class MeasuredRoad(Road):
             raise ValueError(
                 f"density must be finite and > 0 m^3 throughout, got a least value of {density.min()}"
             )
-        object.__setattr__(self, "wavenumber", n)
-        object.__setattr__(self, "density", density)
+        self._keep(wavenumber=n, density=density)
 
     @classmethod
     def from_profile(
@@ -147,14 +147,12 @@ class MeasuredRoad(Road):
             profile = read_profile(path, track_width)
         else:
             profile, (n, density) = None, read_curve(path, PSD)
-        try:
+        with naming(path):
             if profile is not None:
                 return cls.from_profile(profile, segment=segment, coherence=coherence, source=str(path))
             if track_width is not None or segment is not None:
                 raise ValueError("a spectrum takes neither track_width nor segment")
             return cls(n, density, coherence=coherence or Isotropic(), source=str(path))
-        except ValueError as error:
-            raise ValueError(f"{path}: {error}") from None
 
     @property
     def band(self) -> tuple[float, float]:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import checks
+from ..documents import naming
 from ..quantities import Real, Record, frozen_array, unit
 from ..tables import read_table, write_csv
 
@@ -66,9 +67,7 @@ class Profile(Record):
             if not np.isfinite(values).all():
                 raise ValueError(f"{name} must be finite, got {values[~np.isfinite(values)][0]}")
         _check_even(distance)
-        object.__setattr__(self, "distance", distance)
-        object.__setattr__(self, "height", height)
-        object.__setattr__(self, "tracks", tuple(tracks.tolist()))
+        self._keep(distance=distance, height=height, tracks=tuple(tracks.tolist()))
 
     @property
     def step(self) -> float:
@@ -127,10 +126,8 @@ def read_profile(path: "str | PathLike[str]", track_width: float | None = None) 
     names, values = read_table(path)
     if names[:1] != [DISTANCE] or len(names) < 2:
         raise ValueError(f"{path}: first column must be {DISTANCE!r} and then heights, got {names}")
-    try:
+    with naming(path):
         return Profile(values[:, 0], values[:, 1:], _tracks(names[1:], track_width))
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None
 
 
 def write_profile(path: "str | PathLike[str]", profile: Profile) -> None:

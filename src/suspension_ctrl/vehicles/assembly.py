@@ -84,7 +84,7 @@ class StrutParameter(Record):
     default: float | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "gain", frozen_array(self.gain))
+        self._keep(gain=frozen_array(self.gain))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -129,10 +129,8 @@ class Assembly(Record):
     payload: tuple[tuple[float, Position], ...] = ()
 
     def __post_init__(self) -> None:
-        for name in ("masses", "inertias", "contacts", "responses", "bending"):
-            object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
-        for name in ("tyres", "struts", "parameters", "supports", "payload"):
-            object.__setattr__(self, name, tuple(getattr(self, name)))
+        for name, value in vars(self).items():
+            self._keep(**{name: FrozenMapping(value) if isinstance(value, Mapping) else tuple(value)})
         if (tyres := [tyre.name for tyre in self.tyres]) != list(self.contacts):
             raise ValueError(f"contacts must be those of the tyres, {tyres}, got {list(self.contacts)}")
         check_strut_names("struts", (strut.name for strut in self.struts))

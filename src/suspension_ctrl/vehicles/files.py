@@ -55,8 +55,7 @@ class VehicleFile(Record):
     roll_geometry: RollGeometry | None = None
 
     def __post_init__(self) -> None:
-        for name in ("setting", "bounds"):
-            object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
+        self._keep(setting=FrozenMapping(self.setting), bounds=FrozenMapping(self.bounds))
 
 
 def load_vehicle(source: str | PathLike[str]) -> VehicleFile:

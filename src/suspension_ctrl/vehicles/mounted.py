@@ -75,7 +75,7 @@ class Seat(Part):
 
     def __post_init__(self) -> None:
         check_numbers(self)
-        object.__setattr__(self, "position", _position(self.position))
+        self._keep(position=_position(self.position))
         if not (isinstance(self.name, str) and self.name.isidentifier()):
             raise ValueError(f"name must be of letters, digits and underscores, got {self.name!r}")
         check_strut_names("name", [self.name])
@@ -124,7 +124,7 @@ class Payload(Part):
 
     def __post_init__(self) -> None:
         check_numbers(self)
-        object.__setattr__(self, "position", _position(self.position))
+        self._keep(position=_position(self.position))
 
     def added_to(self, assembly: Assembly) -> Assembly:
         """Return the vehicle with this load on it."""
@@ -171,9 +171,8 @@ class FlexibleBody(Part):
         for place, shape in shapes.items():
             if len(shape) != modes or not np.isfinite(shape).all():
                 raise ValueError(f"shapes must be {modes} finite numbers at each point, got {shape} at {place}")
-        object.__setattr__(self, "shapes", FrozenMapping(shapes))
-        for name in ("frequencies", "damping_ratios"):
-            object.__setattr__(self, name, tuple(map(float, getattr(self, name))))
+        frequencies, damping_ratios = (tuple(map(float, x)) for x in (self.frequencies, self.damping_ratios))
+        self._keep(frequencies=frequencies, damping_ratios=damping_ratios, shapes=FrozenMapping(shapes))
 
     def added_to(self, assembly: Assembly) -> Assembly:
         """Return the vehicle with this flexible body."""

@@ -5,16 +5,11 @@ The first column is ``frequency [Hz]``; two more for each output and input are c
 """
 
 import re
-from typing import TYPE_CHECKING
 
 import control
 import numpy as np
 
 from ..quantities import Real, signal_unit
-from ..tables import read_table
-
-if TYPE_CHECKING:
-    from os import PathLike
 
 FREQUENCY = "frequency [Hz]"
 _COLUMN = re.compile(r"([\w-]+)/(\w+) (real|imag) \[(.*)\]", re.ASCII)
@@ -22,18 +17,11 @@ _INPUT = re.compile(r"(?:\w+_)?(road|road_rate|strut)", re.ASCII)
 _INPUT_UNITS = {"road": "m", "road_rate": "m/s", "strut": "N"}
 
 
-def read_plant(path: "str | PathLike[str]") -> control.FrequencyResponseData:
-    """Return the frequency responses of a table; ValueError that names the file, OSError if it cannot be read."""
-    names, values = read_table(path)
+def frequency_responses(names: list[str], values: Real) -> control.FrequencyResponseData:
+    """Return the system of a table (n, c) with columns of these names; ValueError if it is none."""
     if names[0] != FREQUENCY:
-        raise ValueError(f"{path}: first column must be {FREQUENCY!r}, got {names[0]!r}")
-    try:
-        return _system(2 * np.pi * values[:, 0], names[1:], values[:, 1:])
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None
-
-
-def _system(omega: Real, names: list[str], values: Real) -> control.FrequencyResponseData:
+        raise ValueError(f"first column must be {FREQUENCY!r}, got {names[0]!r}")
+    omega, names, values = 2 * np.pi * values[:, 0], names[1:], values[:, 1:]
     parts = dict(zip(map(_part, names), values.T, strict=True))
     if len(parts) < len(names):
         raise ValueError(f"columns must differ, got {max(names, key=names.count)!r} twice")

@@ -3,20 +3,21 @@
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from os import PathLike
+from typing import Any
 
 import control
 import numpy as np
 from numpy.typing import NDArray
 
 from .. import checks
+from ..documents import naming
 from ..quantities import FrozenMapping, Record, unit
+from ..tables import read_table
 from .assembly import Position, Response, ResponseName, StrutParameter, check_strut_names, joined, label
 from .feedback import System, selected
+from .plant_tables import frequency_responses
 from .vehicle import Vehicle, spring_and_damper
-
-if TYPE_CHECKING:
-    from os import PathLike
 
 _LEAST = 4
 """Lines that a cubic spline needs."""
@@ -86,25 +87,19 @@ class Plant(Record, Vehicle):
         check_strut_names("struts", struts)
         contacts = _checked_contacts(self.contacts)
         _check_signals(system, [joined(wheel, "road") for wheel in contacts], struts, tensions)
-        object.__setattr__(self, "contacts", contacts)
-        object.__setattr__(self, "struts", struts)
-        object.__setattr__(self, "system", _ported(system, tuple(contacts), struts))
+        self._keep(contacts=contacts, struts=struts, system=_ported(system, tuple(contacts), struts))
 
     @classmethod
     def from_csv(
         cls,
-        path: "str | PathLike[str]",
+        path: str | PathLike[str],
         contacts: Mapping[str, Position] = _ONE_WHEEL,
         struts: Sequence[str] = (),
     ) -> "Plant":
         """Read a table of frequency responses, see `plant_tables`; errors name the file."""
-        from .plant_tables import read_plant
-
-        system = read_plant(path)
-        try:
-            return cls(system, contacts, tuple(struts))
-        except ValueError as error:
-            raise ValueError(f"{path}: {error}") from None
+        names, values = read_table(path)
+        with naming(path):
+            return cls(frequency_responses(names, values), contacts, tuple(struts))
 
     @property
     def meanings(self) -> Mapping[str, Response]:
