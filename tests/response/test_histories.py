@@ -164,3 +164,11 @@ def test_measures_scale_and_are_ordered(history, factor):
 def test_rejects_impossible_histories(make, message):
     with pytest.raises(ValueError, match=rf"^{message}[^\n]*$"):
         make()
+
+
+def test_exposure_weights_in_one_step():
+    history = np.random.default_rng(4).normal(size=2000)
+    assert exposure(history, 0.005, "Wk") == exposure(weighted(history, 0.005, "Wk"), 0.005)
+    assert repr(exposure(np.ones(400), 0.005)).startswith("Exposure(rms=1 m/s^2, peak=1 m/s^2, ")
+    with pytest.raises(ValueError, match=r"^weighting must be one of Wk, Wd, .*, got 'Wz'$"):
+        exposure(history, 0.005, "Wz")

@@ -51,7 +51,7 @@ def test_index_of_a_sine(n, step):
     short, long = (sine(n, length, step) for length in (300.0, 1500.0))
     first, second = (international_roughness_index(p).mean * (p.distance.size - 1) for p in (short, long))
     found = (second - first) / (long.distance.size - short.distance.size)
-    base = max(round(0.25 / step), 1) * step
+    base = {0.05: 5, 0.1: 3, 0.25: 1, 0.3: 1}[step] * step
     by_hand = 4 * n * gain(n) * np.sinc(n * base) * np.sinc(n * step)
     assert found == pytest.approx(by_hand, rel=2e-3 + (np.pi * n * step) ** 2 / 3)
 
@@ -95,7 +95,7 @@ def test_index_of_a_random_road_is_that_of_its_spectrum():
     profile = Iso8608Road("B").profile(8000.0, step, 1)
     n = np.fft.rfftfreq(profile.distance.size, step)
     periodogram = 2 * step**2 / 8000 * np.abs(np.fft.rfft(profile.height[:, 0])) ** 2
-    base = round(0.25 / step) * step
+    base = 3 * step
     travel = (gain(n) * 2 * np.pi * n * np.sinc(n * base) * np.sinc(n * step)) ** 2 * periodogram
     by_spectrum = 1e3 * np.sqrt(2 / np.pi * travel.sum() / 8000)
     assert international_roughness_index(profile).mean == pytest.approx(by_spectrum, rel=0.04)
@@ -124,3 +124,13 @@ def test_a_steady_slope_is_no_roughness():
 def test_rejects_profiles_that_do_not_carry_an_index(profile, message):
     with pytest.raises(ValueError, match=f"^a profile for the roughness index {message}$"):
         international_roughness_index(profile)
+
+
+@pytest.mark.parametrize(("step", "intervals"), [(0.1, 3), (0.02, 13), (0.05, 5), (0.25, 1), (0.17, 1)])
+def test_the_base_length_is_rounded_half_up(step, intervals):
+    """As in Sayers' program: 2.5 steps of 0.1 m are 3. A short wave is averaged over so many steps."""
+    n = 0.8
+    found = international_roughness_index(sine(n, 400.0, step)).mean
+    by_hand = 4 * n * gain(n) * abs(np.sinc(n * intervals * step) * np.sinc(n * step))
+    other = 4 * n * gain(n) * abs(np.sinc(n * (intervals - 1) * step) * np.sinc(n * step))
+    assert abs(found / by_hand - 1) < abs(found / other - 1) / 4

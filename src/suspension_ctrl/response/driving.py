@@ -1,26 +1,31 @@
 """A vehicle driven over a profile: its responses in time, exact for a road that is straight between its points."""
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import control
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .. import checks
-from ..quantities import signal_unit
+from ..quantities import Real, signal_unit
 from ..roads.profiles import Profile
+from ..vehicles.vehicle import Pair, Setting, Vehicle
 
 if TYPE_CHECKING:
     import pandas as pd
-
-
-Real = NDArray[np.float64]
 
 _POINTS = 4
 """Least points of the profile in a wave of the fastest mode, which it then meets by 0.81, sinc^2 of 1/4."""
 _SAME_TRACK = 1e-3  # m
 
 
+@overload
+def simulate(
+    closed: Vehicle, setting: Setting | Pair, profile: Profile, speed: float, *, periodic: bool = False
+) -> "pd.DataFrame": ...
+
+
+@overload
 def simulate(
     closed: control.StateSpace,
     profile: Profile,
@@ -28,54 +33,80 @@ def simulate(
     contact_points: ArrayLike = ((0.0, 0.0),),
     *,
     periodic: bool = False,
-) -> "pd.DataFrame":
-    """Return the responses of a vehicle that is driven over a profile.
+) -> "pd.DataFrame": ...
 
-    A wheel at (x, y) follows the track at y, ``z(t) = h(d(t) + x, y)``, where d is where the origin is, the body's
-    centre of gravity. Between two points the road is straight, and the response to that is exact: the states
-    go from one sample to the next by matrix exponentials (first-order hold), also where the wheels pass their
-    points at different times. ``control.forced_response`` alone would be exact for a single wheel only. What
-    the straight pieces take from a wave of frequency f is the factor sinc^2(f step/speed) of their own. Steps
-    that are uneven within what `Profile` allows count as their mean.
+
+def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
+    """Drive a vehicle over a profile: ``simulate(vehicle, setting, profile, speed)``.
+
+    ``simulate(closed, profile, speed, contact_points)`` drives any model from roads to responses.
+
+    A wheel at (x, y) follows the track at y, ``z(t) = h(d(t) + x, y)``, where d is the place of the origin, the
+    body's centre of gravity. Between two points the road is straight, and the response to that is exact: the
+    states go from one sample to the next by matrix exponentials (first-order hold), also where the wheels pass
+    their points at different times. The straight pieces attenuate a wave of frequency f by sinc^2(f step/speed).
 
     Parameters
     ----------
-    closed : control.StateSpace
-        Vehicle with its struts, ``vehicle.closed(...)``, from roads [m] and, if tyres are damped, rates [m/s].
+    closed : Vehicle or control.StateSpace
+        The vehicle; or ``vehicle.closed(...)``, from roads [m] and, if tyres are damped, rates [m/s].
+    setting : mapping or (float, float)
+        Of a vehicle the coefficients of its struts, as for ``vehicle.closed``.
     profile : Profile
-        The road, with a track under every wheel.
+        The road, with a track under every wheel. With less than four points in a wave of the model's fastest mode
+        at this speed it is refined by straight interpolation.
     speed : float
         Vehicle speed V [m/s].
     contact_points : (r, 2) array_like
-        Where the roads touch, ``vehicle.contact_points``, x forward and y to the left [m]; by default one wheel on
-        the track at y = 0.
+        Of a model the points where the roads touch, x forward and y to the left [m]; by default one wheel on the
+        track at y = 0. A vehicle knows its own.
     periodic : bool
-        How it begins. If false, the rearmost wheel stands on the first point, the vehicle settled on the heights
+        The start. If false, the rearmost wheel stands on the first point, the vehicle settled on the heights
         under its wheels as after a level road, and sets off at full speed; the foremost ends on the last point.
         Drop the first seconds, or begin with a level stretch. If true, the profile goes on from its last point
-        over one step to its first, as those of `Road.profile` do without a seam, and the vehicle has driven
-        on it for ever: one period of the steady state, without any transient.
+        over one step to its first, as those of `Road.profile` do without a seam, and the result is one period of
+        the steady state, without any transient.
 
     Returns
     -------
     DataFrame
         A row for each step of the profile: ``time [s]``, ``distance [m]`` of the origin along the road, and
-        every response with its unit, ``body_acceleration [m/s^2]``; outputs of other names have none. On a kink of
-        the road the load of a damped tyre jumps and is given as the mean of both sides. For finer samples of the
-        same road, which such a load may need, give a profile of the heights ``profile.at(...)``.
+        every response with its unit, ``body_acceleration [m/s^2]``. On a kink of the road the load of a damped
+        tyre jumps and is given as the mean of both sides.
 
     Raises
     ------
     ValueError
-        If there are not as many contact points as roads, the profile lacks a track under one, is too short for
-        the wheelbase, or has less than four points in a wave of the model's fastest mode at this speed.
+        If there are not as many contact points as roads, or the profile lacks a track under one or is too short
+        for the wheelbase.
     """
+    if isinstance(closed, Vehicle):
+        return _of_vehicle(closed, *arguments, **options)
+    return _of_model(closed, *arguments, **options)
+
+
+def _of_vehicle(
+    vehicle: Vehicle, setting: Setting | Pair, profile: Profile, speed: float, *, periodic: bool = False
+) -> "pd.DataFrame":
+    return _of_model(vehicle.closed(setting), profile, speed, vehicle.contact_points, periodic=periodic)
+
+
+def _of_model(
+    closed: control.StateSpace,
+    profile: Profile,
+    speed: float,
+    contact_points: ArrayLike = ((0.0, 0.0),),
+    *,
+    periodic: bool = False,
+) -> "pd.DataFrame":
     import pandas as pd
 
     checks.positive("speed", speed, "m/s")
+    if not isinstance(profile, Profile):
+        raise ValueError(f"profile must be a Profile, such as road.profile(...), got {profile!r}")
     model = _Model.of(closed)
     points = _checked_points(contact_points, model.roads)
-    _check_step(closed, profile.step, speed)
+    profile = _refined(profile, _coarsest(closed, speed), periodic)
     wheels = _Wheels.on(profile, points, periodic)
     dt = profile.step / speed
     states = _states(model, wheels, dt, periodic)
@@ -90,7 +121,7 @@ def simulate(
 
 
 class _Model(NamedTuple):
-    """x' = a x + b u, y = c x + d u + e u' under roads u, whose rates u' are no inputs of the states any more."""
+    """x' = a x + b u, y = c x + d u + e u' under roads u; their rates u' drive no states."""
 
     a: Real
     b: Real
@@ -101,7 +132,11 @@ class _Model(NamedTuple):
 
     @classmethod
     def of(cls, closed: control.StateSpace) -> "_Model":
-        """Take what rates do to the states into these: with x' = A x + B u + G u' it is x - G u that moves so."""
+        """Eliminate road rates from the inputs.
+
+        With x' = A x + B u + G u' the shifted state w = x - G u obeys w' = A w + (B + A G) u; the outputs become
+        y = C w + (D + C G) u + E u'.
+        """
         if not (isinstance(closed, control.StateSpace) and closed.isctime(strict=True)):
             got = f"{type(closed).__name__} with dt = {getattr(closed, 'dt', None)}"
             raise ValueError(f"closed must be a state-space model in continuous time, got {got}")
@@ -120,9 +155,9 @@ class _Wheels(NamedTuple):
     Parameters
     ----------
     points : (k, r, 4) ndarray
-        The last two points of the profile that each wheel has reached and the next two [m].
+        Heights of the last two points of the profile reached by each wheel and of the next two [m].
     share : (r,) ndarray
-        Share of a step that each wheel is beyond the last point that it has reached, at all times alike.
+        Share of a step by which each wheel is beyond the last point reached, the same at all times.
     start : float
         Distance of the origin at first [m].
     """
@@ -164,11 +199,11 @@ def _states(model: _Model, wheels: _Wheels, dt: float, periodic: bool) -> Real:
     """States (k, n) of the model at the times of the wheels, `dt` [s] apart."""
     n, k = len(model.a), len(wheels.points)
     taps = np.array([_taps(model, i, dt, share) for i, share in enumerate(wheels.share.tolist())])
-    drive = np.einsum("krj,rjn->nk", wheels.points[:, :, 1:], taps)  # what a step adds
+    drive = np.einsum("krj,rjn->nk", wheels.points[:, :, 1:], taps)  # contribution of a step
     forward = _straight(model.a, model.b[:, :1], dt)[0]
     sampled = control.ss(forward, np.eye(n), np.eye(n), np.zeros((n, n)), dt)
     drive = np.pad(drive, ((0, 0), (0, 1)))  # for the states after the last step
-    if periodic:  # what a period does to rest and to the first states brings these back
+    if periodic:  # the first states recur after a period
         after = control.forced_response(sampled, inputs=drive).outputs[:, -1]
         at_first = np.linalg.solve(np.eye(n) - np.linalg.matrix_power(forward, k), after)
     else:
@@ -178,9 +213,9 @@ def _states(model: _Model, wheels: _Wheels, dt: float, periodic: bool) -> Real:
 
 
 def _taps(model: _Model, wheel: int, dt: float, share: float) -> Real:
-    """Return what each of three points under a wheel adds (3, n) to the states in a step.
+    """Return the contribution (3, n) of each of three points under a wheel to the states after a step.
 
-    The step begins a `share` of it past the first; the road goes straight to the second, then on to the third.
+    The step begins a `share` of it past the first; the road is straight to the second, then to the third.
     """
     b = model.b[:, wheel : wheel + 1]
     _, start, point = _straight(model.a, b, (1 - share) * dt)
@@ -190,7 +225,7 @@ def _taps(model: _Model, wheel: int, dt: float, share: float) -> Real:
 
 
 def _straight(a: Real, b: Real, duration: float) -> tuple[Real, Real, Real]:
-    """Return states after a duration [s] by those before and by the first and last value of a straight input."""
+    """Return the matrices of a first-order hold over a duration [s]: of the states, first and last input."""
     from scipy.signal import cont2discrete
 
     n, r = b.shape
@@ -207,20 +242,32 @@ def _checked_points(contact_points: ArrayLike, roads: list[str]) -> Real:
     return points
 
 
-def _check_step(closed: control.StateSpace, step: float, speed: float) -> None:
+def _coarsest(closed: control.StateSpace, speed: float) -> float:
+    """Return the longest step [m] with four points in a wave of the fastest mode."""
     poles = closed.poles()
     fastest = float(np.abs(poles[poles.imag != 0]).max(initial=0.0)) / (2 * np.pi)
-    if step * fastest * _POINTS > speed * (1 + 1e-9):
-        raise ValueError(
-            f"profile must have steps of at most {speed / (_POINTS * fastest):.3g} m at {speed:g} m/s, "
-            f"{_POINTS} in a wave of the fastest mode of {fastest:.3g} Hz, got {step:g} m"
-        )
+    return speed / (_POINTS * fastest) if fastest else np.inf
+
+
+def _refined(profile: Profile, step: float, periodic: bool) -> Profile:
+    """Return the profile in equal parts of its steps up to a step [m], straight between its points."""
+    parts = int(np.ceil(profile.step / step * (1 - 1e-9)))
+    if parts <= 1:
+        return profile
+    points = len(profile.distance)
+    height = np.vstack([profile.height, profile.height[:1]]) if periodic else profile.height
+    fine = np.arange((points if periodic else points - 1) * parts + (not periodic)) / parts
+    tracks = [np.interp(fine, np.arange(len(height)), track) for track in height.T]
+    return Profile(profile.distance[0] + profile.step * fine, np.transpose(tracks), profile.tracks)
 
 
 def _track(profile: Profile, y: float) -> int:
     apart = np.abs(np.array(profile.tracks) - y)
     if apart.min() > _SAME_TRACK:
-        raise ValueError(f"profile must have a track at y = {y:g} m, got tracks at {list(profile.tracks)} m")
+        raise ValueError(
+            f"profile must have a track at y = {y:g} m, as by road.profile(..., tracks=({y:g}, ...)), "
+            f"got tracks at {list(profile.tracks)} m"
+        )
     return int(apart.argmin())
 
 

@@ -4,22 +4,21 @@ Histories are sampled at even times, each sample counting for one time step.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .. import checks
-from .weightings import weighting
-
-Real = NDArray[np.float64]
+from ..quantities import Real, Record, unit
+from . import weightings
 
 INTEGRATIONS = ("linear", "exponential")
-"""Means of running r.m.s. in clause 6.3.1."""
+"""Integrations of the running r.m.s., clause 6.3.1."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Exposure:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Exposure(Record):
     """Measures of a weighted acceleration [m/s^2]; [rad/s^2] of a rotation.
 
     Parameters
@@ -36,11 +35,11 @@ class Exposure:
         Of the history, T [s].
     """
 
-    rms: float
-    peak: float
-    mtvv: float
-    vdv: float
-    duration: float
+    rms: float = field(metadata=unit("m/s^2"))
+    peak: float = field(metadata=unit("m/s^2"))
+    mtvv: float = field(metadata=unit("m/s^2"))
+    vdv: float = field(metadata=unit("m/s^1.75"))
+    duration: float = field(metadata=unit("s"))
 
     @property
     def crest_factor(self) -> float:
@@ -59,12 +58,12 @@ class Exposure:
 
 
 def weighted(acceleration: ArrayLike, time_step: float, name: str) -> Real:
-    """Return a history of acceleration as a weighting filter of ISO 2631 lets it pass, at rest before it.
+    """Return a history of acceleration behind a weighting filter of ISO 2631, at rest before it.
 
-    The analogue filter is made digital by the bilinear transform: at f it does what the analogue one does at
+    The bilinear transform makes the analogue filter digital: its factor at f is the analogue one at
     ``tan(pi f time_step)/(pi time_step)``, a frequency higher by (pi f time_step)^2/3. In steps of 5 ms the factor
-    of Wk is so within 0.3 % up to 10 Hz and 3.1 % at 20 Hz, in steps of 2 ms within 0.05 % and 0.5 %. To have no
-    such error simulate the filter behind the vehicle, ``control.ss(weighting("Wk")) * closed[response, road]``.
+    of Wk is so within 0.3 % up to 10 Hz and 3.1 % at 20 Hz, in steps of 2 ms within 0.05 % and 0.5 %. The exact
+    filter stands behind the vehicle, ``control.ss(weighting("Wk")) * closed[response, road]``.
 
     Parameters
     ----------
@@ -78,7 +77,7 @@ def weighted(acceleration: ArrayLike, time_step: float, name: str) -> Real:
     Returns
     -------
     (n,) ndarray
-        The weighted history; its first seconds are the filter's own start where the history begins amidst motion.
+        The weighted history; a history that begins amidst motion begins with a transient of the filter.
 
     Raises
     ------
@@ -88,7 +87,7 @@ def weighted(acceleration: ArrayLike, time_step: float, name: str) -> Real:
     from scipy import signal
 
     history = _checked(acceleration, time_step)
-    filter_ = weighting(name)
+    filter_ = weightings.weighting(name)
     zeros, poles = filter_.zeros(), filter_.poles()
     highest = float(np.abs(poles).max()) / (2 * np.pi)
     if time_step * highest > 1 + 1e-9:
@@ -110,8 +109,8 @@ def running_rms(
     time_step : float
         Between two samples [s].
     integration : str
-        ``"linear"``, over the last `time_constant` seconds alike (to the nearest number of steps), or
-        ``"exponential"``, over all that has been with a weight that falls to 1/e in that time.
+        ``"linear"``, the mean over the last `time_constant` seconds (to the nearest number of steps), or
+        ``"exponential"``, with a weight of the past that falls to 1/e in that time.
     time_constant : float
         tau [s]; the standard recommends 1 s.
 
@@ -139,15 +138,19 @@ def running_rms(
     return np.sqrt(signal.lfilter([1 - kept], [1.0, -kept], squares))
 
 
-def exposure(acceleration: ArrayLike, time_step: float, *, integration: str = "linear") -> Exposure:
-    """Return the measures of a weighted acceleration.
+def exposure(
+    acceleration: ArrayLike, time_step: float, weighting: str | None = None, *, integration: str = "linear"
+) -> Exposure:
+    """Return the measures of an acceleration that is weighted already, or by a filter.
 
     Parameters
     ----------
     acceleration : (n,) array_like
-        Weighted, see `weighted` [m/s^2], of a second at least.
+        [m/s^2], of a second at least.
     time_step : float
         Between two samples [s].
+    weighting : str, optional
+        Filter of ISO 2631 to be applied first, see `weighted`: ``"Wk"``.
     integration : str
         Of the running r.m.s. with a time constant of 1 s: ``"linear"`` or ``"exponential"``.
 
@@ -160,6 +163,8 @@ def exposure(acceleration: ArrayLike, time_step: float, *, integration: str = "l
     ValueError
         If a parameter is out of range, or the history too short or zero throughout.
     """
+    if weighting is not None:
+        acceleration = weighted(acceleration, time_step, weighting)
     history = _checked(acceleration, time_step)
     duration = history.size * time_step
     peak = float(np.abs(history).max())

@@ -1,11 +1,12 @@
 """International Roughness Index of a profile: how far the suspension of a reference car travels per distance."""
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, field
 
 import control
 import numpy as np
-from numpy.typing import NDArray
 
+from ..quantities import Real, Record, unit
 from ..roads.profiles import Profile
 from ..vehicles.cars import QuarterCar
 
@@ -19,8 +20,8 @@ _COARSEST = 0.3
 """Longest step of a profile [m]."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class RoughnessIndex:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class RoughnessIndex(Record):
     """International Roughness Index of a profile.
 
     Parameters
@@ -29,7 +30,7 @@ class RoughnessIndex:
         Index of each track [mm/m].
     """
 
-    tracks: tuple[float, ...]
+    tracks: tuple[float, ...] = field(metadata=unit("mm/m"))
 
     @property
     def mean(self) -> float:
@@ -61,10 +62,10 @@ def golden_car() -> control.StateSpace:
 def international_roughness_index(profile: Profile) -> RoughnessIndex:
     """Return the International Roughness Index of every track of a profile.
 
-    The profile's slope, averaged over 250 mm (the nearest whole number of steps, one at least, so that steps of
-    more than 167 mm are not averaged), drives the golden car at 80 km/h; the response is exact for an averaged
-    profile that is straight between its points. The car begins at rest on the mean slope of the first 11 m. The
-    index is the mean magnitude of the difference of the slopes of body and wheel (Sayers 1995, as `golden_car`).
+    The profile's slope, averaged over 250 mm (the nearest whole number of steps, half a step up and one at least:
+    steps of more than 167 mm are not averaged), drives the golden car at 80 km/h. The response is exact for an
+    averaged profile that is straight between its points. The car begins at rest on the mean slope of the first
+    11 m. The index is the mean magnitude of the difference of the slopes of body and wheel (Sayers 1995).
 
     Parameters
     ----------
@@ -92,7 +93,7 @@ def international_roughness_index(profile: Profile) -> RoughnessIndex:
         raise ValueError(
             f"a profile for the roughness index must be at least {_START + _BASE} m long, got {length:g} m"
         )
-    base = max(round(_BASE / step), 1)
+    base = max(math.floor(round(_BASE / step, 9) + 0.5), 1)  # half up, as in Sayers' program
     slope = (profile.height[base:] - profile.height[:-base]) / (base * step)
     start = round(_START / step)
     first = (profile.height[start] - profile.height[0]) / (start * step)
@@ -100,7 +101,7 @@ def international_roughness_index(profile: Profile) -> RoughnessIndex:
     return RoughnessIndex(tracks=tuple(1e3 * index for index in indices))
 
 
-def _mean_rectified(slope: NDArray[np.float64], first: float, dt: float) -> float:
+def _mean_rectified(slope: Real, first: float, dt: float) -> float:
     """Mean magnitude of the car's response to slopes (k,), each held for `dt` [s], after steady slope `first`."""
     car = golden_car()
     at_rest = -np.linalg.solve(car.A, car.B)[:, 0] * first
