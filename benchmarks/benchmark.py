@@ -31,7 +31,6 @@ SETTINGS: dict[str, Any] = {
     "memory_designs": 1_000_000,
     "populations": (500, 1000, 4000, 16_000),
     "generations": 20,
-    "identical_population": 200,
     "limit": 60.0,
     "moead_population": 1000,
     "moead_generations": 4,  # 5,000 evaluations, those of MOEA/D-DRA in 20 iterations
@@ -141,7 +140,6 @@ def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summar
                 field.nsga2, problem, settings["populations"], settings["generations"], repeats, limit
             ),
         ),
-        identical=searches.identical(problem, settings["identical_population"], settings["generations"]),
         absent=field.absent,
     )
 

@@ -3,18 +3,18 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from time import perf_counter
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
 from numba import njit
+from numba.extending import register_jitable
 from numpy.typing import NDArray
 
 from peers import Contenders, Prepare, Task
 from sections.timing import take_turns, timed
-from suspension_ctrl import Nsga2, Problem, RideProblem, minimise
-from suspension_ctrl.response.one_strut import StrutLoop
-from suspension_ctrl.response.scores import Scoring, scores_of_one_strut
+from suspension_ctrl import Problem, RideProblem
+from suspension_ctrl.search.compiled import call
 from suspension_ctrl.search.indicators import ReferenceFront
 from suspension_ctrl.search.problem import Minimisable
 
@@ -106,15 +106,6 @@ def by_population(
     return table.assign(evaluations=table.contender.map(counts).where(table.population == task.population))
 
 
-def identical(problem: Minimisable, population: int, iterations: int) -> bool:
-    """Whether our NSGA-II ends with the very arrays that it ends with where DEAP selects the survivors."""
-    ours, deaps = (
-        minimise(problem, Nsga2(population=population, selection=selection), iterations=iterations, seed=0)
-        for selection in ("array", "deap-standard")
-    )
-    return np.array_equal(ours.designs, deaps.designs) and np.array_equal(ours.objectives, deaps.objectives)
-
-
 @njit
 def scaled(
     objectives: NDArray[np.float64], ideal: NDArray[np.float64], span: NDArray[np.float64]
@@ -123,28 +114,28 @@ def scaled(
     return (objectives - ideal) / span
 
 
-@njit
-def scaled_kernel(
-    design: NDArray[np.float64],
-    loops: tuple[StrutLoop, ...],
-    scoring: Scoring,
-    ideal: NDArray[np.float64],
-    span: NDArray[np.float64],
-) -> NDArray[np.float64]:
-    """Return the objectives (3,) of a design (2,) with a front's ideal point at 0 and its nadir at 1."""
-    return scaled(scores_of_one_strut(design, loops, scoring), ideal, span)
+class ScaledKernel(NamedTuple):
+    """A problem's kernel, its objectives with a front's ideal point at 0 and its nadir at 1."""
+
+    kernel: Any
+    ideal: NDArray[np.float64]
+    span: NDArray[np.float64]
+
+    @register_jitable
+    def function(self, design: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the scaled objectives (3,) of a design (2,)."""
+        return scaled(call(self.kernel, (design,)), self.ideal, self.span)
 
 
 def scaled_problem(problem: RideProblem, reference: ReferenceFront) -> Problem:
     """Return the problem with the reference front between 0 and 1: not every MOEA/D normalises objectives."""
     ideal, span = reference.ideal, reference.nadir - reference.ideal
-    _, settings = problem.kernel
     return Problem(
         evaluate=lambda designs: scaled(problem.evaluate(designs), ideal, span),
         lower=problem.lower,
         upper=problem.upper,
         objectives=problem.objectives,
-        kernel=(scaled_kernel, (*settings, ideal, span)),
+        kernel=ScaledKernel(problem.kernel, ideal, span),
     )
 
 

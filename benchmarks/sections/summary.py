@@ -24,8 +24,6 @@ class Measurements:
         From `evaluation.errors`.
     memory : float
         From `evaluation.memory` [MB].
-    identical : bool
-        From `searches.identical`.
     absent : dict of str to str
         Why a library is not in the tables.
     """
@@ -37,7 +35,6 @@ class Measurements:
     process: pd.DataFrame
     errors: dict[str, float]
     memory: float
-    identical: bool
     absent: dict[str, str]
 
 
@@ -117,7 +114,6 @@ def goals(found: Measurements) -> pd.DataFrame:
     each = found.moead.assign(seconds=found.moead.seconds / found.moead.evaluations)
     rows.append(_against_best("MOEA/D, time per evaluation: ours / fastest", medians(each, "population"), 1.0))
     rows.append(_against_best("time to the hypervolume: ours / fastest", best_to_target(found.target), 0.8))
-    rows.append(("NSGA-II, same seed, DEAP's selection", "identical", np.nan, "DEAP standard", found.identical))
     extra = import_seconds(found)
     rows.append(("import beyond `import control`", "<= 0.3 s", extra, "", extra <= 0.3))
     return pd.DataFrame(rows, columns=["what", "bar", "here", "against", "holds"])

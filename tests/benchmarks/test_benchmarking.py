@@ -156,7 +156,6 @@ def measurements(ours: float, theirs: float) -> summary.Measurements:
         process=pd.DataFrame([{"contender": n, "seconds": s} for n, s in imports.items()]),
         errors=dict.fromkeys(names, 1e-8),
         memory=100.0,
-        identical=True,
         absent={"other": "ModuleNotFoundError: no"},
     )
 
@@ -208,12 +207,6 @@ def test_three_roads_to_the_objectives_agree_and_are_right():
         np.testing.assert_allclose(found, values[evaluation.OURS], rtol=1e-10)
     errors = evaluation.errors(problem, 1, seed=0)
     assert all(1e-9 < error < 1e-6 for error in errors.values())
-
-
-def test_arrays_are_held_against_deaps(table1_problem, monkeypatch):
-    assert searches.identical(table1_problem, 40, 5)
-    monkeypatch.setattr(searches, "minimise", lambda *args, **settings: SimpleNamespace(designs=object()))
-    assert not searches.identical(table1_problem, 40, 5)
 
 
 def test_imports_are_timed_one_after_the_other():

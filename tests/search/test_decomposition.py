@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from suspension_ctrl.search import decomposition
+from suspension_ctrl.search.compiled import call_compiled
 
 
 @pytest.mark.parametrize("m", [2, 3, 4])
@@ -100,7 +101,7 @@ def test_everyone_can_be_chosen():
 def test_mating_range_is_the_neighbourhood_with_its_probability():
     near = decomposition.neighbourhoods(50, 3, 5)
     rng = np.random.default_rng(1)
-    sizes = np.array([decomposition.mating_range(rng, 7, near, 0.9).size for _ in range(4000)])
+    sizes = np.array([call_compiled(decomposition.MatingRange(0.9), rng, 7, near).size for _ in range(4000)])
     assert set(sizes) == {5, 50}
     assert (sizes == 5).mean() == pytest.approx(0.9, abs=5 * np.sqrt(0.09 / 4000))
 
@@ -112,12 +113,14 @@ def population(n=12):
     return rng.random((n, 2)), objectives, weights, objectives.min(axis=0)
 
 
+def replace(limit, *arguments, rng=None):
+    call_compiled(decomposition.ReplaceWorse(limit), rng or np.random.default_rng(0), *arguments)
+
+
 def test_an_ideal_child_replaces_up_to_the_limit_and_moves_the_ideal_point():
     designs, objectives, weights, ideal = population()
     child = np.array([0.5, 0.5])
-    decomposition.replace_worse(
-        np.random.default_rng(0), child, np.full(3, 0.1), np.arange(12), designs, objectives, weights, ideal, 4
-    )
+    replace(4, child, np.full(3, 0.1), np.arange(12), designs, objectives, weights, ideal)
     replaced = (objectives == 0.1).all(axis=1)
     assert replaced.sum() == 4
     assert (designs[replaced] == child).all()
@@ -130,9 +133,7 @@ def test_whom_a_child_replaces_is_left_to_chance():
     rng = np.random.default_rng(3)
     for _ in range(3000):
         designs, objectives, weights, ideal = population()
-        decomposition.replace_worse(
-            rng, np.zeros(2), np.full(3, 0.1), np.arange(12), designs, objectives, weights, ideal, 4
-        )
+        replace(4, np.zeros(2), np.full(3, 0.1), np.arange(12), designs, objectives, weights, ideal, rng=rng)
         counts += (objectives == 0.1).all(axis=1)
     assert (np.abs(counts - 1000) < 5 * np.sqrt(3000 * 2 / 9)).all()
 
@@ -145,10 +146,8 @@ def test_the_ideal_point_moves_before_the_comparison():
     """
     designs, objectives = np.array([[0.0]]), np.array([[1.0, 3.0]])
     ideal = np.array([1.0, 3.0])
-    decomposition.replace_worse(
-        np.random.default_rng(0), np.array([9.0]), np.array([2.0, 0.0]), np.array([0]),
-        designs, objectives, np.array([[0.3, 0.7]]), ideal, 1,
-    )  # fmt: skip
+    weights = np.array([[0.3, 0.7]])
+    replace(1, np.array([9.0]), np.array([2.0, 0.0]), np.array([0]), designs, objectives, weights, ideal)
     np.testing.assert_array_equal(ideal, [1.0, 0.0])
     assert designs[0, 0] == 9.0
 
@@ -157,17 +156,7 @@ def test_a_worse_child_and_an_equal_one_replace_nobody():
     designs, objectives, weights, ideal = population()
     before = designs.copy()
     for value in (np.full(3, 9.0), objectives[3].copy()):
-        decomposition.replace_worse(
-            np.random.default_rng(0),
-            np.zeros(2),
-            value,
-            np.array([3]),
-            designs,
-            objectives,
-            weights,
-            ideal,
-            5,
-        )
+        replace(5, np.zeros(2), value, np.array([3]), designs, objectives, weights, ideal)
     np.testing.assert_array_equal(designs, before)
 
 
@@ -192,10 +181,7 @@ def test_whom_a_child_replaces_with_constraints(child, replaced):
     """Partners of violation 1, 0.5, 0.4 and none: slack of one constraint makes up for no other."""
     values = np.array([[1.0, 1.0, 1.0, -9.0], [1.0, 1.0, 0.5, -1.0], [1.0, 1.0, 0.2, 0.2], [1.0, 1.0, 0.0, -1.0]])
     designs, ideal = np.zeros((4, 1)), np.array([1.0, 1.0])
-    decomposition.replace_worse(
-        np.random.default_rng(0), np.ones(1), np.array(child), np.arange(4), designs, values,
-        np.full((4, 2), 0.5), ideal, 4,
-    )  # fmt: skip
+    replace(4, np.ones(1), np.array(child), np.arange(4), designs, values, np.full((4, 2), 0.5), ideal)
     np.testing.assert_array_equal(designs[:, 0] == 1, replaced)
     feasible = max(child[2:]) <= 0
     np.testing.assert_array_equal(ideal, np.minimum(child[:2], 1.0) if feasible else 1.0)

@@ -39,17 +39,19 @@ def test_corners_worked_on_every_iteration_and_utilities_in_range(population, pr
     [dtlz2(4), paper.ride_problem(), c2dtlz2(4, compiled=False), srn()],
     ids=["no kernel", "kernel", "constraints, no kernel", "constraints, kernel"],
 )
-def test_compiled_and_plain_sweeps_make_the_same_run(problem, monkeypatch):
+def test_compiled_and_plain_sweeps_make_the_same_run(problem):
     """The compiled loop, the same function as plain Python, and every step of it as plain Python."""
     optimiser = MoeadDra(population=30, utility_period=3)
     runs = [minimise(problem, optimiser, iterations=8, seed=2)]
     toolbox = optimiser.toolbox(problem)
-    for verb in ("choose_subproblems", *sweep.VERBS, "update_utility"):
-        compiled = getattr(toolbox, verb)
-        toolbox.register(verb, compiled.func.py_func, **compiled.keywords)
+    toolbox.register("evaluate", lambda designs: problem.evaluate(designs))
     runs.append(minimise(problem, optimiser, iterations=8, seed=2, toolbox=toolbox))
-    monkeypatch.setattr(sweep, "compiled_evaluation", lambda toolbox, problem: None)
-    runs.append(minimise(problem, optimiser, iterations=8, seed=2))
+    for name in ("choose_subproblems", "update_utility"):
+        compiled = getattr(toolbox, name)
+        toolbox.register(name, compiled.func.py_func, **compiled.keywords)
+    for name in sweep.VERBS:
+        toolbox.register(name, getattr(toolbox, name).args[0].function)
+    runs.append(minimise(problem, optimiser, iterations=8, seed=2, toolbox=toolbox))
     for other in runs[1:]:
         np.testing.assert_array_equal(runs[0].designs, other.designs)
         np.testing.assert_array_equal(runs[0].objectives, other.objectives)
@@ -59,10 +61,31 @@ def test_compiled_and_plain_sweeps_make_the_same_run(problem, monkeypatch):
 def test_kernel_is_used_where_it_may_be_and_only_there():
     problem = paper.ride_problem()
     toolbox = MoeadDra(population=20).toolbox(problem)
-    assert sweep.compiled_evaluation(toolbox, problem)[0] is problem.kernel[0]
+    assert sweep.compiled_evaluation(toolbox, problem) is problem.kernel
     toolbox.register("evaluate", lambda designs: problem.evaluate(designs))
     assert sweep.compiled_evaluation(toolbox, problem) is None
     assert sweep.compiled_evaluation(MoeadDra(population=20).toolbox(zdt1(3)), zdt1(3)) is None
+
+
+def test_a_users_compiled_verb_joins_the_compiled_sweep():
+    """With settings by name in any order; the run is the one of the same verb in Python."""
+    problem, optimiser = paper.ride_problem(), MoeadDra(population=25)
+    runs = []
+    for function in (njit(halfway), halfway):
+        toolbox = optimiser.toolbox(problem)
+        toolbox.register("repair", function, upper=np.array(problem.upper), lower=np.array(problem.lower))
+        assert (sweep.compiled_verb(toolbox.repair) is None) == (function is halfway)
+        runs.append(minimise(problem, optimiser, iterations=4, seed=0, toolbox=toolbox))
+    np.testing.assert_array_equal(runs[0].designs, runs[1].designs)
+    assert not np.array_equal(runs[0].designs, minimise(problem, optimiser, iterations=4, seed=0).designs)
+
+
+def halfway(rng, child, parent, lower, upper):
+    repaired = child.copy()
+    for v in range(child.size):
+        if not lower[v] <= child[v] <= upper[v]:
+            repaired[v] = (lower[v] + upper[v]) / 2
+    return repaired
 
 
 def test_exchanged_verbs_are_called_in_the_sweep():
@@ -214,8 +237,3 @@ def test_utilities_are_first_updated_after_fifty_iterations():
     assert calls == []
     minimise(problem, optimiser, iterations=100, seed=0, toolbox=toolbox)
     assert len(calls) == 2
-
-
-def test_compiled_sweep_is_not_stored_on_disk():
-    """Numba's store fails on functions passed as arguments, with a ReferenceError in a later process."""
-    assert sweep.work_on.stats.cache_path is None

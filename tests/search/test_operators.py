@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from scipy.stats import ks_2samp, kstest
 
 from suspension_ctrl.search import operators
+from suspension_ctrl.search.compiled import call_compiled
 
 LOWER, UPPER = np.array([-1.0, 0.0, 10.0]), np.array([1.0, 5.0, 11.0])
 P_LIMIT = 1e-4  # of a test with a fixed seed, which so fails only when the code or numpy's stream changes
@@ -41,9 +42,11 @@ def test_children_stay_in_the_box_and_parents_unchanged(parents, seed, eta):
 def test_repair_brings_children_back_between_bound_and_parent(designs, seed, scale):
     rng = np.random.default_rng(seed)
     n = designs.shape[0]
-    child = operators.differential_child(rng, np.vstack([designs, designs[:1]]), 0, np.arange(n + 1), scale)
+    child = call_compiled(
+        operators.DifferentialChild(scale), rng, np.vstack([designs, designs[:1]]), 0, np.arange(n + 1)
+    )
     child += rng.normal(0, 5, child.size)
-    repaired = operators.redraw_outside(rng, child, designs[0], LOWER, UPPER)
+    repaired = call_compiled(operators.RedrawOutside(LOWER, UPPER), rng, child, designs[0])
     inside = (child >= LOWER) & (child <= UPPER)
     np.testing.assert_array_equal(repaired[inside], child[inside])
     below, above = child < LOWER, child > UPPER
@@ -101,7 +104,10 @@ def test_a_last_parent_without_a_mate_is_copied():
 def test_differential_evolution_draws_two_different_partners_evenly():
     rng = np.random.default_rng(6)
     designs = np.array([[0.0], [1.0], [10.0], [100.0]])
-    children = [operators.differential_child(rng, designs, 0, np.array([1, 2, 3]), 1.0)[0] for _ in range(6000)]
+    children = [
+        call_compiled(operators.DifferentialChild(1.0), rng, designs, 0, np.array([1, 2, 3]))[0]
+        for _ in range(6000)
+    ]
     differences, counts = np.unique(children, return_counts=True)
     np.testing.assert_array_equal(differences, [-99, -90, -9, 9, 90, 99])
     assert (np.abs(counts - 1000) < 5 * np.sqrt(1000)).all()

@@ -84,14 +84,14 @@ def test_clock_is_the_median_of_the_longest_runs(comparison, plan, store):
 FRESH_PROCESS = """
 import numpy as np
 from suspension_ctrl.paper import experiment as paper
-from suspension_ctrl.search import constraints, decomposition, operators, selection, sorting
+from suspension_ctrl.search import constraints, decomposition, operators, selection
 from suspension_ctrl.study import timing as experiments
 from suspension_ctrl.study.comparison import Comparison
 comparison = Comparison(
     problem=paper.ride_problem(), algorithms=["nsga2", "moead-dra"], populations=[20], iterations=[12]
 )
 experiments.warm_up(comparison)
-modules = (decomposition, constraints, operators, selection, sorting)
+modules = (decomposition, constraints, operators, selection)
 functions = {name: f for module in modules for name, f in vars(module).items() if hasattr(f, "signatures")}
 before = {name: list(f.signatures) for name, f in functions.items()}
 list(experiments.carry_out(comparison, {}))

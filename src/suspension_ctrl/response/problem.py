@@ -1,6 +1,6 @@
 """The ride problem: measures of a vehicle over coefficients of its struts, in load cases, within limits."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
@@ -15,7 +15,7 @@ from ..quantities import FrozenMapping, Real, Record
 from ..vehicles.vehicle import Setting, Vehicle
 from .load_case import LoadCase, Road
 from .measures import Measure, case_limit, case_measure, name_of
-from .scores import NODES, RESOLVED, Kernel, Score, Scores, scores_of_design
+from .scores import NODES, RESOLVED, Kernel, Score, Scores
 from .weightings import Weighting, checked
 
 _CORNERS = 64
@@ -196,12 +196,12 @@ class RideProblem(Record):
         return self._scores.evaluate(x, self.nodes)
 
     @cached_property
-    def kernel(self) -> tuple[Callable[..., Real], tuple[Kernel]] | None:
-        """What `evaluate` gives for a single design (d,), as a compiled function and its further arguments.
+    def kernel(self) -> Kernel | None:
+        """What `evaluate` gives for a single design (d,), compiled.
 
         None with measures of handling or of a user's own, which are not compiled.
         """
-        return (scores_of_design, (self._scores.kernel(self.nodes),)) if self._scores.compiled else None
+        return self._scores.kernel(self.nodes) if self._scores.compiled else None
 
     def __repr__(self) -> str:
         units = self.units

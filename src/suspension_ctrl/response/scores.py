@@ -5,7 +5,8 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import literal_unroll, njit
+from numba import literal_unroll
+from numba.extending import register_jitable
 
 from ..quantities import Real
 from ..vehicles.feedback import gains_by_order
@@ -76,27 +77,26 @@ class Kernel(NamedTuple):
                 total[s] = np.maximum(total[s], value) if self.worst_case[s] else total[s] + share * value
         return np.asarray(self.scale * np.sqrt(total.T) + self.offset)
 
-
-@njit(cache=True)
-def scores_of_design(design: Real, kernel: Kernel) -> Real:
-    """Return the scores (s,) of one design (v,)."""
-    designs = design.reshape(1, design.size)
-    total = np.empty(kernel.scale.size)
-    for s in range(total.size):
-        total[s] = 0.0
-    c = 0
-    for case in literal_unroll(kernel.cases):
-        found = case.mean_squares(designs)
+    @register_jitable
+    def function(self, design: Real) -> Real:
+        """Return the scores (s,) of one design (v,), in compiled code."""
+        designs = design.reshape(1, design.size)
+        total = np.empty(self.scale.size)
         for s in range(total.size):
-            value = 0.0
-            for k in range(found.shape[1]):
-                term = kernel.squares[c][s, k] * found[0, k]
-                value = max(value, term) if kernel.worst_term[s] else value + term
-            total[s] = max(total[s], value) if kernel.worst_case[s] else total[s] + kernel.shares[c] * value
-        c += 1  # noqa: SIM113  # compiled loops over tuples of several types have no enumerate
-    for s in range(total.size):
-        total[s] = kernel.scale[s] * np.sqrt(total[s]) + kernel.offset[s]
-    return total
+            total[s] = 0.0
+        c = 0
+        for case in literal_unroll(self.cases):
+            found = case.mean_squares(designs)
+            for s in range(total.size):
+                value = 0.0
+                for k in range(found.shape[1]):
+                    term = self.squares[c][s, k] * found[0, k]
+                    value = max(value, term) if self.worst_term[s] else value + term
+                total[s] = max(total[s], value) if self.worst_case[s] else total[s] + self.shares[c] * value
+            c += 1  # noqa: SIM113  # compiled loops over tuples of several types have no enumerate
+        for s in range(total.size):
+            total[s] = self.scale[s] * np.sqrt(total[s]) + self.offset[s]
+        return total
 
 
 class Scores:

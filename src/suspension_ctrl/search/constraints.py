@@ -11,7 +11,8 @@ Engineering 186, 2000.
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
+
+from ..quantities import Real
 
 
 class InfeasibleWarning(UserWarning):
@@ -19,7 +20,7 @@ class InfeasibleWarning(UserWarning):
 
 
 @njit(cache=True, inline="always")  # MOEA/D-DRA calls it for each comparison
-def violation_of(value: NDArray[np.float64], m: int) -> float:
+def violation_of(value: Real, m: int) -> float:
     """Return the sum of max(0, g) over the constraints among the values (m + c,) of a design."""
     violation = 0.0
     for j in range(m, value.size):
@@ -27,55 +28,34 @@ def violation_of(value: NDArray[np.float64], m: int) -> float:
     return violation
 
 
-@njit(cache=True)
-def violations(values: NDArray[np.float64], m: int) -> NDArray[np.float64]:
+def violations(values: Real, m: int) -> Real:
     """Return `violation_of` each design (n,), from values (n, m + c)."""
-    found = np.empty(values.shape[0])
-    for i in range(values.shape[0]):
-        found[i] = violation_of(values[i], m)
-    return found
+    return np.maximum(values[:, m:], 0.0).sum(axis=1)
 
 
-@njit(cache=True)
-def any_feasible(values: NDArray[np.float64], m: int) -> bool:
+def any_feasible(values: Real, m: int) -> bool:
     """Whether any of the designs with these values (n, m + c) meets all constraints."""
-    for value in values:  # noqa: SIM110  numba compiles no generator
-        if violation_of(value, m) == 0.0:
-            return True
-    return False
+    return bool((values[:, m:] <= 0.0).all(axis=1).any())
 
 
-def feasible_objectives(values: NDArray[np.float64], m: int) -> NDArray[np.float64]:
+def feasible_objectives(values: Real, m: int) -> Real:
     """Return the objectives (k, m) of the feasible designs among values (n, m + c)."""
     if values.shape[1] == m:
         return values
     return values[violations(values, m) == 0, :m]
 
 
-@njit(cache=True)
-def lower_ideal(ideal: NDArray[np.float64], value: NDArray[np.float64], found: bool) -> bool:
-    """Take the values (m + c,) of a design into the ideal point (m,), in place.
+def ideal_with(ideal: Real, values: Real, found: bool) -> Real:
+    """Return the ideal point (m,) with further values (n, m + c) taken in.
 
     The ideal point is that of the feasible designs alone, as soon as one has been `found`; until then it is that
-    of all. The least values of infeasible designs may be far from any that a feasible one can have. Returns
-    whether a feasible design has been found by now.
+    of all. The least values of infeasible designs may be far from any that a feasible one can have.
     """
-    feasible = violation_of(value, ideal.size) == 0.0
-    for j in range(ideal.size):
-        if feasible and not found:
-            ideal[j] = value[j]
-        elif feasible or not found:
-            ideal[j] = min(ideal[j], value[j])
-    return found or feasible
-
-
-@njit(cache=True)
-def ideal_with(ideal: NDArray[np.float64], values: NDArray[np.float64], found: bool) -> NDArray[np.float64]:
-    """Return the ideal point (m,) with further values (n, m + c) taken in, one by one as `lower_ideal` does."""
-    lowered = ideal.copy()
-    for i in range(values.shape[0]):
-        found = lower_ideal(lowered, values[i], found)
-    return lowered
+    feasible = feasible_objectives(values, ideal.size)
+    if len(feasible):
+        least: Real = feasible.min(axis=0)
+        return np.minimum(ideal, least) if found else least
+    return ideal if found else np.minimum(ideal, values[:, : ideal.size].min(axis=0, initial=np.inf))
 
 
 _BEYOND = 1e-3
@@ -83,7 +63,7 @@ _BEYOND = 1e-3
 that no range overflows, yet so much that even 1e9 ranks of violation stay apart in double precision."""
 
 
-def constrained(values: NDArray[np.float64], m: int) -> NDArray[np.float64]:
+def constrained(values: Real, m: int) -> Real:
     """Return objectives (n, m) among which dominance is the constrained dominance of values (n, m + c).
 
     Those of feasible designs are their own. Those of an infeasible one are all beyond the worst of any feasible

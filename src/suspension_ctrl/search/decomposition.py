@@ -5,13 +5,16 @@ instances", IEEE Congress on Evolutionary Computation, 2009.
 """
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
+from numba.extending import register_jitable
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from .constraints import any_feasible, lower_ideal, violation_of
+from ..quantities import Real
+from .constraints import violation_of
 from .operators import draw_below
 
 ZERO_WEIGHT = 1e-4
@@ -21,7 +24,7 @@ _SAMPLE_SEED = 2009  # equal sizes give equal weights: the sample is part of the
 
 
 @lru_cache
-def weight_vectors(size: int, objectives: int) -> NDArray[np.float64]:
+def weight_vectors(size: int, objectives: int) -> Real:
     """Return widely spread weight vectors.
 
     The unit vectors come first; then, again and again, the candidate farthest from all those chosen, out of
@@ -47,18 +50,15 @@ def weight_vectors(size: int, objectives: int) -> NDArray[np.float64]:
     return weights
 
 
-@njit(cache=True)
-def farthest_first(points: NDArray[np.float64], start: NDArray[np.int64], size: int) -> NDArray[np.int64]:
+def farthest_first(points: Real, start: NDArray[np.int64], size: int) -> NDArray[np.int64]:
     """Return which `size` of the points (n, m): those in `start`, then again and again the farthest."""
+    columns = np.ascontiguousarray(points.T)
     chosen = np.empty(size, dtype=np.int64)
-    nearest = np.full(points.shape[0], np.inf)
+    nearest = np.full(len(points), np.inf)
     for i in range(size):
-        chosen[i] = start[i] if i < start.size else np.argmax(nearest)
-        for c in range(points.shape[0]):
-            distance = 0.0
-            for j in range(points.shape[1]):
-                distance += (points[c, j] - points[chosen[i], j]) ** 2
-            nearest[c] = min(nearest[c], distance)
+        chosen[i] = start[i] if i < start.size else nearest.argmax()
+        squares = (columns - columns[:, chosen[i], np.newaxis]) ** 2
+        np.minimum(nearest, squares.sum(axis=0), out=nearest)
         nearest[chosen[i]] = -1.0  # never again, also where only copies are left
     return chosen
 
@@ -73,13 +73,13 @@ def neighbourhoods(size: int, objectives: int, neighbours: int) -> NDArray[np.in
     return nearest
 
 
-def corner_subproblems(weights: NDArray[np.float64]) -> NDArray[np.int64]:
+def corner_subproblems(weights: Real) -> NDArray[np.int64]:
     """Return the indices of the subproblems whose weights (N, m) are the unit vectors, in objective order."""
     return np.array([np.flatnonzero(weights[:, j] == 1.0)[0] for j in range(weights.shape[1])])
 
 
 @njit(cache=True, inline="always")  # a call for each comparison would cost more than what it compares
-def tchebycheff(objectives: NDArray[np.float64], weight: NDArray[np.float64], ideal: NDArray[np.float64]) -> float:
+def tchebycheff(objectives: Real, weight: Real, ideal: Real) -> float:
     """Return g(F | lambda) = max_j lambda_j |F_j - z_j|; all arguments (m,), equation (14).
 
     Whatever follows the m objectives is left out.
@@ -92,100 +92,126 @@ def tchebycheff(objectives: NDArray[np.float64], weight: NDArray[np.float64], id
 
 @njit(cache=True)
 def choose_subproblems(
-    rng: np.random.Generator,
-    utility: NDArray[np.float64],
-    corners: NDArray[np.int64],
-    size: int,
-    tournament: int,
+    rng: np.random.Generator, utility: Real, corners: NDArray[np.int64], size: int, tournament: int
 ) -> NDArray[np.int64]:
     """Return the subproblems (size,) to work on: the corners, then winners of tournaments by utility.
 
     Each further one has the highest utility of `tournament` drawn from those not chosen yet; the first drawn
     wins a tie.
     """
-    open_ = np.arange(utility.size)
-    left = utility.size
+    open_ = np.empty(utility.size, dtype=np.int64)
+    for i in range(utility.size):
+        open_[i] = i
     chosen = np.empty(size, dtype=np.int64)
-    for c in range(corners.size):
-        chosen[c] = corners[c]
-        left -= 1
-        place = np.flatnonzero(open_[: left + 1] == corners[c])[0]
-        open_[place] = open_[left]
-    for c in range(corners.size, size):
-        best = draw_below(rng, left)
-        for _ in range(tournament - 1):
-            rival = draw_below(rng, left)
-            if utility[open_[rival]] > utility[open_[best]]:
-                best = rival
+    for c in range(size):
+        left = utility.size - c
+        best = 0
+        if c < corners.size:
+            while open_[best] != corners[c]:
+                best += 1
+        else:
+            best = draw_below(rng, left)
+            for _ in range(tournament - 1):
+                rival = draw_below(rng, left)
+                if utility[open_[rival]] > utility[open_[best]]:
+                    best = rival
         chosen[c] = open_[best]
-        left -= 1
-        open_[best] = open_[left]
+        open_[best] = open_[left - 1]
     return chosen
 
 
-@njit(cache=True)
-def mating_range(
-    rng: np.random.Generator, i: int, neighbours: NDArray[np.int64], probability: float
-) -> NDArray[np.int64]:
-    """Return where subproblem i finds mates and its child is put: its neighbours (T,) or, rarely, all (N,)."""
-    if rng.random() < probability:
-        return neighbours[i]
-    return np.arange(neighbours.shape[0])
+class MatingRange(NamedTuple):
+    """Where a subproblem finds mates and its child is put: with `probability` its neighbours, otherwise all."""
+
+    probability: float
+
+    @register_jitable
+    def function(self, rng: np.random.Generator, i: int, neighbours: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the partners (T,) or (N,) of subproblem i from the neighbours of each (N, T)."""
+        if rng.random() < self.probability:
+            return neighbours[i]
+        everyone = np.empty(neighbours.shape[0], dtype=np.int64)
+        for j in range(everyone.size):
+            everyone[j] = j
+        return everyone
 
 
-@njit(cache=True)
-def replace_worse(
-    rng: np.random.Generator,
-    child: NDArray[np.float64],
-    child_values: NDArray[np.float64],
-    partners: NDArray[np.int64],
-    designs: NDArray[np.float64],
-    values: NDArray[np.float64],
-    weights: NDArray[np.float64],
-    ideal: NDArray[np.float64],
-    limit: int,
-) -> None:
-    """Put a child in the place of partners that it betters, at most `limit` of them; everything in place.
+class ReplaceWorse(NamedTuple):
+    """Replacement of partners that a child betters, at most `limit` of them.
 
-    It betters one of larger violation and, where both are feasible, one of larger g(F | lambda). The ideal point
-    takes the child's objectives in before the first comparison, as `lower_ideal` does. To replace the first
-    `limit` that it betters of partners visited in random order is to replace as many, drawn from all that it
-    betters: whether it betters one does not depend on the others.
+    It betters one of larger violation and, where both are feasible, one of larger g(F | lambda).
 
     References
     ----------
     H. Jain and K. Deb, "An evolutionary many-objective optimization algorithm using reference-point based
     nondominated sorting approach, part II", IEEE Trans. Evol. Comput. 18(4), 2014, for the rule with constraints.
     """
-    lower_ideal(ideal, child_values, any_feasible(values, ideal.size))
-    violation = violation_of(child_values, ideal.size)
-    bettered = np.empty_like(partners)
-    count = 0
-    for p in partners:
-        theirs = violation_of(values[p], ideal.size)
-        better = violation < theirs
-        if violation == 0.0 and theirs == 0.0:
-            better = tchebycheff(child_values, weights[p], ideal) < tchebycheff(values[p], weights[p], ideal)
-        if better:
-            bettered[count] = p
-            count += 1
-    for left in range(count, max(count - limit, 0), -1):
-        drawn = draw_below(rng, left)
-        p = bettered[drawn]
-        bettered[drawn] = bettered[left - 1]
-        designs[p] = child
-        values[p] = child_values
+
+    limit: int
+
+    @register_jitable
+    def function(
+        self,
+        rng: np.random.Generator,
+        child: Real,
+        child_values: Real,
+        partners: NDArray[np.int64],
+        designs: Real,
+        values: Real,
+        weights: Real,
+        ideal: Real,
+    ) -> None:
+        """Put a child (d,) with its values (m + c,) in the place of partners; everything in place.
+
+        The ideal point takes the child's objectives in before the first comparison. To replace the first `limit`
+        of partners visited in random order is to replace as many, drawn from all that the child betters: whether
+        it betters one does not depend on the others.
+        """
+        lower_ideal(ideal, child_values, values)
+        bettered = np.empty_like(partners)
+        count = 0
+        for p in partners:
+            if betters(child_values, values[p], weights[p], ideal):
+                bettered[count] = p
+                count += 1
+        for left in range(count, max(count - self.limit, 0), -1):
+            drawn = draw_below(rng, left)
+            p = bettered[drawn]
+            bettered[drawn] = bettered[left - 1]
+            for v in range(child.size):
+                designs[p, v] = child[v]
+            for j in range(child_values.size):
+                values[p, j] = child_values[j]
+
+
+@njit(cache=True, inline="always")
+def betters(child: Real, other: Real, weight: Real, ideal: Real) -> bool:
+    """Whether values (m + c,) have less violation than others or, both feasible, less g at this weight (m,)."""
+    violation, theirs = violation_of(child, ideal.size), violation_of(other, ideal.size)
+    if violation > 0.0 or theirs > 0.0:
+        return violation < theirs
+    return tchebycheff(child, weight, ideal) < tchebycheff(other, weight, ideal)
+
+
+@register_jitable
+def lower_ideal(ideal: Real, child: Real, values: Real) -> None:
+    """Take the values (m + c,) of a child into the ideal point (m,), in place, as `ideal_with` does."""
+    feasible, found = violation_of(child, ideal.size) == 0.0, False
+    for i in range(values.shape[0]):
+        found = found or violation_of(values[i], ideal.size) == 0.0
+        if found:
+            break
+    for j in range(ideal.size):
+        if feasible and not found:
+            ideal[j] = child[j]
+        elif feasible or not found:
+            ideal[j] = min(ideal[j], child[j])
 
 
 @njit(cache=True)
 def updated_utility(
-    utility: NDArray[np.float64],
-    before: NDArray[np.float64],
-    values: NDArray[np.float64],
-    weights: NDArray[np.float64],
-    ideal: NDArray[np.float64],
-    threshold: float,
-) -> NDArray[np.float64]:
+    utility: Real, before: Real, values: Real, weights: Real, ideal: Real, threshold: float
+) -> Real:
     """Return the utilities (N,) after progress from `before` (N, m + c) to `values` (N, m + c).
 
     Progress is the relative decrease of g, old and new value both taken at the present ideal point, or of the

@@ -18,7 +18,6 @@ from dataclasses import dataclass
 from math import ceil
 from typing import ClassVar
 
-import moocore
 import numpy as np
 from deap.base import Toolbox
 from numpy.typing import NDArray
@@ -28,7 +27,7 @@ from .constraints import any_feasible, constrained, ideal_with, violations
 from .operators import sample_uniform
 from .population import State
 from .problem import Minimisable, evaluate_checked
-from .selection import crowding_distances
+from .selection import crowding_distances, front_ranks
 
 _SUCCESS = 0.2
 """Share of surviving mutants above which the step grows (I. Rechenberg, "Evolutionsstrategie", 1973)."""
@@ -106,7 +105,7 @@ class Gamultiobj:
 
 
 def ranked_tournament(
-    rng: np.random.Generator, rank: NDArray[np.int64], crowding: NDArray[np.float64], size: int
+    rng: np.random.Generator, rank: NDArray[np.int32], crowding: NDArray[np.float64], size: int
 ) -> NDArray[np.int64]:
     """Return `size` parents, winners of tournaments of two drawn from all (n,): lower rank, then less crowded."""
     a, b = (rng.random((2, size)) * rank.size).astype(np.int64)
@@ -150,7 +149,7 @@ def contenders(values: NDArray[np.float64], m: int, size: int) -> NDArray[np.int
 
 def select_controlled(
     objectives: NDArray[np.float64], size: int, pareto_fraction: float
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
+) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float64]]:
     """Keep `size` individuals of (n, m), no more than a fraction of them from the first front while others exist.
 
     Returns
@@ -167,8 +166,8 @@ def select_controlled(
     K. Deb and T. Goel, "Controlled elitist non-dominated sorting genetic algorithms for better convergence",
     EMO 2001, for the idea of leaving room for later fronts.
     """
-    rank = moocore.pareto_rank(objectives).astype(np.int64)
-    crowding, _ = crowding_distances(objectives, rank, np.arange(rank.size))
+    rank = front_ranks(objectives)
+    crowding = crowding_distances(objectives, rank)
     preferred = np.lexsort((-crowding, rank))
     best = np.count_nonzero(rank == 0)
     limit = min(best, ceil(pareto_fraction * size))

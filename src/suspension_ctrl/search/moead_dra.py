@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from .. import checks
 from . import decomposition, operators
+from .compiled import call_compiled
 from .constraints import ideal_with
 from .population import State
 from .problem import Minimisable, evaluate_checked
@@ -116,14 +117,14 @@ class MoeadDra:
         toolbox.register("sample", operators.sample_uniform, lower=lower, upper=upper)
         toolbox.register("evaluate", problem.evaluate)
         toolbox.register("choose_subproblems", decomposition.choose_subproblems, tournament=self.tournament)
-        toolbox.register("mating_range", decomposition.mating_range, probability=float(self.neighbour_probability))
-        toolbox.register("reproduce", operators.differential_child, scale=float(self.scale_factor))
-        toolbox.register("repair", operators.redraw_outside, lower=lower, upper=upper)
         toolbox.register(
-            "mutate", operators.mutate_design,
-            lower=lower, upper=upper, eta=float(self.mutation_eta), probability=float(probability),
-        )  # fmt: skip
-        toolbox.register("update", decomposition.replace_worse, limit=limit)
+            "mating_range", call_compiled, decomposition.MatingRange(float(self.neighbour_probability))
+        )
+        toolbox.register("reproduce", call_compiled, operators.DifferentialChild(float(self.scale_factor)))
+        toolbox.register("repair", call_compiled, operators.RedrawOutside(lower, upper))
+        eta, p = float(self.mutation_eta), float(probability)
+        toolbox.register("mutate", call_compiled, operators.MutateDesign(lower, upper, eta, p))
+        toolbox.register("update", call_compiled, decomposition.ReplaceWorse(limit))
         toolbox.register("sweep", _SWEEPS[self.update])
         toolbox.register("update_utility", decomposition.updated_utility, threshold=float(self.utility_threshold))
         return toolbox

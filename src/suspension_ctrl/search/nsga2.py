@@ -40,7 +40,7 @@ class Nsga2:
         Distribution index of polynomial mutation.
     selection : {"array", "deap-standard", "deap-log"}
         Survivor selection: the array form, or DEAP's ``selNSGA2`` with its sorting of order m n^2 or its
-        faster one. "array" and "deap-standard" keep the same survivors.
+        faster one. "array" and "deap-standard" keep the same survivors but for ties.
 
     Raises
     ------

@@ -1,27 +1,28 @@
 """Variation operators on real designs in a box, compiled; every draw comes from the generator handed in."""
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit
+from numba.extending import register_jitable
 from numpy.typing import NDArray
 
+from ..quantities import Real
 
-def sample_uniform(
-    rng: np.random.Generator, size: int, lower: NDArray[np.float64], upper: NDArray[np.float64]
-) -> NDArray[np.float64]:
+
+def sample_uniform(rng: np.random.Generator, size: int, lower: Real, upper: Real) -> Real:
     """Return `size` designs drawn uniformly from the box, shape (size, d)."""
     # What rng.uniform gives, which takes ten times as long with arrays for bounds.
     return lower + (upper - lower) * rng.random((size, lower.size))
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always")
 def draw_below(rng: np.random.Generator, count: int) -> int:
     """Return a whole number drawn uniformly from 0 to count - 1."""
     return int(rng.random() * count)
 
 
-def crowded_tournament(
-    rng: np.random.Generator, objectives: NDArray[np.float64], crowding: NDArray[np.float64], size: int
-) -> NDArray[np.int64]:
+def crowded_tournament(rng: np.random.Generator, objectives: Real, crowding: Real, size: int) -> NDArray[np.int64]:
     """Return `size` parents, winners of binary tournaments: dominance first, then larger crowding distance.
 
     Everyone meets a rival once in each pass through the population, in an order shuffled anew for each pass
@@ -34,10 +35,10 @@ def crowded_tournament(
 
 @njit(cache=True)
 def crowded_winners(
-    draws: NDArray[np.float64],
-    coins: NDArray[np.float64],
-    objectives: NDArray[np.float64],
-    crowding: NDArray[np.float64],
+    draws: Real,
+    coins: Real,
+    objectives: Real,
+    crowding: Real,
 ) -> NDArray[np.int64]:
     """Return the winners (k,) among n individuals that pair up in passes, each shuffled by a row of draws (p, n).
 
@@ -60,20 +61,8 @@ def crowded_winners(
     return winners
 
 
-@njit(cache=True)
-def dominates(f: NDArray[np.float64], g: NDArray[np.float64]) -> bool:
-    """Whether f (m,) is nowhere worse than g (m,) and somewhere better."""
-    better = False
-    for j in range(f.size):
-        if f[j] > g[j]:
-            return False
-        if f[j] < g[j]:
-            better = True
-    return better
-
-
-@njit(cache=True)
-def shuffle(values: NDArray[np.int64], draws: NDArray[np.float64]) -> None:
+@register_jitable
+def shuffle(values: NDArray[np.int64], draws: Real) -> None:
     """Bring `values` (n,) into the order that `draws` (n,) from 0 to 1 give, in place (Fisher and Yates)."""
     for i in range(values.size - 1, 0, -1):
         j = int(draws[i] * (i + 1))
@@ -82,12 +71,12 @@ def shuffle(values: NDArray[np.int64], draws: NDArray[np.float64]) -> None:
 
 def simulated_binary_crossover(
     rng: np.random.Generator,
-    parents: NDArray[np.float64],
-    lower: NDArray[np.float64],
-    upper: NDArray[np.float64],
+    parents: Real,
+    lower: Real,
+    upper: Real,
     eta: float,
     probability: float,
-) -> NDArray[np.float64]:
+) -> Real:
     """Return children (n, d) of consecutive pairs of parents (n, d), bounded SBX.
 
     A pair mates with `probability`; then each variable is recombined with probability 1/2. A last parent
@@ -105,13 +94,13 @@ def simulated_binary_crossover(
 
 @njit(cache=True)
 def recombined(
-    parents: NDArray[np.float64],
+    parents: Real,
     mates: NDArray[np.bool_],
-    draws: NDArray[np.float64],
-    lower: NDArray[np.float64],
-    upper: NDArray[np.float64],
+    draws: Real,
+    lower: Real,
+    upper: Real,
     eta: float,
-) -> NDArray[np.float64]:
+) -> Real:
     """Return the children (n, d) of those pairs that mate (n // 2,), from three draws (n // 2, d, 3) a variable.
 
     The first of them decides whether the variable is recombined, the third which child gets the lower value.
@@ -137,7 +126,7 @@ def recombined(
     return children
 
 
-@njit(cache=True)
+@register_jitable
 def sbx_spread(u: float, room: float, eta: float) -> float:
     """Spread factor of SBX for the draw u, with `room` to the bound in units of the parents' distance."""
     alpha = 2.0 - (1.0 + 2.0 * room) ** -(eta + 1.0)
@@ -147,12 +136,12 @@ def sbx_spread(u: float, room: float, eta: float) -> float:
 
 def polynomial_mutation(
     rng: np.random.Generator,
-    designs: NDArray[np.float64],
-    lower: NDArray[np.float64],
-    upper: NDArray[np.float64],
+    designs: Real,
+    lower: Real,
+    upper: Real,
     eta: float,
     probability: float,
-) -> NDArray[np.float64]:
+) -> Real:
     """Return mutants (n, d) of designs (n, d) inside the box: bounded polynomial mutation.
 
     Each variable mutates with `probability`.
@@ -168,13 +157,13 @@ def polynomial_mutation(
 
 @njit(cache=True)
 def mutated(
-    designs: NDArray[np.float64],
+    designs: Real,
     mutates: NDArray[np.bool_],
-    draws: NDArray[np.float64],
-    lower: NDArray[np.float64],
-    upper: NDArray[np.float64],
+    draws: Real,
+    lower: Real,
+    upper: Real,
     eta: float,
-) -> NDArray[np.float64]:
+) -> Real:
     """Return designs (n, d) with those values that mutate (n, d) moved, each by its draw (n, d)."""
     mutants = designs.copy()
     for i in range(designs.shape[0]):
@@ -184,24 +173,7 @@ def mutated(
     return mutants
 
 
-@njit(cache=True)
-def mutate_design(
-    rng: np.random.Generator,
-    design: NDArray[np.float64],
-    lower: NDArray[np.float64],
-    upper: NDArray[np.float64],
-    eta: float,
-    probability: float,
-) -> NDArray[np.float64]:
-    """Return a mutant (d,) of a design (d,), by `polynomial_mutation` with one draw after the other."""
-    mutant = design.copy()
-    for v in range(design.size):
-        if rng.random() < probability:
-            mutant[v] = mutated_value(design[v], rng.random(), lower[v], upper[v], eta)
-    return mutant
-
-
-@njit(cache=True)
+@register_jitable
 def mutated_value(value: float, u: float, lower: float, upper: float, eta: float) -> float:
     """Return the value that polynomial mutation of `value` in its bounds makes of the draw u."""
     width = upper - lower
@@ -214,31 +186,57 @@ def mutated_value(value: float, u: float, lower: float, upper: float, eta: float
     return min(max(value + step * width, lower), upper)
 
 
-@njit(cache=True)
-def differential_child(
-    rng: np.random.Generator, designs: NDArray[np.float64], i: int, partners: NDArray[np.int64], scale: float
-) -> NDArray[np.float64]:
-    """Return x_i + scale (x_r2 - x_r3), shape (d,), with different r2 and r3 drawn from `partners`."""
-    first = draw_below(rng, partners.size)
-    second = draw_below(rng, partners.size - 1)
-    if second >= first:
-        second += 1
-    return designs[i] + scale * (designs[partners[first]] - designs[partners[second]])
+class MutateDesign(NamedTuple):
+    """Polynomial mutation of one design, each variable with `probability`, with one draw after the other."""
+
+    lower: Real
+    upper: Real
+    eta: float
+    probability: float
+
+    @register_jitable
+    def function(self, rng: np.random.Generator, design: Real) -> Real:
+        """Return a mutant (d,) of a design (d,)."""
+        mutant = np.empty_like(design)
+        for v in range(design.size):
+            mutant[v] = design[v]
+            if rng.random() < self.probability:
+                mutant[v] = mutated_value(design[v], rng.random(), self.lower[v], self.upper[v], self.eta)
+        return mutant
 
 
-@njit(cache=True)
-def redraw_outside(
-    rng: np.random.Generator,
-    child: NDArray[np.float64],
-    parent: NDArray[np.float64],
-    lower: NDArray[np.float64],
-    upper: NDArray[np.float64],
-) -> NDArray[np.float64]:
-    """Return the child (d,) with what lies outside the box redrawn between that bound and the parent (d,)."""
-    repaired = child.copy()
-    for v in range(child.size):
-        if child[v] < lower[v]:
-            repaired[v] = lower[v] + rng.random() * (parent[v] - lower[v])
-        elif child[v] > upper[v]:
-            repaired[v] = upper[v] - rng.random() * (upper[v] - parent[v])
-    return repaired
+class DifferentialChild(NamedTuple):
+    """Differential evolution with CR = 1: x_i + scale (x_r2 - x_r3)."""
+
+    scale: float
+
+    @register_jitable
+    def function(self, rng: np.random.Generator, designs: Real, i: int, partners: NDArray[np.int64]) -> Real:
+        """Return a child (d,) of individual i, with different r2 and r3 drawn from `partners`."""
+        first = draw_below(rng, partners.size)
+        second = draw_below(rng, partners.size - 1)
+        if second >= first:
+            second += 1
+        child = np.empty(designs.shape[1])
+        for v in range(child.size):
+            child[v] = designs[i, v] + self.scale * (designs[partners[first], v] - designs[partners[second], v])
+        return child
+
+
+class RedrawOutside(NamedTuple):
+    """Repair of a child: a variable outside the box is redrawn between that bound and the parent's value."""
+
+    lower: Real
+    upper: Real
+
+    @register_jitable
+    def function(self, rng: np.random.Generator, child: Real, parent: Real) -> Real:
+        """Return the child (d,) of a parent (d,) repaired."""
+        repaired = np.empty_like(child)
+        for v in range(child.size):
+            repaired[v] = child[v]
+            if child[v] < self.lower[v]:
+                repaired[v] = self.lower[v] + rng.random() * (parent[v] - self.lower[v])
+            elif child[v] > self.upper[v]:
+                repaired[v] = self.upper[v] - rng.random() * (self.upper[v] - parent[v])
+        return repaired

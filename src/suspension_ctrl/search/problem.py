@@ -5,13 +5,16 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import numpy as np
-from numba.core.registry import CPUDispatcher
+from numba.extending import is_jitted
 from numpy.typing import ArrayLike, NDArray
 
 from .. import checks
 
-Kernel = tuple[Callable[..., NDArray[np.float64]], tuple[Any, ...]]
-"""A numba-compiled function of one design (d,) to its objectives and constraints (m + c,), and its arguments."""
+Kernel = tuple[Any, ...]
+"""A numba-compiled function of a design (d,) to objectives and constraints (m + c,) and its further arguments.
+
+Or a verb: a named tuple with the method ``function``, see `compiled`.
+"""
 
 
 class Minimisable(Protocol):
@@ -109,9 +112,11 @@ class Problem:
 
 
 def _is_kernel(kernel: object) -> bool:
+    if hasattr(kernel, "function"):
+        return True
     match kernel:
-        case (CPUDispatcher(), tuple()):
-            return True
+        case (function, tuple()) if callable(function):
+            return bool(is_jitted(function))
     return False
 
 

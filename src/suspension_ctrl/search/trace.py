@@ -1,14 +1,16 @@
 """What a search has seen: its populations along the way and every design that it evaluated."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
+from numba.extending import register_jitable
 from numpy.typing import NDArray
 
+from ..quantities import Real
+from .compiled import call, verb_of
 from .constraints import violations
 from .driver import Optimiser
 from .population import State
@@ -32,9 +34,9 @@ class Trace:
     """
 
     states: dict[int, State]
-    designs: NDArray[np.float64]
-    objectives: NDArray[np.float64]
-    constraints: NDArray[np.float64]
+    designs: Real
+    objectives: Real
+    constraints: Real
 
     @cached_property
     def feasible(self) -> NDArray[np.bool_]:
@@ -96,11 +98,9 @@ class Recorded:
         self._count = np.zeros(1, dtype=np.int64)
         self.kernel: Kernel | None = None
         if problem.kernel is not None:
-            # The function stands last: numba warns of tuples that begin with one.
-            function, arguments = problem.kernel
-            self.kernel = (kept_kernel, (self._designs, self._values, self._count, arguments, function))
+            self.kernel = KeptKernel(self._designs, self._values, self._count, verb_of(problem.kernel))
 
-    def evaluate(self, designs: NDArray[np.float64]) -> NDArray[np.float64]:
+    def evaluate(self, designs: Real) -> Real:
         """Return the problem's values (n, m + c) of designs (n, d), and keep both."""
         start = int(self._count[0])
         rows = slice(start, start + len(designs))
@@ -109,25 +109,26 @@ class Recorded:
         self._count[0] = rows.stop
         return values
 
-    def seen(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    def seen(self) -> tuple[Real, Real, Real]:
         """Return designs (n, d), their objectives (n, m) and constraints (n, c) kept so far."""
         count, m = self._count[0], len(self.objectives)
         values = self._values[:count]
         return self._designs[:count], np.ascontiguousarray(values[:, :m]), np.ascontiguousarray(values[:, m:])
 
 
-@njit  # not cached on disk: numba cannot store the types of functions passed as arguments
-def kept_kernel(
-    design: NDArray[np.float64],
-    designs: NDArray[np.float64],
-    values: NDArray[np.float64],
-    count: NDArray[np.int64],
-    arguments: tuple[Any, ...],
-    kernel: Callable[..., NDArray[np.float64]],
-) -> NDArray[np.float64]:
-    """Return the kernel's values (m + c,) of a design (d,); both go into the next row of what is kept."""
-    value = kernel(design, *arguments)
-    designs[count[0]] = design
-    values[count[0]] = value
-    count[0] += 1
-    return value
+class KeptKernel(NamedTuple):
+    """A kernel that puts each design and its values into the next row of `designs` and `values`."""
+
+    designs: Real
+    values: Real
+    count_so_far: NDArray[np.int64]
+    kernel: Any
+
+    @register_jitable
+    def function(self, design: Real) -> Real:
+        """Return the kernel's values (m + c,) of a design (d,)."""
+        value: Real = call(self.kernel, (design,))
+        self.designs[self.count_so_far[0]] = design
+        self.values[self.count_so_far[0]] = value
+        self.count_so_far[0] += 1
+        return value

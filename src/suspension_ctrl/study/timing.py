@@ -14,7 +14,6 @@ from ..search.driver import Run, minimise
 from ..search.indicators import ReferenceFront, evenly_spread, non_dominated
 from ..search.moead_dra import MoeadDra
 from ..search.problem import Described, Minimisable
-from ..search.selection import deap_order
 from .comparison import EQUAL_ITERATIONS, Comparison, optimiser
 from .store import VIOLATION, StoredRun
 from .study import PlannedRun
@@ -31,7 +30,6 @@ def warm_up(comparison: Comparison) -> None:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", InfeasibleWarning)  # after one iteration it says nothing
             minimise(comparison.problem, short, iterations=1, seed=0)
-    deap_order(np.array([[0.0, 0.0], [1.0, 1.0]]), np.array([0, 1]))  # else compiled at the first tie
 
 
 def carry_out(comparison: Comparison, store: MutableMapping[str, StoredRun]) -> Iterator[PlannedRun]:

@@ -1,0 +1,92 @@
+"""Functions with settings, handed to compiled loops in a form that numba can store.
+
+Numba stores no function that takes another function as an argument. It does store one that takes a named tuple: a
+verb is a named tuple of settings with the method ``function``, and `call` finds the method at compile time.
+"""
+
+import sys
+from collections import namedtuple
+from collections.abc import Callable
+from functools import lru_cache
+from itertools import count
+from typing import Any
+
+from numba import njit, types
+from numba.core import cgutils
+from numba.extending import is_jitted, lower_builtin, type_callable
+
+
+def call(verb: Any, arguments: tuple[Any, ...]) -> Any:
+    """Call a verb, in compiled code as in Python; in Python any other callable too."""
+    return verb.function(*arguments) if hasattr(verb, "function") else verb(*arguments)
+
+
+@type_callable(call)
+def _type_of_call(context: Any) -> Callable[..., Any]:
+    def result(verb: Any, arguments: Any) -> Any:
+        return _typed(context, verb, arguments)[2].return_type
+
+    return result
+
+
+def _lowered_call(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+    function, given, inner = _typed(context.typing_context, *signature.args)
+    settings, arguments = (cgutils.unpack_tuple(builder, value) for value in values)
+    passed = (
+        [*arguments, *settings]
+        if is_jitted(signature.args[0].instance_class.function)
+        else [values[0], *arguments]
+    )
+    cast = [context.cast(builder, *each) for each in zip(passed, given, inner.args, strict=True)]
+    return context.get_function(function, inner)(builder, cast)
+
+
+lower_builtin(call, types.BaseTuple, types.BaseTuple)(_lowered_call)
+
+
+def _typed(context: Any, verb: Any, arguments: Any) -> tuple[Any, tuple[Any, ...], Any]:
+    """Return numba's types of a verb's function, of what it is given, and of the call.
+
+    A method is given the verb, then the arguments; a user's compiled function the arguments, then the settings.
+    """
+    function = verb.instance_class.function
+    given = (*arguments.types, *verb.types) if is_jitted(function) else (verb, *arguments.types)
+    found = context.resolve_value_type(function)
+    return found, given, context.resolve_function_type(found, given, {})
+
+
+def call_compiled(verb: Any, *arguments: Any) -> Any:
+    """Call a verb from Python, compiled: ``toolbox.register("repair", call_compiled, RedrawOutside(...))``."""
+    return _compiled(type(verb).function)(verb, *arguments)
+
+
+@lru_cache
+def _compiled(function: Callable[..., Any]) -> Callable[..., Any]:
+    return njit(cache=True)(function)
+
+
+def verb_of(given: tuple[Any, ...]) -> Any:
+    """Return a compiled function and its last arguments as a verb; a verb is returned as it is.
+
+    The class of that verb is known to this process alone.
+    """
+    if hasattr(given, "function"):
+        return given
+    function, settings = given
+    return _class_of(function, len(settings))(*settings)
+
+
+@lru_cache
+def _class_of(function: Callable[..., Any], settings: int) -> Any:
+    name = f"Verb{next(_numbers)}"  # numba takes two classes of one name and the same fields for one
+    fields = namedtuple(name, [f"setting_{i}" for i in range(settings)])  # type: ignore[misc]
+    return type(name, (fields,), {"function": function})
+
+
+_numbers = count()
+
+
+def storable(verb: Any) -> bool:
+    """Whether other processes find the class of a verb, and those of verbs among its settings, by name."""
+    known = getattr(sys.modules.get(type(verb).__module__), type(verb).__name__, None)
+    return known is type(verb) and all(storable(setting) for setting in verb if hasattr(setting, "function"))

@@ -1,0 +1,181 @@
+"""Verbs: settings with a method that compiled loops call, and which of them numba can store."""
+
+import os
+import subprocess
+import sys
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+from numba import njit
+from numba.extending import register_jitable
+
+from functions import dtlz2, srn
+from suspension_ctrl import MoeadDra, Nsga2, minimise
+from suspension_ctrl.paper import experiment as paper
+from suspension_ctrl.search.compiled import call, call_compiled, storable, verb_of
+from suspension_ctrl.search.operators import DifferentialChild, MutateDesign
+
+
+class Line(NamedTuple):
+    slope: float
+    constant: float
+
+    @register_jitable
+    def function(self, x):
+        return self.slope * x + self.constant
+
+
+class Doubled(NamedTuple):
+    """A verb that calls another."""
+
+    inner: Any
+
+    @register_jitable
+    def function(self, x):
+        return 2.0 * call(self.inner, (x,))
+
+
+@njit
+def called(verb, x):
+    return call(verb, (x,))
+
+
+@njit
+def plus(x, constant):
+    return x + constant
+
+
+@njit
+def minus(x, constant):
+    return x - constant
+
+
+@njit
+def square(x):
+    return x * x
+
+
+@njit
+def cube(x):
+    return x * x * x
+
+
+@pytest.mark.parametrize(
+    ("verb", "expected"),
+    [
+        (Line(2.0, 1.0), 7.0),
+        (Doubled(Line(2.0, 1.0)), 14.0),
+        (verb_of((plus, (0.5,))), 3.5),
+        (verb_of((minus, (0.5,))), 2.5),
+        (verb_of((square, ())), 9.0),
+        (verb_of((cube, ())), 27.0),
+        (Doubled(verb_of((cube, ()))), 54.0),
+    ],
+)
+def test_compiled_loops_call_the_function_of_the_verbs_class(verb, expected):
+    """Those with equal types of settings are not taken for one another."""
+    assert called(verb, 3.0) == expected
+
+
+def test_python_calls_verbs_and_any_other_callable():
+    assert call(Line(2.0, 1.0), (3.0,)) == call_compiled(Line(2.0, 1.0), 3.0) == 7.0
+    assert call(max, (1, 2)) == 2
+    assert verb_of(line := Line(2.0, 1.0)) is line
+
+
+def test_verbs_are_storable_where_another_process_finds_their_class():
+    box = np.zeros(2), np.ones(2)
+    assert storable(DifferentialChild(0.5))
+    assert storable(MutateDesign(*box, 20.0, 0.5))
+    assert storable(paper.ride_problem().kernel)
+    assert not storable(verb_of((square, ())))
+    assert storable(Doubled(DifferentialChild(0.5))) == storable(Doubled(0))
+    assert not storable(Doubled(verb_of((square, ()))))
+
+
+WATCH = """
+from numba.core import event
+
+compiled = []
+
+class Watch(event.Listener):
+    def on_start(self, what):
+        compiled.append(str(what.data["dispatcher"]))
+
+    def on_end(self, what):
+        pass
+
+watched = event.install_listener("numba:compile", Watch())
+"""
+
+SEARCH = f"""
+{WATCH}
+from suspension_ctrl import MoeadDra, Nsga2, minimise
+from suspension_ctrl.paper import experiment
+problem = experiment.ride_problem()
+with watched:
+    for optimiser in (Nsga2(population=20), MoeadDra(population=20, utility_period=1)):
+        minimise(problem, optimiser, iterations=2, seed=0)
+print(len(compiled))
+"""
+
+IMPORT = f"""
+{WATCH}
+import pkgutil
+from importlib import import_module
+with watched:
+    import suspension_ctrl
+    for module in pkgutil.walk_packages(suspension_ctrl.__path__, "suspension_ctrl."):
+        import_module(module.name)
+    imported = len(compiled)
+    import numba
+    numba.njit(lambda x: x)(1)
+print(imported, len(compiled))
+"""
+
+
+def test_a_second_process_compiles_nothing(tmp_path):
+    """Searches of both algorithms are stored as a whole, the sweep of MOEA/D-DRA with its verbs too."""
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
+    command = [sys.executable, "-c", SEARCH]
+    counts = [int(subprocess.check_output(command, env=environment)) for _ in range(2)]
+    assert 10 < counts[0] < 60
+    assert counts[1] == 0
+
+
+OPTIMISERS = {"nsga2": Nsga2(population=24), "moead-dra": MoeadDra(population=24)}
+
+PLAIN = """
+import sys
+import numpy as np
+sys.path[:0] = [{tests!r}, {tests!r} + '/search']
+from test_compiled import run
+np.save({path!r}, run({name!r}))
+"""
+
+
+def run(name: str) -> np.ndarray:
+    """What two searches end with, long enough for MOEA/D-DRA to update its utilities; one has constraints."""
+    runs = [
+        minimise(problem, OPTIMISERS[name], iterations=60, seed=4) for problem in (dtlz2(5), srn(compiled=False))
+    ]
+    return np.concatenate([np.hstack([r.designs, r.objectives, r.constraints]).ravel() for r in runs])
+
+
+@pytest.mark.parametrize("name", OPTIMISERS)
+def test_compiled_or_plain_the_same_seed_gives_the_same_arrays(name, checkout, tmp_path):
+    path = str(tmp_path / "plain.npy")
+    program = PLAIN.format(tests=str(checkout / "tests"), name=name, path=path)
+    environment = os.environ | {"NUMBA_DISABLE_JIT": "1"}
+    subprocess.run([sys.executable, "-c", program], capture_output=True, check=True, env=environment)
+    np.testing.assert_array_equal(run(name), np.load(path))
+
+
+def test_nothing_is_compiled_at_import(tmp_path):
+    """Numba tells of every compilation; the one made on purpose shows that the test would see one."""
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}  # nothing there to load instead
+    done = subprocess.run(
+        [sys.executable, "-c", IMPORT], capture_output=True, text=True, check=True, env=environment
+    )
+    assert done.stdout.split() == ["0", "1"]
