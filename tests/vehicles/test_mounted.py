@@ -227,11 +227,16 @@ BODY = {"frequencies": [5.0], "damping_ratios": [0.02], "shapes": dict.fromkeys(
     [
         ({"frequencies": [0.0]}, "frequencies must be finite and > 0 Hz, got 0.0"),
         ({"damping_ratios": [1.5]}, "damping_ratios must be a number from 0 to 1, got 1.5"),
-        ({"damping_ratios": []}, "frequencies and damping_ratios must be of one length, 1 or more, got 1 and 0"),
+        ({"damping_ratios": []},
+         "frequencies and damping_ratios must be of one length, 1 or more, got shapes (1,) and (0,)"),
         ({"frequencies": [], "damping_ratios": [], "shapes": {}},
-         "frequencies and damping_ratios must be of one length, 1 or more, got 0 and 0"),
+         "frequencies and damping_ratios must be of one length, 1 or more, got shapes (0,) and (0,)"),
         ({"shapes": {(0.0, 0.0): (1.0, 2.0)}},
          "shapes must be 1 finite numbers at each point, got (1.0, 2.0) at (0.0, 0.0)"),
+        ({"frequencies": 5.0, "damping_ratios": 0.1},
+         "frequencies and damping_ratios must be of one length, 1 or more, got shapes () and ()"),
+        ({"shapes": [(0.0, 0.0)]},
+         "shapes must be a mapping of points to amplitudes, got [(0.0, 0.0)]"),
         ({"shapes": {"ab": (1.0,)}}, "shapes must be two finite numbers, x and y [m], got 'ab'"),
     ],
 )  # fmt: skip

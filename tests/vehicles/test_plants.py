@@ -313,7 +313,11 @@ DIRECT = control.ss([[-1]], [[1, 1]], [[1]], [[0, 2]], inputs=["road", "strut"],
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ((3,), "system must be a control.StateSpace or FrequencyResponseData, got 3"),
+        ((3,), "system must be a control.StateSpace or FrequencyResponseData, got int"),
+        ((control.tf([1], [1, 1]),),
+         "system must be a control.StateSpace or FrequencyResponseData, got TransferFunction"),
+        ((SYSTEM, {1: (0, 0)}), "contacts must be a mapping of wheels to points, got 1"),
+        ((SYSTEM, {"": (0, 0)}, "front"), "struts must be a list of names, got 'front'"),
         ((DISCRETE,), "system must be in continuous time, got a time step of 0.01"),
         ((SYSTEM, {}), "contacts must be a mapping of wheels to points, got {}"),
         ((SYSTEM, [(0, 0)]), "contacts must be a mapping of wheels to points, got [(0, 0)]"),

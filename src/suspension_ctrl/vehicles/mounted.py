@@ -159,18 +159,19 @@ class FlexibleBody(Part):
     shapes: Mapping[Position, tuple[float, ...]] = field(metadata=unit("kg^-1/2"))
 
     def __post_init__(self) -> None:
-        modes, ratios = len(self.frequencies), len(self.damping_ratios)
-        for frequency in self.frequencies:
-            checks.positive("frequencies", frequency, "Hz")
-        for ratio in self.damping_ratios:
-            checks.within("damping_ratios", ratio, 0, 1)
-        if modes == 0 or ratios != modes:
-            got = f"{modes} and {ratios}"
+        modes, ratios = np.shape(self.frequencies), np.shape(self.damping_ratios)
+        if modes != ratios or len(modes) != 1 or modes == (0,):
+            got = f"shapes {modes} and {ratios}"
             raise ValueError(f"frequencies and damping_ratios must be of one length, 1 or more, got {got}")
+        for frequency, ratio in zip(self.frequencies, self.damping_ratios, strict=True):
+            checks.positive("frequencies", frequency, "Hz")
+            checks.within("damping_ratios", ratio, 0, 1)
+        if not isinstance(self.shapes, Mapping):
+            raise ValueError(f"shapes must be a mapping of points to amplitudes, got {self.shapes!r}")
         shapes = {_position(place, "shapes"): tuple(map(float, shape)) for place, shape in self.shapes.items()}
         for place, shape in shapes.items():
-            if len(shape) != modes or not np.isfinite(shape).all():
-                raise ValueError(f"shapes must be {modes} finite numbers at each point, got {shape} at {place}")
+            if np.shape(shape) != modes or not np.isfinite(shape).all():
+                raise ValueError(f"shapes must be {modes[0]} finite numbers at each point, got {shape} at {place}")
         frequencies, damping_ratios = (tuple(map(float, x)) for x in (self.frequencies, self.damping_ratios))
         self._keep(frequencies=frequencies, damping_ratios=damping_ratios, shapes=FrozenMapping(shapes))
 

@@ -77,12 +77,16 @@ class Plant(Record, Vehicle):
     def __post_init__(self) -> None:
         system = self.system
         if not isinstance(system, control.StateSpace | control.FrequencyResponseData):
-            raise ValueError(f"system must be a control.StateSpace or FrequencyResponseData, got {system!r}")
+            raise ValueError(
+                f"system must be a control.StateSpace or FrequencyResponseData, got {type(system).__name__}"
+            )
         if system.isdtime(strict=True):
             raise ValueError(f"system must be in continuous time, got a time step of {system.dt}")
         if isinstance(system, control.FrequencyResponseData):
             _check_lines(system)
         tensions = [name for name in system.input_labels if re.fullmatch("(.*_)?strut", name)]
+        if isinstance(self.struts, str):
+            raise ValueError(f"struts must be a list of names, got {self.struts!r}")
         struts = tuple(self.struts) or tuple(name[: -len("_strut")] for name in tensions)
         check_strut_names("struts", struts)
         contacts = _checked_contacts(self.contacts)
@@ -154,6 +158,8 @@ def _checked_contacts(contacts: Mapping[str, Position]) -> FrozenMapping[str, Po
     if not (isinstance(contacts, Mapping) and contacts):
         raise ValueError(f"contacts must be a mapping of wheels to points, got {contacts!r}")
     for wheel, position in contacts.items():
+        if not isinstance(wheel, str):
+            raise ValueError(f"contacts must be a mapping of wheels to points, got {wheel!r}")
         checks.position(f"contact of {wheel or 'the wheel'}", position)
     return FrozenMapping({wheel: (float(x), float(y)) for wheel, (x, y) in contacts.items()})
 
