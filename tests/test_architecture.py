@@ -43,11 +43,6 @@ STANDARD_NAMES = {"search/trace.py"}
 """A module that bears the name of one of the standard library, by design: a search leaves a trace."""
 
 UNTESTED = {
-    "response/figures.py",
-    "response/many_struts.py",
-    "response/one_strut.py",
-    "response/ports.py",
-    "response/scores.py",
     "search/clock.py",
     "search/deap_adapter.py",
     "search/population.py",

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from garage import DRIVER, FULL, HALF, QUARTER, ROAD, mean_squares, struts_of
-from suspension_ctrl import PowerLawRoad, QuarterCar, RideProblem, ride, weighting
+from suspension_ctrl import Plant, PowerLawRoad, QuarterCar, RideProblem, ride, weighting
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.response import responses
 from suspension_ctrl.response.quadrature import frequency_nodes
@@ -86,6 +86,30 @@ def test_a_diverging_integral_is_none_and_gives_its_reason():
     assert table.value.isna().all()
     assert (table.note == "diverges towards 0 Hz: begin the band above").all()
     assert ride(QUARTER, DESIGN, Spectrum(5.2), 20.0, band=(0.1, 20.0)).value.notna().all()
+
+
+def test_a_plant_whose_body_follows_the_road_has_no_displacement_from_zero_hertz():
+    """The displacement of the body, an output of its own: from 0.1 Hz on it is by hand, the rest is from 0 Hz."""
+    assembled = QUARTER.plant()
+    states = [*assembled.state_labels]
+    row = np.zeros((1, len(states)))
+    row[0, states.index("body_displacement")] = 1.0
+    system = control.ss(
+        assembled.A, assembled.B, np.vstack([row, assembled.C]), np.vstack([0 * assembled.D[:1], assembled.D]),
+        inputs=assembled.input_labels, outputs=["body_displacement", *assembled.output_labels],
+    )  # fmt: skip
+    plant = Plant(system, contacts={"": (0.0, 0.0)})
+    table, above = (ride(plant, DESIGN, ROAD, 20.0, band=band) for band in ((0.0, 20.0), (0.1, 20.0)))
+    assert table.note["body_displacement"] == "diverges towards 0 Hz: begin the band above"
+    assert np.isnan(table.value["body_displacement"])
+    rest = table.drop("body_displacement")
+    assert not rest.note.any()
+    np.testing.assert_allclose(rest.value[:3], ride(QUARTER, DESIGN, ROAD, 20.0).value[:3], rtol=1e-9)
+    f, w = frequency_nodes((0.1, 20.0), 256)
+    h = plant.closed(DESIGN, responses=["body_displacement"])
+    expected = np.sqrt((np.abs(h(2j * np.pi * f)) ** 2 * ROAD.psd(f, 20.0)) @ w)
+    assert above.value["body_displacement"] == pytest.approx(float(expected), rel=1e-9)
+    assert (above.unit["body_displacement"], above.note["body_displacement"]) == ("m", "")
 
 
 @pytest.mark.parametrize(

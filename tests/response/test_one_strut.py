@@ -1,0 +1,47 @@
+"""The ratio of polynomials of one strut beside the loop closed at every frequency."""
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from garage import DAMPED_QUARTER
+from suspension_ctrl.response.one_strut import OneStrut
+from suspension_ctrl.response.ports import Ports
+
+F = np.linspace(0.3, 20.0, 40)
+DENSITIES = np.random.default_rng(0).uniform(0.5, 1.5, (3, F.size))
+PORTS = Ports.of(DAMPED_QUARTER, F, DAMPED_QUARTER.responses)
+STRUT = OneStrut.around(PORTS, 2 * np.pi * F, DENSITIES)
+
+springs, dampers = st.floats(1e3, 1e5), st.floats(100.0, 1e4)
+
+
+@given(springs, dampers)
+def test_mean_squares_are_those_of_the_closed_loop(spring, damper):
+    stiffness = (spring + 2j * np.pi * F * damper)[:, None, None]
+    h = PORTS.around(stiffness).h[:, :3, 0]
+    expected = (DENSITIES.T * np.abs(h) ** 2).sum(axis=0)
+    np.testing.assert_allclose(STRUT.mean_squares(np.array([[spring, damper]]))[0], expected, rtol=1e-9)
+
+
+@settings(max_examples=50)
+@given(springs, dampers)
+def test_the_compiled_loop_is_the_plain_one(spring, damper):
+    """Sums and products are rounded otherwise; near a resonance of a light damper three digits cancel out."""
+    design = np.array([[spring, damper]])
+    plain = OneStrut.mean_squares.py_func(STRUT, design)
+    np.testing.assert_allclose(STRUT.mean_squares(design), plain, rtol=1e-12)
+
+
+def test_designs_are_worked_out_each_for_itself():
+    designs = np.random.default_rng(1).uniform([1e3, 1e3], [1e5, 1e4], (20, 2))
+    alone = np.vstack([STRUT.mean_squares(design[None]) for design in designs])
+    np.testing.assert_array_equal(STRUT.mean_squares(designs), alone)
+
+
+def test_a_response_that_never_moves_has_none():
+    zero = PORTS._replace(h=np.concatenate([PORTS.h[:, :3] * [[[1], [0], [0]]], PORTS.h[:, 3:]], axis=1))
+    strut = OneStrut.around(zero, 2 * np.pi * F, DENSITIES)
+    found = strut.mean_squares(np.array([[2e4, 1500.0]]))[0]
+    assert found[0] > 0
+    np.testing.assert_array_equal(found[1:], 0.0)
