@@ -129,3 +129,31 @@ def test_a_panel_holds_two_algorithms_at_most(ax):
 def test_panels_are_as_many_as_asked_for():
     figure, axes = figures.panels(4, columns=3)
     assert len(axes) == len(figure.axes) == 4
+
+
+def test_anytime_panels_are_sets_by_evaluations_and_seconds(quality, ax):
+    table = pd.concat([quality.assign(set=name, population=20) for name in ("population", "archive")])
+    figure = figures.anytime_panels(table, ["population", "archive"])
+    assert [panel.get_title() for panel in figure.axes] == ["population, N = 20"] * 2 + ["archive, N = 20"] * 2
+    assert [panel.get_xlabel() for panel in figure.axes] == ["evaluations [-]", "time [s]"] * 2
+    figures.anytime(ax, quality, "seconds")
+    np.testing.assert_array_equal(figure.axes[3].lines[1].get_xydata(), ax.lines[1].get_xydata())
+
+
+def test_box_panels_are_one_per_indicator(quality):
+    figure = figures.box_panels(quality.assign(spread=2.0), ["relative_hypervolume", "spread"])
+    assert [panel.get_ylabel() for panel in figure.axes] == [
+        "hypervolume / reference [-]",
+        "generalised spread [-]",
+    ]
+
+
+def test_attainment_panels_are_of_every_two_objectives():
+    sides = [fronts(shift, SEEDS) for shift in (0.0, 0.2)]
+    sides = [side.assign(**{"ACC [m/s^2]": side["SWS [m]"] ** 2}) for side in sides]
+    names = ["SWS [m]", "DTL [N]", "ACC [m/s^2]"]
+    figure = figures.attainment_panels(*sides, names, ALGORITHMS)
+    *panels, bar = figure.axes
+    pairs = [(panel.get_xlabel(), panel.get_ylabel()) for panel in panels]
+    assert pairs == [("SWS [m]", "DTL [N]"), ("SWS [m]", "ACC [m/s^2]"), ("DTL [N]", "ACC [m/s^2]")]
+    assert bar.get_ylabel() == "share of runs attaining: a less b"

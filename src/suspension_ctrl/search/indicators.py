@@ -64,8 +64,7 @@ class ReferenceFront(Record):
     """Points of a fine front to which distances are taken."""
 
     def __post_init__(self) -> None:
-        for name in ("objectives", "ideal", "nadir"):
-            object.__setattr__(self, name, frozen_array(getattr(self, name)))
+        self._keep(**{name: frozen_array(getattr(self, name)) for name in ("objectives", "ideal", "nadir")})
 
     @classmethod
     def of(cls, objectives: NDArray[np.float64]) -> "ReferenceFront":

@@ -61,8 +61,7 @@ class Comparison(Record):
     seed: int = 0
 
     def __post_init__(self) -> None:
-        for name in ("algorithms", "populations", "iterations"):
-            object.__setattr__(self, name, tuple(getattr(self, name)))
+        self._keep(**{name: tuple(getattr(self, name)) for name in ("algorithms", "populations", "iterations")})
         for name, least in (("repeats", 1), ("seeds", 1), ("seed", 0)):
             checks.at_least(name, getattr(self, name), least)
         for count in self.iterations:

@@ -1,7 +1,7 @@
 """Findings of a comparison over many seeds: medians at what is held equal, differences, the target, a verdict."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import pandas as pd
 
@@ -13,46 +13,22 @@ CONFIGURATION = ("lens", "population", "iterations")
 SETS = {"final population": POPULATION, "archive cut to N": CUT_ARCHIVE}
 
 
-@dataclass(frozen=True)
-class Findings:
-    """Tables of the runs that ended.
+class Findings(NamedTuple):
+    """Tables of the runs that ended, and the verdict on the first two algorithms, a paragraph per set."""
 
-    Parameters
-    ----------
-    course : DataFrame
-        A row per run, budget and set, with the seconds that its evaluations take when timed.
-    equal : DataFrame
-        Its rows at equal iterations, evaluations and time, from `lenses.at_equal`.
-    medians : DataFrame
-        A row per configuration, lens, set and algorithm.
-    differences : DataFrame
-        Of every two algorithms, from `inference.pairwise`.
-    reached : DataFrame
-        Evaluations and seconds to the target, from `lenses.reached_by`.
-    verdict : list of str
-        The first two algorithms in words, a paragraph per set.
-    """
-
-    course: pd.DataFrame
-    equal: pd.DataFrame
-    medians: pd.DataFrame
-    differences: pd.DataFrame
-    reached: pd.DataFrame
+    course: pd.DataFrame  # a row per run, budget and set, with the seconds that its evaluations take when timed
+    equal: pd.DataFrame  # those at equal iterations, evaluations and time, from `lenses.at_equal`
+    medians: pd.DataFrame  # a row per configuration, lens, set and algorithm
+    differences: pd.DataFrame  # of every two algorithms, from `inference.pairwise`
+    reached: pd.DataFrame  # evaluations and seconds to the target, from `lenses.reached_by`
     verdict: list[str]
 
 
 def findings(comparison: Comparison, table: pd.DataFrame, clock: pd.DataFrame, target: float) -> Findings | None:
-    """Return the findings of runs over many seeds, None if none of them ended.
+    """Return the findings of judged runs, None if none of them ended.
 
-    Parameters
-    ----------
-    comparison : Comparison
-    table : DataFrame
-        From `Study.table`, of all populations.
-    clock : DataFrame
-        From `timing.seconds_by_evaluations`.
-    target : float
-        Share of the reference front's hypervolume [-].
+    `table` is from `Study.table`, of all populations, `clock` from `timing.seconds_by_evaluations`; `target` is a
+    share of the reference front's hypervolume [-].
     """
     ended = table[table.error.eq("")].drop(columns="error")
     if ended.empty:

@@ -99,23 +99,11 @@ def ratio_of_medians(first: ArrayLike, second: ArrayLike, seed: int = 0) -> tupl
 def pairwise(
     table: pd.DataFrame, by: Sequence[str], values: Sequence[str], algorithms: Sequence[str]
 ) -> pd.DataFrame:
-    """Compare every two algorithms in each of the values, group by group.
+    """Compare every two algorithms in each of the values, by group of rows, one per run.
 
-    Parameters
-    ----------
-    table : DataFrame
-        One row per run, with a column ``algorithm``.
-    by, values : sequence of str
-        Columns that make a group, and columns that are compared.
-    algorithms : sequence of str
-        The algorithms in the order of a pair.
-
-    Returns
-    -------
-    DataFrame
-        A row per value, group and pair: value, `by`, first, second, both medians, their ratio with its bootstrap
-        interval (ratio, ratio_low, ratio_high), p of the two-sided Mann-Whitney test, p_holm adjusted for all
-        tests of the table, a12 of the first over the second and its effect in words.
+    Returned is a row per value, group and pair: value, `by`, first, second, both medians, their ratio with its
+    bootstrap interval (ratio, ratio_low, ratio_high), p of the two-sided Mann-Whitney test, p_holm adjusted for
+    all tests of the table, a12 of the first over the second and its effect in words.
     """
     rows: list[dict[str, Any]] = []
     for value, (key, group) in product(values, list(table.groupby(list(by), sort=False))):
@@ -147,10 +135,9 @@ def _compared(first: "pd.Series[float]", second: "pd.Series[float]") -> dict[str
 
 
 def verdict(compared: pd.DataFrame, first: str, second: str, value: str) -> str:
-    """Return a paragraph on two algorithms: which is ahead in a value, by lens and configuration.
+    """Return a paragraph on two algorithms by lens and configuration, from rows of `pairwise` in one value.
 
-    An algorithm is ahead where Holm's p-value is below 0.05 and the effect is not negligible. `compared` holds
-    rows of one value, of which more is better, from `pairwise` by lens, population and iterations.
+    Of the value more is better; an algorithm is ahead if p_holm is below 0.05 and the effect not negligible.
     """
     pairs = compared[(compared["first"] == first) & (compared["second"] == second)]
     if pairs.empty:

@@ -28,24 +28,11 @@ def at_equal(
     iterations: Sequence[int],
     cost: Mapping[tuple[str, int], int],
 ) -> pd.DataFrame:
-    """Return the last row of each run within equal iterations, evaluations and time.
+    """Return the last row of each run at equal iterations, evaluations and time, by ``lens`` and ``iterations``.
 
     Evaluations are those of the algorithm that spends the most in that many iterations, time is that of the first
-    algorithm for them. A run that finished early keeps its final state.
-
-    Parameters
-    ----------
-    quality : DataFrame
-        From `with_seconds`.
-    algorithms, iterations : sequence
-        Those that are compared.
-    cost : mapping
-        Evaluations of an iteration by algorithm and population.
-
-    Returns
-    -------
-    DataFrame
-        Rows of `quality` with the columns ``lens`` and ``iterations``.
+    algorithm for them. A run that finished early keeps its final state. `quality` is from `with_seconds`, `cost`
+    are the evaluations of an iteration by algorithm and population.
     """
     parts = []
     for population in quality.population.unique():

@@ -81,10 +81,10 @@ class Study(Record):
     )
 
     def __post_init__(self) -> None:
-        for name in ("problems", "algorithms", "references"):
-            object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
-        for name in ("seeds", "budgets"):
-            object.__setattr__(self, name, tuple(getattr(self, name)))
+        self._keep(
+            **{name: FrozenMapping(getattr(self, name)) for name in ("problems", "algorithms", "references")}
+        )
+        self._keep(seeds=tuple(self.seeds), budgets=tuple(self.budgets))
         for name in ("problems", "algorithms", "seeds", "budgets"):
             if len(getattr(self, name)) == 0:
                 raise ValueError(f"{name} must be one or more, got {getattr(self, name)!r}")
