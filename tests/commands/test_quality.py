@@ -40,7 +40,7 @@ def reported(one: Comparison, folder) -> pd.DataFrame:
     store = FolderStore(folder / "quality", {})
     reference = ReferenceFront.of(grid_front(paper.ride_problem(), 40))
     table = comparing.judge_seeds(one, reference, store, comparing.cluster_of(None, None))
-    request = comparing.Request(one, one.problem, 0.9, {}, folder)
+    request = comparing.Request(one, one.problem, {}, folder)
     if found := findings(one, table, clock(), 0.9):
         quality.write(request, found, store)
     return table

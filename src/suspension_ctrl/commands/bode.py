@@ -38,6 +38,7 @@ def bode(
     from .. import checks
     from ..paper.experiment import chosen
     from ..response import curves, figures
+    from ..tables import write_csv
     from . import results, terminal
 
     checks.at_least("points", points, 2)
@@ -48,8 +49,8 @@ def bode(
     drawn = [curves.design_curves(problem, label, values, shown, points) for label, values in labelled.items()]
     natural = pd.concat([natural_frequencies(problem, label, values) for label, values in labelled.items()])
     folder = results.results_folder(out)
-    results.write_csv(folder / "natural_frequencies.csv", natural)
-    results.write_csv(folder / "curves.csv", pd.concat([curves.curve_table(one) for one in drawn]))
+    write_csv(folder / "natural_frequencies.csv", natural)
+    write_csv(folder / "curves.csv", pd.concat([curves.curve_table(one) for one in drawn]))
     with terminal.waiting("drawing"):
         results.write_figure(folder / "figure6", figures.bode(drawn))
         results.write_figure(folder / "figure7", figures.spectra(drawn, str(problem.weighting)))

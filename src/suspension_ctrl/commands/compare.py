@@ -41,18 +41,11 @@ def compare(
     from . import comparing
 
     given = {"populations": populations, "iterations": iterations, "repeats": repeats, "seeds": seeds}
-    if not quality and (jobs is not None or scheduler):
-        raise ValueError(f"jobs and scheduler must stand with quality, got {scheduler or jobs!r} without it")
-    options = context.params | sizes_of(quick, given)
-    cluster = comparing.cluster_of(jobs, scheduler) if quality else None
-    chosen = comparing.chosen_problem(problem, vehicle, road, speed, o.settings(weighting, band))
-    comparison = comparing.comparison_of(chosen, o.names(algorithms), seed, options)
-    comparing.carry_out(comparing.Request.of(chosen, comparison, target, options, out), cluster)
-
-
-def sizes_of(quick: bool, given: dict[str, Any]) -> dict[str, Any]:
-    """Return the sizes that are given, or their defaults; ValueError if one is given beside `quick`."""
     if quick and any(value is not None for value in given.values()):
         raise ValueError("quick must stand without populations, iterations, repeats and seeds, got it with one")
+    if not quality and (jobs is not None or scheduler):
+        raise ValueError(f"jobs and scheduler must stand with quality, got {scheduler or jobs!r} without it")
     defaults = QUICK if quick else FULL
-    return {name: defaults[name] if value is None else value for name, value in given.items()}
+    options = context.params | {name: defaults[name] if v is None else v for name, v in given.items()}
+    cluster = comparing.cluster_of(jobs, scheduler) if quality else None
+    comparing.carry_out(comparing.Request.of(options), cluster)

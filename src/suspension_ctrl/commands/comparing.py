@@ -2,7 +2,7 @@
 
 import platform
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,8 +22,9 @@ from ..study import machine, reference, timing, workers
 from ..study.comparison import Comparison
 from ..study.findings import findings
 from ..study.store import FolderStore
+from ..tables import write_csv, write_json
+from . import options as o
 from . import quality, reports, results, terminal
-from .options import whole_numbers
 
 QUICK_TOLERANCE = 1e-3
 PAPERS = ("vehicle", "road", "speed", "band", "problem")
@@ -35,30 +36,28 @@ Cluster = AbstractContextManager[Any]
 
 @dataclass(frozen=True)
 class Request:
-    """A comparison with its problem, the options of the command, and the folder of results and finished runs.
-
-    `target` is the share of the reference hypervolume to reach.
-    """
+    """A comparison with its problem, all options of the command, and the folder of results and finished runs."""
 
     comparison: Comparison
     problem: RideProblem
-    target: float
     options: Mapping[str, Any]
     folder: Path
 
     @classmethod
-    def of(
-        cls,
-        problem: RideProblem,
-        comparison: Comparison,
-        target: float,
-        options: Mapping[str, Any],
-        out: Path | None,
-    ) -> Self:
+    def of(cls, options: Mapping[str, Any]) -> Self:
         """Return the request of checked options, and make its folder."""
-        checks.within("target", target, 0, 1)
-        texts = {name: str(value) if isinstance(value, Path) else value for name, value in options.items()}
-        return cls(comparison, problem, target, texts, results.results_folder(out, resumed_by="timed"))
+        checks.within("target", options["target"], 0, 1)
+        problem = chosen_problem(options)
+        comparison = Comparison(
+            problem=problem,
+            algorithms=o.names(options["algorithms"]),
+            populations=o.whole_numbers("populations", options["populations"]),
+            iterations=o.whole_numbers("iterations", options["iterations"]),
+            repeats=options["repeats"],
+            seeds=options["seeds"],
+            seed=options["seed"],
+        )
+        return cls(comparison, problem, options, results.results_folder(options["out"], resumed_by="timed"))
 
     @property
     def tolerance(self) -> float:
@@ -85,32 +84,17 @@ class Request:
         return FolderStore(self.folder / name, plan | settings | machine.provenance())
 
 
-def chosen_problem(
-    file: Path | None, vehicle: str | None, road: str | None, speed: float | None, settings: Mapping[str, Any]
-) -> RideProblem:
+def chosen_problem(options: Mapping[str, Any]) -> RideProblem:
     """Return the problem in a file, or the paper's with another vehicle, road, speed or other settings."""
+    named = [options[name] for name in ("vehicle", "road", "speed")]
+    settings, file = o.settings(options["weighting"], options["band"]), options["problem"]
     if file is None:
-        return paper.chosen(vehicle, road, speed, **settings)[0]
-    if (vehicle, road, speed) != (None, None, None) or settings:
+        return paper.chosen(*named, **settings)[0]
+    if settings or any(value is not None for value in named):
         raise ValueError(
             f"problem must stand without weighting, vehicle, road, speed and band, got {str(file)!r} with one"
         )
     return load_problem(file)
-
-
-def comparison_of(
-    problem: RideProblem, algorithms: Sequence[str], seed: int, options: Mapping[str, Any]
-) -> Comparison:
-    """Return the comparison of a problem with the sizes among the options."""
-    return Comparison(
-        problem=problem,
-        algorithms=algorithms,
-        populations=whole_numbers("populations", options["populations"]),
-        iterations=whole_numbers("iterations", options["iterations"]),
-        repeats=options["repeats"],
-        seeds=options["seeds"],
-        seed=seed,
-    )
 
 
 def cluster_of(jobs: int | None, scheduler: str | None) -> Cluster:
@@ -139,10 +123,10 @@ def carry_out(request: Request, cluster: Cluster | None) -> None:
         table = judge_seeds(request.comparison, front, judged, cluster)
         raised = int(table.error.ne("").sum())
         clock = timing.seconds_by_evaluations(request.comparison, store)
-        results.write_csv(request.folder / "runs.csv", pd.concat([timed, quality.last_rows(table)]))
-        if found := findings(request.comparison, table, clock, request.target):
+        write_csv(request.folder / "runs.csv", pd.concat([timed, quality.last_rows(table)]))
+        if found := findings(request.comparison, table, clock, request.options["target"]):
             quality.write(request, found, judged)
-            quality.say(found, request.target)
+            quality.say(found, request.options["target"])
     print(request.folder)
     if raised:
         terminal.complain(f"{raised} runs raised: see the column error of {request.folder / 'runs.csv'}")
@@ -155,8 +139,10 @@ def time(request: Request) -> FolderStore:
     store = request.store("timed", "repeats", **made_on)
     with machine.single_thread(), warnings.catch_warnings(), terminal.compiling():
         warnings.simplefilter("ignore", InfeasibleWarning)  # the report counts runs without a feasible design
-        if not (request.folder / "environment.json").exists():  # of the command that began the timed runs
-            results.write_json(request.folder / "environment.json", machine.describe(request.options))
+        record = request.folder / "environment.json"
+        if not record.exists():  # of the command that began the timed runs
+            texts = {name: str(v) if isinstance(v, Path) else v for name, v in request.options.items()}
+            write_json(record, machine.describe(texts))
         with terminal.waiting("warming up"):
             timing.warm_up(request.comparison)
         made = timing.carry_out(request.comparison, store)

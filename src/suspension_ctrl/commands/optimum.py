@@ -40,6 +40,7 @@ def optimum(
     from ..paper import tables
     from ..search.driver import minimise
     from ..search.moead_dra import MoeadDra
+    from ..tables import write_csv
     from . import results, terminal
 
     checks.at_least("iterations", iterations, 1)
@@ -59,7 +60,7 @@ def optimum(
         problems.append(problem)
         parts.append(tables.beside_published(problem, designs, published if of_paper else {}))
     folder = results.results_folder(out)
-    results.write_csv(folder / "table5.csv", pd.concat(parts))
+    write_csv(folder / "table5.csv", pd.concat(parts))
     for problem, part in zip(problems, parts, strict=True):
         said = ": published / here" if of_paper else ""
         terminal.show(f"Table 5, ACC weighted by {problem.weighting}{said}", as_printed(problem, part))

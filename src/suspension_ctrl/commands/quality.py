@@ -9,6 +9,7 @@ from ..study import figures, lenses, study
 from ..study.findings import CONFIGURATION, Findings
 from ..study.store import StoredRun
 from ..study.study import INDICATORS
+from ..tables import write_csv, write_text
 from . import results, terminal
 
 if TYPE_CHECKING:
@@ -34,10 +35,10 @@ def last_rows(table: pd.DataFrame) -> pd.DataFrame:
 
 def write(request: "Request", found: Findings, store: Mapping[str, StoredRun]) -> None:
     """Write tables, verdict and figures."""
-    results.write_csv(request.folder / "quality.csv", found.course.drop(columns="seconds"))
+    write_csv(request.folder / "quality.csv", found.course.drop(columns="seconds"))
     for name, table in (("equal", found.medians), ("differences", found.differences), ("to_reach", found.reached)):
         results.write_table(request.folder / name, table.rename(columns=_header))
-    results.write_text(request.folder / "verdict.md", "\n\n".join(found.verdict) + "\n")
+    write_text(request.folder / "verdict.md", "\n\n".join(found.verdict) + "\n")
     with terminal.waiting("drawing"):
         for population in request.comparison.populations:
             _draw(request, found, store, population)

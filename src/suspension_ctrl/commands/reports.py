@@ -11,6 +11,7 @@ from ..response.problem import RideProblem
 from ..search.moead_dra import MoeadDra
 from ..study import figures, timing
 from ..study.store import StoredRun
+from ..tables import write_csv
 from . import results, terminal
 
 if TYPE_CHECKING:
@@ -31,13 +32,13 @@ DECIMALS = {
 def write(request: "Request", store: Store, timed: pd.DataFrame) -> None:
     """Write runs, tables, fronts and Figure 5."""
     folder = request.folder
-    results.write_csv(folder / "runs.csv", timed)
+    write_csv(folder / "runs.csv", timed)
     for name, table in _tables(request, timed).items():
         results.write_table(folder / name, table)
     (folder / "fronts").mkdir(exist_ok=True)
     for run in request.comparison.timed_runs():
         front = timing.front(request.problem, store[run.name].final)
-        results.write_csv(folder / "fronts" / f"{run.name}.csv", front)
+        write_csv(folder / "fronts" / f"{run.name}.csv", front)
     with terminal.waiting("drawing"):
         _write_figure5(request, timing.final_populations(request.comparison, store))
 

@@ -7,9 +7,7 @@ from pathlib import Path
 from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING
 
-from ..tables import write_csv, write_json, write_text, write_whole
-
-__all__ = ["write_csv", "write_json", "write_text"]
+from ..tables import write_csv, write_text, write_whole
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -17,19 +15,9 @@ if TYPE_CHECKING:
 
 
 def results_folder(out: Path | None, resumed_by: str | None = None) -> Path:
-    """Make and return the folder for the results of one command.
+    """Make and return the folder for the results of a command: `out`, or a new one ``results/<date-time>``.
 
-    Parameters
-    ----------
-    out : Path, optional
-        Folder that is absent or empty; if not given, a new one ``results/<date-time>``.
-    resumed_by : str, optional
-        A name: a folder that holds it may hold more, as what is there is gone on with.
-
-    Raises
-    ------
-    ValueError
-        If it is not a folder, is not empty or cannot be written.
+    ValueError unless `out` is absent, empty, or holds the name `resumed_by`, and can be written.
     """
     folder = out or Path("results") / datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
     try:
@@ -43,15 +31,13 @@ def results_folder(out: Path | None, resumed_by: str | None = None) -> Path:
         with NamedTemporaryFile(dir=folder, prefix="."):
             return folder
     except OSError as error:
-        raise ValueError(
-            f"out must be a folder that can be written, got {str(folder)!r}: {error.strerror}"
-        ) from error
+        reason = f"got {str(folder)!r}: {error.strerror}"
+        raise ValueError(f"out must be a folder that can be written, {reason}") from error
 
 
 def _made_new(folder: Path) -> Path:
     """Make `folder`, or where that exists the first of folder_2, folder_3, ... that does not."""
-    names = (folder.with_name(f"{folder.name}_{number}") for number in count(2))
-    for path in chain([folder], names):
+    for path in chain([folder], (folder.with_name(f"{folder.name}_{number}") for number in count(2))):
         with suppress(FileExistsError):  # also when another command takes the name at this moment
             path.mkdir(parents=True)
             break

@@ -33,6 +33,7 @@ def ride(
     from ..paper import experiment as paper
     from ..response.responses import ride
     from ..roads.files import load_road
+    from ..tables import write_csv
     from . import results, terminal
 
     masses = {"body_mass": body_mass, "wheel_mass": wheel_mass, "tyre_stiffness": tyre_stiffness}
@@ -48,8 +49,8 @@ def ride(
     modes = car.modes(values)
     modes = modes[["name", *(column for column in modes.columns if column.endswith("]"))]]  # no amplitudes
     folder = results.results_folder(out)
-    results.write_csv(folder / "ride.csv", table)
-    results.write_csv(folder / "modes.csv", modes)
+    write_csv(folder / "ride.csv", table)
+    write_csv(folder / "modes.csv", modes)
     units = {parameter.name: parameter.unit for parameter in car.parameters}
     terminal.note(f"{title}: {', '.join(f'{name} {value:g} {units[name]}' for name, value in values.items())}.")
     terminal.note(f"Road: {terminal.driven(on, at)}; {low:g} to {high:g} Hz.")

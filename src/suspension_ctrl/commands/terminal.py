@@ -7,16 +7,9 @@ from io import TextIOWrapper
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 import typer
+from rich import progress as bars
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
 from rich.table import Table
 from rich.text import Text
 
@@ -26,6 +19,9 @@ if TYPE_CHECKING:
 console = Console(width=None if sys.stdout.isatty() else 130)
 stderr = Console(stderr=True)
 T = TypeVar("T")
+
+_GAP = 3
+"""Columns between two columns of a table."""
 
 
 def run(app: typer.Typer, *before: str, name: str | None = None) -> NoReturn:
@@ -39,16 +35,16 @@ def run(app: typer.Typer, *before: str, name: str | None = None) -> NoReturn:
             stream.reconfigure(errors="replace")  # a symbol that the encoding lacks is no error
     try:
         sys.exit(app([*before, *sys.argv[1:]], prog_name=name, standalone_mode=False))
-    except typer.TyperException as error:
-        _fail(error.format_message(), 2)
-    except ValueError as error:
-        _fail(str(error), 2)
+    except (typer.TyperException, ValueError) as error:
+        message, status = str(error), 2
     except (OSError, ImportError) as error:
-        _fail(str(error), 1)
+        message, status = str(error), 1
     except MemoryError as error:
-        _fail(f"not enough memory: {error}", 1)
+        message, status = f"not enough memory: {error}", 1
     except (KeyboardInterrupt, typer.Abort):
-        _fail("interrupted", 130)
+        message, status = "interrupted", 130
+    complain(message)
+    sys.exit(status)
 
 
 def run_script(main: Callable[..., None]) -> NoReturn:
@@ -58,11 +54,6 @@ def run_script(main: Callable[..., None]) -> NoReturn:
     run(app)
 
 
-def _fail(message: str, status: int) -> NoReturn:
-    complain(message)
-    sys.exit(status)
-
-
 def complain(message: str) -> None:
     """Print one line on standard error."""
     print(f"error: {' '.join(message.split())}", file=sys.stderr)
@@ -70,9 +61,10 @@ def complain(message: str) -> None:
 
 def progress(items: Iterable[T], total: int, text: str = "") -> Iterator[T]:
     """Pass `items` through with a progress bar, drawn only between them so as not to disturb a timed one."""
-    columns = (TextColumn(text), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(),
-               TextColumn("left"), TimeRemainingColumn())  # fmt: skip
-    with Progress(*columns, console=stderr, transient=True, auto_refresh=False, disable=_in_pipe()) as bar:
+    columns = [bars.TextColumn(text), bars.BarColumn(), bars.MofNCompleteColumn(), bars.TimeElapsedColumn()]
+    columns += [bars.TextColumn("left"), bars.TimeRemainingColumn()]
+    settings: dict[str, Any] = {"transient": True, "auto_refresh": False, "disable": not stderr.is_terminal}
+    with bars.Progress(*columns, console=stderr, **settings) as bar:
         task = bar.add_task("", total=total)
         for item in items:
             bar.update(task, advance=1, refresh=True)
@@ -80,17 +72,17 @@ def progress(items: Iterable[T], total: int, text: str = "") -> Iterator[T]:
 
 
 def waiting(text: str) -> AbstractContextManager[Any]:
-    """Return a context in which the terminal says what is being waited for."""
-    return nullcontext() if _in_pipe() else stderr.status(text, spinner="line")
+    """Return a context in which a terminal says what is being waited for."""
+    return stderr.status(text, spinner="line") if stderr.is_terminal else nullcontext()
 
 
 @contextmanager
 def compiling() -> Iterator[None]:
-    """Say in the terminal when numba begins to compile within this context, with nothing on disk to load."""
+    """Say in a terminal when numba begins to compile what it has not compiled before."""
     from numba.core import event
 
     class Compilation(event.Listener):
-        said = _in_pipe()
+        said = not stderr.is_terminal
 
         def on_start(self, _event: object) -> None:
             if not self.said:
@@ -98,14 +90,10 @@ def compiling() -> Iterator[None]:
             self.said = True
 
         def on_end(self, _event: object) -> None:
-            """Not of interest."""
+            pass
 
     with event.install_listener("numba:compile", Compilation()):
         yield
-
-
-def _in_pipe() -> bool:
-    return not stderr.is_terminal
 
 
 def driven(road: Any, speed: float) -> str:
@@ -126,34 +114,28 @@ def show(title: str, table: "pd.DataFrame", digits: dict[str, int] | None = None
     cells = {str(c): [_cell(value, (digits or {}).get(c)) for value in table[c]] for c in table.columns}
     right = {str(c) for c in table.columns if table[c].dtype.kind in "iuf"}
     widths = {name: max(map(len, [name, *column])) + _GAP for name, column in cells.items()}
-    first = list(cells)[:keys]
     console.print(Text(title, style="bold"))
-    for block in _blocks(first, list(cells)[keys:], widths, console.width):
+    for block in _blocks(list(cells)[:keys], list(cells)[keys:], widths):
         shown = Table(box=SIMPLE_HEAD, pad_edge=False, show_edge=False)
-        for name in block:
-            justify: Any = "right" if name in right else "left"
-            shown.add_column(Text(name), justify=justify, no_wrap=True)  # units in brackets are no markup
+        for name in block:  # as Text: units in brackets are no markup
+            shown.add_column(Text(name), justify="right" if name in right else "left", no_wrap=True)
         for row in zip(*(cells[name] for name in block), strict=True):
             shown.add_row(*map(Text, row))
         console.print(shown)
         console.print()
 
 
-_GAP = 3
-"""Columns between two columns of a table."""
-
-
-def _blocks(keys: list[str], others: list[str], widths: dict[str, int], most: int) -> list[list[str]]:
-    """Return the columns in blocks up to `most` wide, one at least of the others in each."""
+def _blocks(keys: list[str], others: list[str], widths: dict[str, int]) -> list[list[str]]:
+    """Return the columns in blocks that fit the terminal, one at least of the others in each."""
     blocks: list[list[str]] = []
     for name in others:
-        if not blocks or sum(widths[c] for c in blocks[-1]) + widths[name] > most:
+        if not blocks or sum(widths[c] for c in [*blocks[-1], name]) > console.width:
             blocks.append(list(keys))
         blocks[-1].append(name)
     return blocks or [keys]
 
 
 def _cell(value: Any, digits: int | None) -> str:
-    if isinstance(value, float):  # numpy's are among them
-        return "" if value != value else f"{value:.{digits}f}" if digits is not None else f"{value:.6g}"
-    return str(value)
+    if not isinstance(value, float):  # numpy's are floats
+        return str(value)
+    return "" if value != value else f"{value:.6g}" if digits is None else f"{value:.{digits}f}"

@@ -13,13 +13,14 @@ def weighting(out: o.Out = None) -> None:
     from matplotlib.figure import Figure
 
     from ..response import figures, weightings
+    from ..tables import write_csv
     from . import results
 
     f = weightings.BANDS
     every = weightings.FILTERS + weightings.TABLES
     factors = {f"{name} [-]": weightings.by_name(name).factor(f) for name in every}
     folder = results.results_folder(out)
-    results.write_csv(folder / "figure2.csv", pd.DataFrame({"frequency [Hz]": f, **factors}))
+    write_csv(folder / "figure2.csv", pd.DataFrame({"frequency [Hz]": f, **factors}))
     figure = Figure(figsize=(7, 4.6), layout="constrained")
     figures.weighting_factors(figure.add_subplot(), ("Wk", "Wb"), ("Wk-table", "Wb-table"))
     results.write_figure(folder / "figure2", figure)
