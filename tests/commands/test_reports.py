@@ -1,23 +1,25 @@
-"""What is said of timed runs; the runs themselves are those of a small comparison."""
+"""Tables and fronts of timed runs, from what the runs have stored."""
 
-import pytest
+import numpy as np
+import pandas as pd
 
-from suspension_ctrl.commands.reports import uses_weighting
-
-
-@pytest.mark.parametrize(
-    ("measures", "used"),
-    [
-        (["ACC", "SWS"], True),
-        (["comfort = ACC", "SWS"], True),
-        (["comfort = Wk body_acceleration", "SWS"], False),  # a weighting of its own
-        (["SWS", "DTL"], False),
-        (["my ACC = SWS", "DTL"], False),
-    ],
-)
-def test_weighting_is_used_by_measures_that_depend_on_it(table1_problem, measures, used):
-    assert uses_weighting(table1_problem.replace(measures=measures)) is used
+SIZES = ("--populations", 20, "--iterations", "2,3", "--repeats", 2, "--vehicle", "minaker_half", "--out", "out")
 
 
-def test_without_a_weighting_none_is_used(table1_problem):
-    assert not uses_weighting(table1_problem.replace(weighting=None))
+def test_tables_and_fronts_are_those_of_the_stored_runs(called, tmp_path):
+    done = called("compare", *SIZES)
+    assert done.returncode == 0, done.stderr
+    out = tmp_path / "out"
+    runs = pd.read_csv(out / "runs.csv")
+    table = pd.read_csv(out / "table4.csv").set_index(["iterations", "algorithm", "budget"])
+    seconds = runs.groupby(["iterations", "algorithm", "budget"]).seconds.mean()
+    key = (2, "moead-dra", "iterations")
+    assert np.isclose(table.loc[key, "seconds"], seconds[key], rtol=1e-12)
+    ratio = 100 * seconds[(2, "nsga2", "iterations")] / seconds[key]
+    assert np.isclose(table.loc[key, "ratio_percent"], ratio, rtol=1e-12)
+    headers = ["ACC [m/s^2]", "SWS [m]", "DTL [N]"]
+    for path in (out / "fronts").iterdir():
+        front = pd.read_csv(path)[headers].to_numpy()
+        final = pd.read_csv(out / "timed" / "final" / path.name)[headers].to_numpy()
+        dominated = [((final <= x).all(axis=1) & (final < x).any(axis=1)).any() for x in final]
+        np.testing.assert_array_equal(front, final[~np.array(dominated)])

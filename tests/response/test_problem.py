@@ -243,3 +243,21 @@ def test_bounds_are_of_coefficients_of_struts(name):
     message = f"bounds must be one of spring, damper, coefficients of struts, got '{name}'"
     with pytest.raises(ValueError, match=f"^{message}$"):
         paper.ride_problem(lower=(), upper=(), bounds={name: (1e5, 2e5)})
+
+
+@pytest.mark.parametrize(
+    ("measures", "used"),
+    [
+        (["ACC", "SWS"], True),
+        (["comfort = ACC", "SWS"], True),
+        (["comfort = Wk body_acceleration", "SWS"], False),  # a weighting of its own
+        (["SWS", "DTL"], False),
+        (["my ACC = SWS", "DTL"], False),
+    ],
+)
+def test_weighting_is_used_by_measures_that_depend_on_it(table1_problem, measures, used):
+    assert table1_problem.replace(measures=measures).weighted is used
+
+
+def test_without_a_weighting_none_is_used(table1_problem):
+    assert not table1_problem.replace(weighting=None).weighted

@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 from . import options as o
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from ..response.problem import RideProblem
 
 SHOWN = ("suspension_travel", "body_acceleration", "tyre_load")  # of the first wheel, in the paper's order
@@ -47,7 +45,7 @@ def bode(
     case, (low, high) = problem.cases[0], problem.band
     shown = response or [next(r for r in case.vehicle.responses if r.endswith(last)) for last in SHOWN]
     drawn = [curves.design_curves(problem, label, values, shown, points) for label, values in labelled.items()]
-    natural = pd.concat([natural_frequencies(problem, label, values) for label, values in labelled.items()])
+    natural = pd.concat([curves.oscillations(problem, label, values) for label, values in labelled.items()])
     folder = results.results_folder(out)
     write_csv(folder / "natural_frequencies.csv", natural)
     write_csv(folder / "curves.csv", pd.concat([curves.curve_table(one) for one in drawn]))
@@ -98,15 +96,3 @@ def design_label(values: Sequence[float]) -> str:
     if len(values) == 2:
         return f"{values[0] / 1e3:.10g} kN/m, {values[1] / 1e3:.10g} kN s/m"
     return ", ".join(f"{value:.6g}" for value in values)
-
-
-def natural_frequencies(problem: "RideProblem", label: str, values: Sequence[float]) -> "pd.DataFrame":
-    """Return the oscillating modes of a design."""
-    from ..response.curves import setting_of
-    from ..vehicles.vehicle import assembled
-
-    modes = assembled(problem.cases[0].vehicle).modes(setting_of(problem, values))
-    swinging = modes[modes["damping ratio [-]"] < 1]
-    shown = swinging.rename(columns={"name": "mode", "frequency [Hz]": "natural frequency [Hz]"})
-    shown.insert(0, "design", label)
-    return shown[["design", "mode", "natural frequency [Hz]", "damping ratio [-]"]]

@@ -7,14 +7,13 @@ from . import options as o
 if TYPE_CHECKING:
     import pandas as pd
 
-    from ..quantities import Real
     from ..response.problem import RideProblem
     from ..search.driver import Run
 
 WEIGHTINGS = ("Wk", "Wb", "Wb-table")
 STARTS = 8  # designs of the Pareto set from which a search goes downhill
-SHOWN = {"SWS": 1.0, "ACC": 1.0, "DTL": 1e-3}  # in m, m/s^2, kN
-Designs = dict[str, tuple[float, ...]]
+DECIMALS = {"[m": 4, "[N]": 1, "[N": 0, "[%]": 2}
+PAPERS = {"reference car": "reference", "published optimum": "optimised"}
 
 
 def optimum(
@@ -37,7 +36,6 @@ def optimum(
 
     from .. import checks
     from ..paper import experiment as paper
-    from ..paper import tables
     from ..search.driver import minimise
     from ..search.moead_dra import MoeadDra
     from ..tables import write_csv
@@ -47,72 +45,42 @@ def optimum(
     checks.at_least("seed", seed, 0)
     checks.positive("sws_limit", sws_limit, "m")
     optimiser = MoeadDra(population=population)
-    columns = paper.table5()
-    published = {"reference car": columns["reference"], "published optimum": columns["optimised"]}
     of_paper = (vehicle, road, speed) == (None, None, None)
-    problems, parts = [], []
+    parts = []
     for weighting in terminal.progress(WEIGHTINGS, len(WEIGHTINGS), "weightings"):
         problem, own = paper.chosen(vehicle, road, speed, **o.settings(weighting, band))
         with terminal.compiling():
             run = minimise(problem, optimiser, iterations=iterations, seed=seed)
-        values = None if of_paper else tuple(own[name] for name in problem.variables)
-        designs = found_designs(problem, run, sws_limit, values)
-        problems.append(problem)
-        parts.append(tables.beside_published(problem, designs, published if of_paper else {}))
+        designs = {} if of_paper else {"its own struts": tuple(own[name] for name in problem.variables)}
+        parts.append(table5(problem, run, sws_limit, designs))
     folder = results.results_folder(out)
     write_csv(folder / "table5.csv", pd.concat(parts))
-    for problem, part in zip(problems, parts, strict=True):
-        said = ": published / here" if of_paper else ""
-        terminal.show(f"Table 5, ACC weighted by {problem.weighting}{said}", as_printed(problem, part))
+    for weighting, part in zip(WEIGHTINGS, parts, strict=True):
+        shown = part.drop(columns="weighting").dropna(axis="columns", how="all")
+        digits = {name: next(d for unit, d in DECIMALS.items() if unit in name) for name in shown.columns[1:]}
+        terminal.show(f"Table 5, ACC weighted by {weighting}", shown, digits)
     print(folder)
 
 
-def found_designs(problem: "RideProblem", run: "Run", limit: float, own: "tuple[float, ...] | None") -> Designs:
-    """Return the best designs within the limit, and those picked, after the vehicle's own or the paper's two."""
-    from ..paper import experiment as paper
-    from ..paper import optimum
-
-    of_paper = own is None
-    papers = {"reference car": paper.reference_design(), "published optimum": paper.optimised_design()}
-    designs: Designs = {"its own struts": own} if own is not None else dict(papers)
-    for objective in ("ACC", "DTL"):
-        found = starts(problem, run, limit, objective, of_paper)
-        name = f"exact, least {objective}" if of_paper else f"least {objective} up to the limit"
-        designs[name] = optimum.least_within_limit(problem, limit, objective, found, at_limit=of_paper)
-    for objective in ("ACC", "DTL"):
-        below = optimum.AT_LIMIT if of_paper else 1.0
-        designs[f"picked, least {objective}"] = optimum.pick_at_limit(problem, run, limit, objective, below)
-    return designs
-
-
-def starts(problem: "RideProblem", run: "Run", limit: float, objective: str, at_limit: bool) -> "Real":
-    """Return designs of a run from which to search on: nearest to the limit, or the best within it."""
+def table5(
+    problem: "RideProblem", run: "Run", limit: float, own: "dict[str, tuple[float, ...]]"
+) -> "pd.DataFrame":
+    """Return the best designs within the limit and those picked, after the vehicle's own or the paper's two."""
     import numpy as np
 
-    travel, value = (run.objectives[:, problem.objectives.index(name)] for name in ("SWS", objective))
-    off = np.abs(travel - limit) if at_limit else np.maximum(travel - limit, 0)
-    return run.designs[np.lexsort((value, off))[:STARTS]]
+    from ..paper import experiment as paper
+    from ..paper import optimum, tables
 
-
-def as_printed(problem: "RideProblem", table: "pd.DataFrame") -> "pd.DataFrame":
-    """Return Table 5 in kilo-units, and with "published / here (deviation)" where there is a published value."""
-    import pandas as pd
-
-    from ..quantities import column_headers
-
-    printed = {"design": table["design"]}
-    for header in column_headers(problem.variables, problem.units):
-        decimals = 3 if "spring" in header else 4
-        name = header.replace("spring [N", "Ks [kN").replace("damper [N", "Cs [kN").replace("[N m", "[kN m")
-        printed[name] = table[header].map(lambda value, decimals=decimals: f"{value / 1e3:.{decimals}f}")
-    for name, scale in SHOWN.items():
-        unit = problem.units[name]
-        cells = table[[f"{name} [{unit}]", f"published {name} [{unit}]", f"{name} off [%]"]]
-        printed[f"{name} [{'kN' if unit == 'N' else unit.replace('^2', '²')}]"] = pd.Series(
-            f"{here * scale:.4f}" if pd.isna(there) else f"{there * scale:.4f} / {here * scale:.4f} ({off:+.2f} %)"
-            for here, there, off in cells.itertuples(index=False)
-        )
-    shown = pd.DataFrame(printed)
-    if len(problem.variables) == 2:
-        return shown
-    return shown.set_index("design").T.rename_axis("", axis=0).reset_index()  # more variables, down the page
+    columns = {} if own else paper.table5()
+    published = {name: columns[key] for name, key in PAPERS.items() if key in columns}
+    papers = {"reference car": paper.reference_design(), "published optimum": paper.optimised_design()}
+    designs, of_paper = own or dict(papers), not own
+    off = np.abs(run.objectives[:, problem.objectives.index("SWS")] - limit)
+    starts = run.designs[off.argsort(kind="stable")[:STARTS]]
+    for objective in ("ACC", "DTL"):
+        name = f"exact, least {objective}" if of_paper else f"least {objective} up to the limit"
+        designs[name] = optimum.least_within_limit(problem, limit, objective, starts, at_limit=of_paper)
+    below = optimum.AT_LIMIT if of_paper else 1.0
+    for objective in ("ACC", "DTL"):
+        designs[f"picked, least {objective}"] = optimum.pick_at_limit(problem, run, limit, objective, below)
+    return tables.beside_published(problem, designs, published)

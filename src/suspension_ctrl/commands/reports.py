@@ -6,8 +6,6 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from ..paper import tables as printed
-from ..response.measures import case_measure
-from ..response.problem import RideProblem
 from ..search.moead_dra import MoeadDra
 from ..study import figures, timing
 from ..study.store import StoredRun
@@ -79,16 +77,6 @@ def _write_figure5(request: "Request", populations: pd.DataFrame) -> None:
         results.write_figure(request.folder / stem, figures.final_populations(shown, across, up))
 
 
-def uses_weighting(problem: RideProblem) -> bool:
-    """Return whether a measure depends on the weighting of the problem."""
-    case = problem.cases[0]
-    unweighted, weighted = (
-        [case_measure(measure, case, weighting).terms for measure in problem.measures]
-        for weighting in (None, problem.weighting)
-    )
-    return unweighted != weighted
-
-
 def _explain(request: "Request", origin: str) -> None:
     """Print limits, load cases, weighting, reference front, and whether MOEA/D-DRA allocated resources."""
     problem, comparison = request.problem, request.comparison
@@ -99,7 +87,7 @@ def _explain(request: "Request", origin: str) -> None:
         terminal.note(f"Objectives are over {len(problem.cases)} load cases, {how}; limits hold in each.")
     for number, case in enumerate(problem.cases, start=1):
         terminal.note(f"Case {number}, share {case.share:g}: {terminal.driven(case.road, case.speed)}.")
-    weighted = f"ACC is weighted with {problem.weighting}. " if uses_weighting(problem) else ""
+    weighted = f"ACC is weighted with {problem.weighting}. " if problem.weighted else ""
     terminal.note(f"{weighted}Hypervolume and IGD+ are medians over the repeats, against {origin}.")
     period = MoeadDra.utility_period
     if min(comparison.iterations) <= period and any(name.startswith("moead") for name in comparison.algorithms):

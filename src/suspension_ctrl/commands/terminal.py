@@ -35,7 +35,9 @@ def run(app: typer.Typer, *before: str, name: str | None = None) -> NoReturn:
             stream.reconfigure(errors="replace")  # a symbol that the encoding lacks is no error
     try:
         sys.exit(app([*before, *sys.argv[1:]], prog_name=name, standalone_mode=False))
-    except (typer.TyperException, ValueError) as error:
+    except typer.TyperException as error:
+        message, status = error.format_message(), 2
+    except ValueError as error:
         message, status = str(error), 2
     except (OSError, ImportError) as error:
         message, status = str(error), 1
@@ -120,7 +122,8 @@ def show(title: str, table: "pd.DataFrame", digits: dict[str, int] | None = None
         for name in block:  # as Text: units in brackets are no markup
             shown.add_column(Text(name), justify="right" if name in right else "left", no_wrap=True)
         for row in zip(*(cells[name] for name in block), strict=True):
-            shown.add_row(*map(Text, row))
+            if any(row[keys:]):
+                shown.add_row(*map(Text, row))
         console.print(shown)
         console.print()
 

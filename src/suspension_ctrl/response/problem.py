@@ -171,6 +171,15 @@ class RideProblem(Record):
             {name: of_struts[name] for name in self.variables} | {name: judged[name] for name in self.objectives}
         )
 
+    @cached_property
+    def weighted(self) -> bool:
+        """Whether a measure depends on the weighting of the problem."""
+        terms = [
+            [case_measure(measure, self.cases[0], weighting).terms for measure in self.measures]
+            for weighting in (None, self.weighting)
+        ]
+        return terms[0] != terms[1]
+
     def evaluate(self, designs: ArrayLike) -> Real:
         """Return the objectives of many designs.
 
