@@ -1,6 +1,7 @@
 """Vehicles to test with, and their mean squares by python-control's closed models."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from hypothesis import strategies as st
@@ -24,17 +25,8 @@ HALF = HalfCar(body_mass=650.0, pitch_inertia=1200.0, **_AXLES)
 FULL = FullCar(
     body_mass=1300.0, roll_inertia=480.0, pitch_inertia=2400.0, front_track=1.5, rear_track=1.46, **_AXLES
 )
-DAMPED_QUARTER = QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3, tyre_damping=100.0)
-DAMPED_HALF = HalfCar(body_mass=650.0, pitch_inertia=1200.0, **_AXLES, **_DAMPED)
-DAMPED_FULL = FullCar(
-    body_mass=1300.0,
-    roll_inertia=480.0,
-    pitch_inertia=2400.0,
-    front_track=1.5,
-    rear_track=1.46,
-    **_AXLES,
-    **_DAMPED,
-)
+DAMPED_QUARTER = replace(QUARTER, tyre_damping=100.0)
+DAMPED_HALF, DAMPED_FULL = replace(HALF, **_DAMPED), replace(FULL, **_DAMPED)
 DRIVER = Seat(mass=80.0, spring=12e3, damper=700.0, position=(0.3, 0.4), name="driver")
 PASSENGER = Seat(mass=60.0, spring=14e3, damper=600.0, position=(-0.9, -0.35), name="passenger")
 CORNERS = [(1.2, 0.75), (1.2, -0.75), (-1.5, 0.73), (-1.5, -0.73)]

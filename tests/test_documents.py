@@ -1,5 +1,6 @@
 """TOML tables: values by keys with units, and one line about a key that is wrong."""
 
+import re
 from dataclasses import dataclass, field
 
 import pytest
@@ -53,9 +54,8 @@ KEYS = "mass_kg, place_m, called, camber_rad, slip, spokes"
     ],
 )
 def test_a_wrong_key_is_one_line(changes, message):
-    with pytest.raises(ValueError) as error:  # noqa: PT011  # the whole message is compared
+    with pytest.raises(ValueError, match="^" + re.escape(message) + "$"):
         made(Table("wheel.", GOOD | changes), Wheel)
-    assert str(error.value) == message
 
 
 def test_a_key_that_is_needed_is_missed():
@@ -86,9 +86,8 @@ def test_tables_in_tables():
     ],
 )
 def test_values_of_another_kind_are_one_line(read, message):
-    with pytest.raises(ValueError) as error:  # noqa: PT011  # the whole message is compared
+    with pytest.raises(ValueError, match="^" + re.escape(message) + "$"):
         read(Table("x.", {"number": 3, "numbers": [1]}))
-    assert str(error.value) == message
 
 
 def test_errors_name_the_file_and_the_key(tmp_path):
