@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 import pytest
 
 from suspension_ctrl.documents import Table, keyed, made, naming, read_toml, under
-from suspension_ctrl.quantities import check_numbers, unit
+from suspension_ctrl.quantities import Checked, unit
 
 
-@dataclass(frozen=True)
-class Wheel:
+@dataclass(frozen=True, eq=False, repr=False)
+class Wheel(Checked):
     mass: float = field(metadata=unit("kg"))
     place: tuple[float, float] = field(metadata=unit("m"))
     name: str = field(metadata={"key": "called"})
@@ -18,9 +18,6 @@ class Wheel:
     slip: float | None = None
     spokes: tuple[float, ...] = ()
     other: object = None
-
-    def __post_init__(self) -> None:
-        check_numbers(self)
 
 
 GOOD = {"mass_kg": 20, "place_m": [1, 0.5], "called": "left"}

@@ -1,12 +1,13 @@
 """Frozen records: equal by value, hashable, picklable, read-only, and shown with their units."""
 
 import pickle
+import re
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pytest
 
-from suspension_ctrl.quantities import FrozenMapping, Record, frozen_array, unit
+from suspension_ctrl.quantities import Checked, FrozenMapping, Record, frozen_array, unit
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -48,3 +49,26 @@ def test_a_record_is_shown_with_units_and_without_defaults():
     long = repr(Rod(2.5, [1, 2, 3], {f"name{i}": i for i in range(200)}))
     assert len(long.splitlines()) == 6
     assert max(map(len, long.splitlines())) <= 88
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Spring(Checked):
+    rate: float = field(metadata=unit("N/m"))
+    damping: float = field(default=0.0, metadata=unit("N s/m"))
+    offset: float = field(default=0.0, metadata=unit("m", -1, 1))
+    count: float = 3.0
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"rate": 0.0}, "rate must be finite and > 0 N/m, got 0.0"),
+        ({"rate": "1"}, "rate must be finite and > 0 N/m, got '1'"),
+        ({"rate": 1.0, "damping": -0.1}, "damping must be finite and >= 0 N s/m, got -0.1"),
+        ({"rate": 1.0, "offset": 1.5}, "offset must be a number from -1 to 1, got 1.5"),
+    ],
+)
+def test_numbers_with_units_are_checked_at_birth(values, message):
+    assert Spring(rate=1.0, offset=-1.0, count=-3.0).damping == 0.0
+    with pytest.raises(ValueError, match="^" + re.escape(message) + "$"):
+        Spring(**values)

@@ -20,17 +20,9 @@ _WIDTH, _LINES = 88, 6
 """Columns and lines that the repr of a record may take."""
 
 
-def unit(text: str) -> dict[str, str]:
-    """Return the metadata of a dataclass field in this unit: ``field(metadata=unit("kg"))``."""
-    return {"unit": text}
-
-
-def check_numbers(record: Any) -> None:
-    """Raise ValueError unless each number with a unit is finite and above zero, or zero if that is its default."""
-    for one in fields(record):
-        if one.type is float and "unit" in one.metadata:
-            check = checks.not_negative if one.default == 0 else checks.positive
-            check(one.name, getattr(record, one.name), one.metadata["unit"])
+def unit(text: str, *limits: float) -> dict[str, Any]:
+    """Return the metadata of a field in this unit and from a lowest to a highest value, if there are `limits`."""
+    return {"unit": text, "limits": limits} if limits else {"unit": text}
 
 
 def frozen_array(values: ArrayLike, dtype: type = float) -> NDArray[Any]:
@@ -104,6 +96,22 @@ class Record:
 
     def _fields(self) -> tuple[Field[Any], ...]:
         return fields(self)  # type: ignore[arg-type]
+
+
+class Checked(Record):
+    """A record whose numbers with units are checked at birth: within the limits of their field, or above zero.
+
+    A number may be zero if that is its default.
+    """
+
+    def __post_init__(self) -> None:
+        for one in self._fields():
+            value, metadata = getattr(self, one.name), one.metadata
+            if "limits" in metadata:
+                checks.within(one.name, value, *metadata["limits"])
+            elif one.type is float and "unit" in metadata:
+                check = checks.not_negative if one.default == 0 else checks.positive
+                check(one.name, value, metadata["unit"])
 
 
 def _hashable(value: object) -> object:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import checks
-from ..quantities import Real, Record, check_numbers, unit
+from ..quantities import Checked, Real, Record, unit
 
 _ROUNDING = 1e-9
 """Largest magnitude of a negative eigenvalue of a matrix of coherences by rounding, by number of tracks."""
@@ -63,7 +63,7 @@ class Isotropic(Record):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Exponential(Record):
+class Exponential(Checked):
     """Coherence ``exp(-decay n d)`` over wavenumber n and distance d, one of the models in use [1]_, [2]_.
 
     Parameters
@@ -84,10 +84,7 @@ class Exponential(Record):
        International Journal of Vehicle Design 67 (2015), on this and others beside measured roads.
     """
 
-    decay: float
-
-    def __post_init__(self) -> None:
-        checks.within("decay", self.decay, 0.0, 1e6)
+    decay: float = field(metadata=unit("", 0.0, 1e6))
 
     def between(self, n: Real, distance: float) -> Real:
         """Return the coherence; see `Coherence`."""
@@ -95,7 +92,7 @@ class Exponential(Record):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Constant(Record):
+class Constant(Checked):
     """One coherence for any two tracks, at all wavenumbers.
 
     Parameters
@@ -109,10 +106,7 @@ class Constant(Record):
         If the value is out of range.
     """
 
-    value: float
-
-    def __post_init__(self) -> None:
-        checks.within("value", self.value, 0.0, 1.0)
+    value: float = field(metadata=unit("", 0.0, 1.0))
 
     def between(self, n: Real, _distance: float) -> Real:
         """Return the coherence; see `Coherence`."""
@@ -120,7 +114,7 @@ class Constant(Record):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Tabulated(Record):
+class Tabulated(Checked):
     """Measured coherence of two tracks, linear over wavenumber between the rows of a table.
 
     Below the first row it rises to 1 at wavenumber 0, beyond the last it stays. Tracks at another distance d than
@@ -147,7 +141,7 @@ class Tabulated(Record):
     distance: float = field(metadata=unit("m"))
 
     def __post_init__(self) -> None:
-        check_numbers(self)
+        super().__post_init__()
         n, gamma = np.asarray(self.wavenumber, dtype=float), np.asarray(self.coherence, dtype=float)
         if n.ndim != 1 or n.shape != gamma.shape or n.size == 0:
             raise ValueError(f"wavenumber and coherence must be of one length, got {n.shape} and {gamma.shape}")

@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import checks
-from ..quantities import Complex, Real, Record, check_numbers
+from ..quantities import Checked, Complex, Real
 from .coherence import Coherence, Isotropic, coherence_matrix
 from .profiles import Profile
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Road(Record, ABC):
+class Road(Checked, ABC):
     """A road by the spectrum of its elevation and the coherence of parallel tracks; subclasses are roads.
 
     At speed V a vehicle meets wavenumber n [cycle/m] at the frequency f = V n.
@@ -28,7 +28,7 @@ class Road(Record, ABC):
     coherence: Coherence = field(default_factory=Isotropic)
 
     def __post_init__(self) -> None:
-        check_numbers(self)
+        super().__post_init__()
         if isinstance(self.coherence, type) or not callable(getattr(self.coherence, "between", None)):
             raise ValueError(f"coherence must be a model such as Exponential(decay=3.0), got {self.coherence!r}")
 

@@ -7,13 +7,13 @@ from typing import Any
 
 import control
 
-from ..quantities import Record, check_numbers, unit
+from ..quantities import Checked, unit
 from .assembly import Assembly, Link, Position, Response, StrutParameter
 from .vehicle import AssembledVehicle, anti_roll_bar, spring_and_damper
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class QuarterCar(Record, AssembledVehicle):
+class QuarterCar(Checked, AssembledVehicle):
     """Two-degree-of-freedom quarter vehicle model [1]_, equations (1) and (2).
 
     Parameters
@@ -38,9 +38,6 @@ class QuarterCar(Record, AssembledVehicle):
     wheel_mass: float = field(metadata=unit("kg"))
     tyre_stiffness: float = field(metadata=unit("N/m"))
     tyre_damping: float = field(default=0.0, metadata=unit("N s/m"))
-
-    def __post_init__(self) -> None:
-        check_numbers(self)
 
     @cached_property
     def assembly(self) -> Assembly:
@@ -70,7 +67,7 @@ class QuarterCar(Record, AssembledVehicle):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class _TwoAxleCar(Record, AssembledVehicle):
+class _TwoAxleCar(Checked, AssembledVehicle):
     """A body on a front and a rear axle."""
 
     body_mass: float = field(metadata=unit("kg"))
@@ -83,9 +80,6 @@ class _TwoAxleCar(Record, AssembledVehicle):
     cg_to_rear: float = field(metadata=unit("m"))
     front_tyre_damping: float = field(default=0.0, metadata=unit("N s/m"))
     rear_tyre_damping: float = field(default=0.0, metadata=unit("N s/m"))
-
-    def __post_init__(self) -> None:
-        check_numbers(self)
 
     def _assembly(
         self, corners: Mapping[str, Position], inertias: Mapping[str, float], parameters: list[StrutParameter]

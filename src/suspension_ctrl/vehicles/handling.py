@@ -6,13 +6,12 @@ transfer; forces through the roll centres and at the wheels carry the rest (W. F
 "Race Car Vehicle Dynamics", SAE 1995, chapter 18).
 """
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 
-from .. import checks
-from ..quantities import Real, Record, unit
+from ..quantities import Checked, Real, unit
 from .assembly import GRAVITY, Assembly
 
 _TOPPLED = 180.0
@@ -22,7 +21,7 @@ _SIDES = ("left", "right")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class RollGeometry(Record):
+class RollGeometry(Checked):
     """Heights of a vehicle for cornering.
 
     Parameters
@@ -41,17 +40,9 @@ class RollGeometry(Record):
     """
 
     roll_arm: float = field(metadata=unit("m"))
-    front_roll_centre: float = field(metadata=unit("m"))
-    rear_roll_centre: float = field(metadata=unit("m"))
+    front_roll_centre: float = field(metadata=unit("m", -10, 10))
+    rear_roll_centre: float = field(metadata=unit("m", -10, 10))
     wheel_centre: float = field(metadata=unit("m"))
-
-    def __post_init__(self) -> None:
-        for one in fields(self):
-            value = getattr(self, one.name)
-            if one.name.endswith("roll_centre"):
-                checks.within(one.name, value, -10, 10)
-            else:
-                checks.positive(one.name, value, "m")
 
 
 def check_cornering(measure: str, assembly: Assembly) -> None:

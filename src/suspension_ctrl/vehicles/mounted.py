@@ -8,12 +8,12 @@ from functools import cached_property
 import numpy as np
 
 from .. import checks
-from ..quantities import FrozenMapping, Record, check_numbers, unit
+from ..quantities import Checked, FrozenMapping, Record, unit
 from .assembly import Assembly, Link, Position, Response, check_strut_names
 from .vehicle import AssembledVehicle, Vehicle, assembled, spring_and_damper
 
 
-class Part(Record, ABC):
+class Part(Checked, ABC):
     """A part to put on a vehicle."""
 
     @abstractmethod
@@ -74,7 +74,7 @@ class Seat(Part):
     name: str = "seat"
 
     def __post_init__(self) -> None:
-        check_numbers(self)
+        super().__post_init__()
         self._keep(position=_position(self.position))
         if not (isinstance(self.name, str) and self.name.isidentifier()):
             raise ValueError(f"name must be of letters, digits and underscores, got {self.name!r}")
@@ -123,7 +123,7 @@ class Payload(Part):
     position: Position = field(default=(0.0, 0.0), metadata=unit("m"))
 
     def __post_init__(self) -> None:
-        check_numbers(self)
+        super().__post_init__()
         self._keep(position=_position(self.position))
 
     def added_to(self, assembly: Assembly) -> Assembly:
