@@ -1,4 +1,4 @@
-"""TOML files whose keys end in their units: tables that say in one line what is wrong with them.
+"""TOML files whose keys end in their units; an error names the file and the key in one line.
 
 A quantity called ``body_mass`` in kg has the key ``body_mass_kg``; of units, ``^`` is left out and ``/`` spelt
 ``per``: ``pitch_inertia_kg_m2``, ``spring_N_per_m``.
@@ -33,7 +33,11 @@ def naming(path: str | PathLike[str]) -> Iterator[None]:
 
 @contextmanager
 def keyed(prefix: str, names: Mapping[str, str]) -> Iterator[None]:
-    """Have a ValueError that begins with one of the `names` by key begin with `prefix` and the key instead."""
+    """Name the file's key in a ValueError about a parameter.
+
+    Inside ``keyed("seats[1].", {"mass_kg": "mass"})`` the message "mass must be > 0 kg" becomes
+    "seats[1].mass_kg must be > 0 kg".
+    """
     try:
         yield
     except ValueError as error:
@@ -44,7 +48,7 @@ def keyed(prefix: str, names: Mapping[str, str]) -> Iterator[None]:
 
 @contextmanager
 def under(key: str) -> Iterator[None]:
-    """Have a ValueError about what a key names begin with the key."""
+    """Put the key before a ValueError about its value."""
     try:
         yield
     except ValueError as error:
@@ -67,7 +71,7 @@ class Table:
     content: Mapping[str, object]
 
     def check_keys(self, allowed: Mapping[str, str], needed: Collection[str] = ()) -> None:
-        """Raise ValueError unless all `needed` keys are there, and only `allowed` ones, which have names."""
+        """Raise ValueError unless all `needed` keys are present, and all keys `allowed`, names by key."""
         for key, value in self.content.items():
             if key not in allowed:
                 raise ValueError(f"{self.name}{key} must be {_meant(key, allowed)}, got {reprlib.repr(value)}")
@@ -169,6 +173,6 @@ def _are_numbers(value: Any) -> bool:
 
 
 def _meant(key: str, allowed: Mapping[str, str]) -> str:
-    """Return the key with the same name but another unit, or what keys there are."""
+    """Return the allowed key of the same name in another unit, or all allowed keys."""
     meant = [(len(name), right) for right, name in allowed.items() if f"{key}_".startswith(f"{name}_")]
     return max(meant)[1] if meant else f"one of the keys {', '.join(allowed)}"

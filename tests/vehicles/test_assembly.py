@@ -90,7 +90,12 @@ BASE = {
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"contacts": {"front": (0.0, 0.0)}}, "contacts must be those of the tyres, [''], got ['front']"),
+        ({"contacts": {"front": (0.0, 0.0)}},
+         "tyres must be front, each from its road, got (Link(name='', lower='road', upper='wheel', "
+         "stiffness=200000.0, damping=0.0),)"),
+        ({"contacts": {"a": (0.0, 0.0)}, "tyres": [Link("a", "ground", "wheel")]},
+         "tyres must be a, each from its road, got (Link(name='a', lower='ground', upper='wheel', stiffness=0.0, "
+         "damping=0.0),)"),
         ({"struts": [Link("speed", "wheel", "body")]},
          "struts must not be called responses, road, speed, got 'speed'"),
         ({"bending": {(0.0, 0.0): {"bending_1": 0.1}}, "payload": [(10.0, (1.0, 0.0))]},

@@ -131,7 +131,7 @@ def read_profile(path: "str | PathLike[str]", track_width: float | None = None) 
 
 
 def write_profile(path: "str | PathLike[str]", profile: Profile) -> None:
-    """Write a profile for `read_profile`, which returns the same numbers: the whole file or, on an error, none."""
+    """Write a profile for `read_profile`, to the last bit; on an error no file is written."""
     import pandas as pd
 
     names = [_TRACK_COLUMN.format(np.format_float_positional(y, trim="-")) for y in profile.tracks]

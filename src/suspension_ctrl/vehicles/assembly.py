@@ -28,13 +28,13 @@ GRAVITY = 9.80665
 """Standard acceleration of gravity [m/s^2]."""
 
 _RESERVED = ("responses", "road", "speed")
-"""Keywords beside which struts are given by name."""
+"""Keywords of functions that take struts by name."""
 _SAME_PLACE = 1e-3  # m
 _NONE: FrozenMapping[Any, Any] = FrozenMapping({})
 
 
 def label(response: ResponseName) -> str:
-    """Return the name of a response as a signal of python-control, which has no dots."""
+    """Return the name of a response as a signal of python-control, without dots."""
     if isinstance(response, str):
         return response
     return "acceleration_at_{}_{}_mm".format(*(round(1e3 * x) for x in response[1:]))
@@ -100,7 +100,7 @@ class Assembly(Record):
     contacts : mapping of str to Position
         By tyre, the point where it touches its road, ``<tyre>_road``.
     tyres, struts : sequence of Link
-        A tyre from its road to a wheel; in the order of `contacts`.
+        A tyre from its road to a wheel, in the order of `contacts`.
     parameters : sequence of StrutParameter
     responses : mapping of str to Response
     supports : sequence of Link
@@ -113,8 +113,8 @@ class Assembly(Record):
     Raises
     ------
     ValueError
-        If contacts are not those of the tyres, a strut has the name of a keyword, or the mode shapes at a strut
-        or a payload are unknown.
+        If tyres and contacts differ, a strut has the name of a keyword, or mode shapes at a strut or a payload
+        are unknown.
     """
 
     masses: Mapping[str, float] = field(metadata=unit("kg"))
@@ -131,8 +131,8 @@ class Assembly(Record):
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
             self._keep(**{name: FrozenMapping(value) if isinstance(value, Mapping) else tuple(value)})
-        if (tyres := [tyre.name for tyre in self.tyres]) != list(self.contacts):
-            raise ValueError(f"contacts must be those of the tyres, {tyres}, got {list(self.contacts)}")
+        if [tyre[:2] for tyre in self.tyres] != list(zip(self.contacts, self.roads, strict=True)):
+            raise ValueError(f"tyres must be {', '.join(self.contacts)}, each from its road, got {self.tyres}")
         check_strut_names("struts", (strut.name for strut in self.struts))
         for end in (*(end for strut in self.struts for end in strut[1:3]), *(place for _, place in self.payload)):
             if isinstance(end, tuple):
@@ -166,8 +166,7 @@ class Assembly(Record):
     def sprung_mass(self) -> float:
         """Mass carried by the wheels, payload included [kg]."""
         wheels = [tyre.upper for tyre in self.tyres]
-        carried = sum(mass for name, mass in self.masses.items() if name not in wheels)
-        return carried + sum(mass for mass, _ in self.payload)
+        return sum(m for name, m in self.masses.items() if name not in wheels) + sum(m for m, _ in self.payload)
 
     def shape(self, end: End) -> Real:
         """Return the share (n,) of each coordinate in the displacement of an end."""
@@ -190,8 +189,8 @@ class Assembly(Record):
         """Return the elongation of links by unit of each coordinate (l, n) and by metre of each road (l, r)."""
         by_coordinate = [self.shape(link.upper) - self.shape(link.lower) for link in links]
         by_road = [[-float(link.lower == road) for road in self.roads] for link in links]
-        n, r = len(self.coordinates), len(self.roads)
-        return np.reshape(by_coordinate, (len(links), n)), np.reshape(by_road, (len(links), r))
+        shape = len(links), len(self.coordinates)
+        return np.reshape(by_coordinate, shape), np.reshape(by_road, (len(links), len(self.roads)))
 
     def plant(self, responses: Sequence[ResponseName]) -> control.StateSpace:
         """Return the vehicle without its struts; `Vehicle.plant` names the inputs and outputs.

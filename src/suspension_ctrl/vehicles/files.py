@@ -104,7 +104,7 @@ def with_seats(vehicle: AssembledVehicle, table: Table) -> AssembledVehicle:
 
 
 def read_roll_geometry(table: Table) -> RollGeometry | None:
-    """Return what the table ``roll_geometry`` in a table says, None if there is none."""
+    """Return the roll geometry in a table, None if there is none."""
     return made(table.table("roll_geometry"), RollGeometry) if "roll_geometry" in table.content else None
 
 

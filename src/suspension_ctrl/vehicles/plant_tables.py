@@ -39,7 +39,7 @@ def frequency_responses(names: list[str], values: Real) -> control.FrequencyResp
 
 
 def _part(name: str) -> tuple[str, str, str]:
-    """Return what is in a column: output, input and whether the real or the imaginary part."""
+    """Return output, input, and ``real`` or ``imag`` by the name of a column."""
     found = _COLUMN.fullmatch(name)
     if not found:
         raise ValueError(f"column must be like 'body_acceleration/front_road real [m/s^2/m]', got {name!r}")

@@ -22,7 +22,7 @@ from .vehicle import Vehicle, spring_and_damper
 _LEAST = 4
 """Lines that a cubic spline needs."""
 _CLOSEST = 1e-6
-"""Least distance of lines [Hz], of which all powers in a spline are finite."""
+"""Least distance of lines [Hz]: its powers in a spline are finite."""
 _POINT = re.compile(r"acceleration_at_(-?\d{1,6})_(-?\d{1,6})_mm", re.ASCII)
 _OUTPUT = re.compile(r"(?:(\w+)_)?(acceleration|tyre_load|suspension_travel)", re.ASCII)
 _KINDS = {"acceleration": "acceleration", "tyre_load": "load", "suspension_travel": "travel"}
@@ -221,7 +221,7 @@ def _extended(system: System, deflections: Sequence[str], travels: Sequence[str]
 
 
 def _meaning(name: str) -> Response:
-    """Return the meaning of an output, of which the name tells it."""
+    """Return the meaning of an output by its name."""
     if point := _POINT.fullmatch(name):
         return Response("acceleration", (int(point[1]) / 1e3, int(point[2]) / 1e3))
     found = _OUTPUT.fullmatch(name)
