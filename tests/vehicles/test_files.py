@@ -172,6 +172,7 @@ def test_files_of_the_package_say_where_they_are_from(checkout):
     names = stems("vehicles")
     assert len(names) >= 4
     for name in names:
+        assert re.fullmatch("[a-z][a-z0-9_]+", name)  # a file name on every system
         path = checkout / "data/vehicles" / f"{name}.toml"
         assert path.read_text().startswith("# Source: ")
         file = load_vehicle(str(path))

@@ -18,7 +18,7 @@ from os import PathLike
 from .. import checks, datafiles
 from ..documents import Table, keyed, made, naming, read_toml
 from ..quantities import FrozenMapping, Record, key_of
-from .assembly import Position
+from .assembly import Position, StrutParameter
 from .cars import FullCar, HalfCar, QuarterCar
 from .handling import RollGeometry
 from .mounted import FlexibleBody, Seat
@@ -121,30 +121,28 @@ def _shapes(body: Table) -> dict[Position, tuple[float, ...]]:
     return shapes
 
 
-def _coefficients(vehicle: Vehicle) -> dict[str, str]:
-    """Return the names of a vehicle's coefficients by their keys."""
-    return {key_of(parameter.name, parameter.unit): parameter.name for parameter in vehicle.parameters}
+def _by_key(vehicle: Vehicle) -> dict[str, StrutParameter]:
+    return {key_of(parameter.name, parameter.unit): parameter for parameter in vehicle.parameters}
 
 
 def read_setting(table: Table, vehicle: Vehicle) -> dict[str, float]:
-    """Return the coefficients of a flat table by name; all must be there but those that have defaults."""
-    coefficients = _coefficients(vehicle)
-    default = {parameter.name: parameter.default for parameter in vehicle.parameters}
-    table.check_keys(coefficients, [key for key, name in coefficients.items() if default[name] is None])
-    setting = {name: table.number(key) for key, name in coefficients.items() if key in table.content}
-    with keyed(table.name, coefficients):
+    """Return the coefficients of a flat table by name; required are those without defaults."""
+    known = _by_key(vehicle)
+    names = {key: parameter.name for key, parameter in known.items()}
+    table.check_keys(names, [key for key, parameter in known.items() if parameter.default is None])
+    setting = {name: table.number(key) for key, name in names.items() if key in table.content}
+    with keyed(table.name, names):
         vehicle.coefficients(setting)
     return setting
 
 
 def read_bounds(table: Table, vehicle: Vehicle) -> dict[str, tuple[float, float]]:
     """Return the bounds in a flat table of coefficients by name, in the vehicle's order."""
-    table.check_keys(_coefficients(vehicle))
-    bounds = {}
-    for parameter in vehicle.parameters:
-        key = key_of(parameter.name, parameter.unit)
-        if key in table.content:
-            bounds[parameter.name] = table.pair(key)
+    known = _by_key(vehicle)
+    table.check_keys({key: parameter.name for key, parameter in known.items()})
+    bounds = {known[key].name: table.pair(key) for key in known if key in table.content}
+    for key, parameter in known.items():
+        if parameter.name in bounds:
             checks.interval(table.name + key, bounds[parameter.name], parameter.unit)
             check = checks.not_negative if parameter.default == 0 else checks.positive
             check(table.name + key, bounds[parameter.name][0], parameter.unit)
