@@ -15,6 +15,7 @@ from suspension_ctrl import MoeadDra, Nsga2, minimise
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.compiled import call, call_compiled, storable, verb_of
 from suspension_ctrl.search.operators import DifferentialChild, MutateDesign
+from suspension_ctrl.search.trace import KeptKernel
 
 
 class Line(NamedTuple):
@@ -84,14 +85,16 @@ def test_python_calls_verbs_and_any_other_callable():
     assert verb_of(line := Line(2.0, 1.0)) is line
 
 
-def test_verbs_are_storable_where_another_process_finds_their_class():
+def test_verbs_are_storable_where_every_process_finds_their_class():
     box = np.zeros(2), np.ones(2)
     assert storable(DifferentialChild(0.5))
     assert storable(MutateDesign(*box, 20.0, 0.5))
     assert storable(paper.ride_problem().kernel)
     assert not storable(verb_of((square, ())))
-    assert storable(Doubled(DifferentialChild(0.5))) == storable(Doubled(0))
-    assert not storable(Doubled(verb_of((square, ()))))
+    assert not storable(Doubled(DifferentialChild(0.5)))
+    kept = (np.empty((1, 2)), np.empty((1, 3)), np.zeros(1, dtype=np.int64))
+    assert storable(KeptKernel(*kept, paper.ride_problem().kernel))
+    assert not storable(KeptKernel(*kept, verb_of((square, ()))))
 
 
 WATCH = """

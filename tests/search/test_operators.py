@@ -46,7 +46,7 @@ def test_repair_brings_children_back_between_bound_and_parent(designs, seed, sca
         operators.DifferentialChild(scale), rng, np.vstack([designs, designs[:1]]), 0, np.arange(n + 1)
     )
     child += rng.normal(0, 5, child.size)
-    repaired = call_compiled(operators.RedrawOutside(LOWER, UPPER), rng, child, designs[0])
+    repaired = call_compiled(operators.RedrawOutside(LOWER, UPPER), rng, child.copy(), designs[0])
     inside = (child >= LOWER) & (child <= UPPER)
     np.testing.assert_array_equal(repaired[inside], child[inside])
     below, above = child < LOWER, child > UPPER

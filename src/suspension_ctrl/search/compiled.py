@@ -4,7 +4,6 @@ Numba stores no function that takes another function as an argument. It does sto
 verb is a named tuple of settings with the method ``function``, and `call` finds the method at compile time.
 """
 
-import sys
 from collections import namedtuple
 from collections.abc import Callable
 from functools import lru_cache
@@ -80,13 +79,16 @@ def verb_of(given: tuple[Any, ...]) -> Any:
 def _class_of(function: Callable[..., Any], settings: int) -> Any:
     name = f"Verb{next(_numbers)}"  # numba takes two classes of one name and the same fields for one
     fields = namedtuple(name, [f"setting_{i}" for i in range(settings)])  # type: ignore[misc]
-    return type(name, (fields,), {"function": function})
+    return type(name, (fields,), {"function": function, "__module__": function.__module__})
 
 
 _numbers = count()
 
 
 def storable(verb: Any) -> bool:
-    """Whether other processes find the class of a verb, and those of verbs among its settings, by name."""
-    known = getattr(sys.modules.get(type(verb).__module__), type(verb).__name__, None)
-    return known is type(verb) and all(storable(setting) for setting in verb if hasattr(setting, "function"))
+    """Whether a verb and those among its settings are of this package.
+
+    Numba's store holds classes by their names, and fails in processes that do not know one of them.
+    """
+    ours = type(verb).__module__.startswith(f"{__package__.split('.')[0]}.")
+    return ours and all(storable(setting) for setting in verb if hasattr(setting, "function"))

@@ -168,10 +168,15 @@ class ReplaceWorse(NamedTuple):
         it betters one does not depend on the others.
         """
         lower_ideal(ideal, child_values, values)
+        violation = violation_of(child_values, ideal.size)
         bettered = np.empty_like(partners)
         count = 0
         for p in partners:
-            if betters(child_values, values[p], weights[p], ideal):
+            theirs = violation_of(values[p], ideal.size)
+            better = violation < theirs
+            if violation == 0.0 and theirs == 0.0:
+                better = tchebycheff(child_values, weights[p], ideal) < tchebycheff(values[p], weights[p], ideal)
+            if better:
                 bettered[count] = p
                 count += 1
         for left in range(count, max(count - self.limit, 0), -1):
@@ -184,23 +189,13 @@ class ReplaceWorse(NamedTuple):
                 values[p, j] = child_values[j]
 
 
-@njit(cache=True, inline="always")
-def betters(child: Real, other: Real, weight: Real, ideal: Real) -> bool:
-    """Whether values (m + c,) have less violation than others or, both feasible, less g at this weight (m,)."""
-    violation, theirs = violation_of(child, ideal.size), violation_of(other, ideal.size)
-    if violation > 0.0 or theirs > 0.0:
-        return violation < theirs
-    return tchebycheff(child, weight, ideal) < tchebycheff(other, weight, ideal)
-
-
 @register_jitable
 def lower_ideal(ideal: Real, child: Real, values: Real) -> None:
     """Take the values (m + c,) of a child into the ideal point (m,), in place, as `ideal_with` does."""
-    feasible, found = violation_of(child, ideal.size) == 0.0, False
-    for i in range(values.shape[0]):
-        found = found or violation_of(values[i], ideal.size) == 0.0
-        if found:
-            break
+    feasible, found, i = violation_of(child, ideal.size) == 0.0, False, 0
+    while not found and i < values.shape[0]:
+        found = violation_of(values[i], ideal.size) == 0.0
+        i += 1
     for j in range(ideal.size):
         if feasible and not found:
             ideal[j] = child[j]

@@ -196,13 +196,11 @@ class MutateDesign(NamedTuple):
 
     @register_jitable
     def function(self, rng: np.random.Generator, design: Real) -> Real:
-        """Return a mutant (d,) of a design (d,)."""
-        mutant = np.empty_like(design)
+        """Return a design (d,) changed in place."""
         for v in range(design.size):
-            mutant[v] = design[v]
             if rng.random() < self.probability:
-                mutant[v] = mutated_value(design[v], rng.random(), self.lower[v], self.upper[v], self.eta)
-        return mutant
+                design[v] = mutated_value(design[v], rng.random(), self.lower[v], self.upper[v], self.eta)
+        return design
 
 
 class DifferentialChild(NamedTuple):
@@ -231,12 +229,10 @@ class RedrawOutside(NamedTuple):
 
     @register_jitable
     def function(self, rng: np.random.Generator, child: Real, parent: Real) -> Real:
-        """Return the child (d,) of a parent (d,) repaired."""
-        repaired = np.empty_like(child)
+        """Return the child (d,) of a parent (d,) changed in place."""
         for v in range(child.size):
-            repaired[v] = child[v]
             if child[v] < self.lower[v]:
-                repaired[v] = self.lower[v] + rng.random() * (parent[v] - self.lower[v])
+                child[v] = self.lower[v] + rng.random() * (parent[v] - self.lower[v])
             elif child[v] > self.upper[v]:
-                repaired[v] = self.upper[v] - rng.random() * (self.upper[v] - parent[v])
-        return repaired
+                child[v] = self.upper[v] - rng.random() * (self.upper[v] - parent[v])
+        return child
