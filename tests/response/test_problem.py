@@ -231,10 +231,8 @@ def test_problems_are_values():
 
 def test_a_problem_is_shown_in_a_few_lines_with_units():
     assert repr(problem(constraints=("SWS <= 0.03",))).splitlines() == [
-        "RideProblem: ACC [m/s^2], SWS [m], DTL [N]; SWS <= 0.03",
-        "    spring 1000 to 30000 N/m, damper 1000 to 5000 N s/m",
-        "    QuarterCar at 20 m/s",
-        "    0 to 20 Hz, weighting Wk, 256 nodes",
+        "RideProblem(ACC [m/s^2], SWS [m], DTL [N]; SWS <= 0.03; spring 1000 to 30000 N/m; damper",
+        "    1000 to 5000 N s/m; QuarterCar at 20 m/s; 0 to 20 Hz, weighting Wk, 256 nodes)",
     ]
 
 

@@ -26,15 +26,7 @@ _ROUNDING = 1e-13
 
 
 class Variables(NamedTuple):
-    """Coefficients of struts that vary.
-
-    Parameters
-    ----------
-    gain : (v, q, q) ndarray
-        Tensions by deflections, or by their derivatives of the `order` (v,), of each at 1.
-    origin : (v,) ndarray
-        Values around which the plant is closed already.
-    """
+    """Coefficients that vary: tensions (v, q, q) by derivatives of `order` (v,), and their values in place (v,)."""
 
     gain: Real
     order: NDArray[np.int64]
@@ -82,20 +74,8 @@ def in_blocks(
 ) -> ManyStruts:
     """Return the mean squares of m responses over designs, block by block.
 
-    Parameters
-    ----------
-    ports : Ports
-        At n frequencies, around the struts at `variables.origin`.
-    omega : (n,) ndarray
-        Angular frequencies [rad/s].
-    roads : (n, r, r) complex ndarray
-        Cross-spectrum of the roads.
-    densities : (m, n) ndarray
-        Factor of each response's squared magnitude in its integral.
-    variables : Variables
-        Coefficients that vary.
-    pairs : Pairs
-        Struts and roads to be paired.
+    The ports are at n frequencies `omega` [rad/s] around the struts at `variables.origin`, `roads` (n, r, r) the
+    cross-spectrum under them, `densities` (m, n) what multiplies squared magnitudes in their integrals.
     """
     m, r, (p, x) = ports.m, ports.r, pairs
     gain = p @ variables.gain @ p.T

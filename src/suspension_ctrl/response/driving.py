@@ -80,18 +80,15 @@ def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
         If there are not as many contact points as roads, or the profile lacks a track under one or is too short
         for the wheelbase.
     """
-    if isinstance(closed, Vehicle):
-        return _of_vehicle(closed, *arguments, **options)
-    return _of_model(closed, *arguments, **options)
+    drive = _drive_vehicle if isinstance(closed, Vehicle) else _drive
+    return drive(closed, *arguments, **options)
 
 
-def _of_vehicle(
-    vehicle: Vehicle, setting: Setting | Pair, profile: Profile, speed: float, *, periodic: bool = False
-) -> "pd.DataFrame":
-    return _of_model(vehicle.closed(setting), profile, speed, vehicle.contact_points, periodic=periodic)
+def _drive_vehicle(vehicle: Vehicle, setting: Setting | Pair, *arguments: Any, **options: Any) -> "pd.DataFrame":
+    return _drive(vehicle.closed(setting), *arguments, **options | {"contact_points": vehicle.contact_points})
 
 
-def _of_model(
+def _drive(
     closed: control.StateSpace,
     profile: Profile,
     speed: float,
@@ -132,10 +129,9 @@ class _Model(NamedTuple):
 
     @classmethod
     def of(cls, closed: control.StateSpace) -> "_Model":
-        """Eliminate road rates from the inputs.
+        """Eliminate road rates from x' = A x + B u + G u', y = C x + D u + E u'.
 
-        With x' = A x + B u + G u' the shifted state w = x - G u obeys w' = A w + (B + A G) u; the outputs become
-        y = C w + (D + C G) u + E u'.
+        The shifted state w = x - G u obeys w' = A w + (B + A G) u, and y = C w + (D + C G) u + E u'.
         """
         if not (isinstance(closed, control.StateSpace) and closed.isctime(strict=True)):
             got = f"{type(closed).__name__} with dt = {getattr(closed, 'dt', None)}"
@@ -152,14 +148,9 @@ class _Model(NamedTuple):
 class _Wheels(NamedTuple):
     """The road under r wheels at k times.
 
-    Parameters
-    ----------
-    points : (k, r, 4) ndarray
-        Heights of the last two points of the profile reached by each wheel and of the next two [m].
-    share : (r,) ndarray
-        Share of a step by which each wheel is beyond the last point reached, the same at all times.
-    start : float
-        Distance of the origin at first [m].
+    The `points` (k, r, 4) are the heights of the last two points of the profile reached by each wheel and of the
+    next two [m], `share` (r,) the share of a step by which it is beyond the last, `start` the origin's first place
+    [m].
     """
 
     points: Real
@@ -213,10 +204,7 @@ def _states(model: _Model, wheels: _Wheels, dt: float, periodic: bool) -> Real:
 
 
 def _taps(model: _Model, wheel: int, dt: float, share: float) -> Real:
-    """Return the contribution (3, n) of each of three points under a wheel to the states after a step.
-
-    The step begins a `share` of it past the first; the road is straight to the second, then to the third.
-    """
+    """Return what three points under a wheel add (3, n) to the states in a step from a `share` past the first."""
     b = model.b[:, wheel : wheel + 1]
     _, start, point = _straight(model.a, b, (1 - share) * dt)
     onward, again, end = _straight(model.a, b, share * dt)

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ..quantities import signal_unit
+from ..quantities import Complex, Real, signal_unit
 from .responses import phase_degrees
 from .weightings import BANDS, by_name
 
@@ -48,26 +48,17 @@ def weighting_factors(ax: Axes, filters: Sequence[str], tables: Sequence[str]) -
 
 @dataclass(frozen=True)
 class DesignCurves:
-    """What Figures 6 and 7 show of one design.
+    """Curves of a design over frequency f (n,) [Hz], for Figures 6 and 7.
 
-    Parameters
-    ----------
-    label : str
-    f : (n,) ndarray
-        Frequencies [Hz].
-    responses : dict of str to (n,) complex ndarray
-        H(w) from the road by response, which are the panels.
-    densities : dict of str to (n,) ndarray
-        Their spectra on the road; those of weighted accelerations, see `weighted_name`, beside them.
-    natural : (k,) ndarray
-        Natural frequencies [Hz].
+    By response H(w) (n,) from the road; spectra on the road, those of weighted accelerations (`weighted_name`)
+    beside them; natural frequencies (k,) [Hz].
     """
 
     label: str
-    f: NDArray[np.float64]
-    responses: Mapping[str, NDArray[np.complex128]]
-    densities: Mapping[str, NDArray[np.float64]]
-    natural: NDArray[np.float64]
+    f: Real
+    responses: Mapping[str, Complex]
+    densities: Mapping[str, Real]
+    natural: Real
 
 
 def bode(designs: Sequence[DesignCurves]) -> Figure:
@@ -137,7 +128,7 @@ def _columns(columns: int, rows: int) -> tuple[Figure, NDArray[Any]]:
     return figure, figure.subplots(rows, columns, sharex=True, squeeze=False)
 
 
-def _marked_line(ax: Axes, design: DesignCurves, values: NDArray[np.float64], colour: str) -> None:
+def _marked_line(ax: Axes, design: DesignCurves, values: Real, colour: str) -> None:
     """Draw a curve over frequency with a mark at each natural frequency."""
     ax.plot(design.f, values, color=colour, lw=1.4, label=design.label)
     shown = design.natural[(design.natural >= design.f[0]) & (design.natural <= design.f[-1])]

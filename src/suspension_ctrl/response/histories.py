@@ -19,20 +19,10 @@ INTEGRATIONS = ("linear", "exponential")
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Exposure(Record):
-    """Measures of a weighted acceleration [m/s^2]; [rad/s^2] of a rotation.
+    """Measures of a weighted acceleration; of a rotation in radians.
 
-    Parameters
-    ----------
-    rms : float
-        Root mean square a_w, clause 6.1 [m/s^2].
-    peak : float
-        Largest magnitude [m/s^2].
-    mtvv : float
-        Maximum transient vibration value, the largest running r.m.s., clause 6.3.1 [m/s^2].
-    vdv : float
-        Vibration dose value, clause 6.3.2 [m/s^1.75].
-    duration : float
-        Of the history, T [s].
+    Root mean square (clause 6.1), largest magnitude, maximum transient vibration value, the largest running r.m.s.
+    (6.3.1), vibration dose value (6.3.2), and duration T of the history.
     """
 
     rms: float = field(metadata=unit("m/s^2"))
@@ -65,24 +55,7 @@ def weighted(acceleration: ArrayLike, time_step: float, name: str) -> Real:
     of Wk is so within 0.3 % up to 10 Hz and 3.1 % at 20 Hz, in steps of 2 ms within 0.05 % and 0.5 %. The exact
     filter stands behind the vehicle, ``control.ss(weighting("Wk")) * closed[response, road]``.
 
-    Parameters
-    ----------
-    acceleration : (n,) array_like
-        [m/s^2], or [rad/s^2] of a rotation.
-    time_step : float
-        Between two samples [s]; no longer than a period of the filter's upper band limit, 10 ms but for Wf.
-    name : str
-        One of `weightings.FILTERS`.
-
-    Returns
-    -------
-    (n,) ndarray
-        The weighted history; a history that begins amidst motion begins with a transient of the filter.
-
-    Raises
-    ------
-    ValueError
-        If the history or the step is not as above, or there is no filter of that name.
+    The step is no longer than a period of the filter's upper band limit, 10 ms but for Wf.
     """
     from scipy import signal
 
@@ -100,29 +73,10 @@ def weighted(acceleration: ArrayLike, time_step: float, name: str) -> Real:
 def running_rms(
     acceleration: ArrayLike, time_step: float, *, integration: str = "linear", time_constant: float = 1.0
 ) -> Real:
-    """Return the running root mean square of a weighted acceleration, clause 6.3.1, with silence before it.
+    """Return the running root mean square (n,) of a weighted acceleration, clause 6.3.1, with silence before it.
 
-    Parameters
-    ----------
-    acceleration : (n,) array_like
-        Weighted [m/s^2].
-    time_step : float
-        Between two samples [s].
-    integration : str
-        ``"linear"``, the mean over the last `time_constant` seconds (to the nearest number of steps), or
-        ``"exponential"``, with a weight of the past that falls to 1/e in that time.
-    time_constant : float
-        tau [s]; the standard recommends 1 s.
-
-    Returns
-    -------
-    (n,) ndarray
-        At the end of each time step [m/s^2].
-
-    Raises
-    ------
-    ValueError
-        If a parameter is out of range, or the time constant shorter than a step.
+    Integration is ``"linear"``, the mean over the last `time_constant` seconds (to the nearest number of steps),
+    or ``"exponential"``, with a weight of the past that falls to 1/e in that time; the standard recommends 1 s.
     """
     from scipy import signal
 

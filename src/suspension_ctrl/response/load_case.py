@@ -1,6 +1,7 @@
 """A load case: a vehicle with a payload on a road at a speed."""
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -83,3 +84,19 @@ class LoadCase(Record):
             return self.psd(f)[:, None, None].astype(complex)
         road: Any = self.road
         return np.asarray(road.cross_spectrum(f, self.speed, self.vehicle.contact_points))
+
+
+def load_cases(cases: Sequence[LoadCase], **given: Any) -> tuple[LoadCase, ...]:
+    """Return the load cases with what is `given` in place of theirs, or the one that it makes."""
+    given = {name: value for name, value in given.items() if value is not None}
+    if isinstance(cases, LoadCase):
+        raise ValueError("cases must be a list of load cases, got one by itself")
+    if len(cases) > 1 and len(given) == 3:
+        raise ValueError("cases must stand in place of vehicle, road and speed, got both")
+    if len(cases) == 0:
+        if len(given) < 3:
+            raise ValueError("vehicle, road and speed must be given, or cases in their place, got neither")
+        return (LoadCase(**given),)
+    if not all(isinstance(case, LoadCase) for case in cases):
+        raise ValueError(f"cases must be a list of load cases, got {list(cases)!r}")
+    return tuple(replace(case, **given) for case in cases)

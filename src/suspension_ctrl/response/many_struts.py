@@ -58,7 +58,7 @@ class ManyStruts(NamedTuple):
         for b in range(sizes.shape[0]):
             q, s = max(q, sizes[b, 0]), max(s, sizes[b, 1])
         stiffness, loop = np.empty((q * q, 2, n)), np.empty((q * (q + s), 2, n))
-        rows = np.empty((q + 1, 2, n))
+        tension, value = np.empty((q, 2, n)), np.empty((2, n))
         found = np.empty(self.channel.size)
         result = np.empty((designs.shape[0], self.channel.size))
         for p in range(designs.shape[0]):
@@ -74,9 +74,17 @@ class ManyStruts(NamedTuple):
                 by_strut = self.rows[row - k * q : row]
                 fill_loop(q, s, present, stiffness, feedback, sources, loop)
                 eliminate(q, q + s, loop)
-                outputs = self.response[output : output + k]
                 for source in range(s):
-                    add_squares(q, s, source, present, stiffness, loop, by_source, by_strut, rows, outputs, found)
+                    for i in range(q):
+                        tension[i] = 0.0
+                        for j in range(q):
+                            if present[i * q + j]:
+                                add_product(1.0, stiffness[i * q + j], loop[j * (q + s) + q + source], tension[i])
+                    for i in range(k):
+                        value[:] = by_source[i * s + source]
+                        for j in range(q):
+                            add_product(1.0, by_strut[i * q + j], tension[j], value)
+                        found[self.response[output + i]] += sum_of_squares(value)
                 entry, output = entry + q * q, output + k
             for term in range(self.channel.size):
                 result[p, term] = found[self.channel[term]]
@@ -138,34 +146,6 @@ def eliminate(q: int, columns: int, loop: Real) -> None:
         for i in range(c):
             for j in range(q, columns):
                 add_product(-1.0, loop[i * columns + c], loop[c * columns + j], loop[i * columns + j])
-
-
-@register_jitable
-def add_squares(
-    q: int,
-    s: int,
-    source: int,
-    present: Bool,
-    stiffness: Real,
-    loop: Real,
-    by_source: Real,
-    by_strut: Real,
-    rows: Real,
-    outputs: NDArray[np.int64],
-    found: Real,
-) -> None:
-    """Add the mean squares by one source to those `found`; `rows` (q + 1, 2, n) are for its use."""
-    value = rows[q]
-    for i in range(q):
-        rows[i] = 0.0
-        for j in range(q):
-            if present[i * q + j]:
-                add_product(1.0, stiffness[i * q + j], loop[j * (q + s) + q + source], rows[i])
-    for k in range(outputs.size):
-        value[:] = by_source[k * s + source]
-        for j in range(q):
-            add_product(1.0, by_strut[k * q + j], rows[j], value)
-        found[outputs[k]] += sum_of_squares(value)
 
 
 # Rows of frequencies: products may be fused and sums taken in whatever order suits the processor, the same for

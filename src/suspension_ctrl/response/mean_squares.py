@@ -44,24 +44,10 @@ def case_of(
     nodes: int,
     pairs: Callable[[Sequence[str], Real], Pairs] = Pairs.of,
 ) -> Case:
-    """Return a load case ready for designs.
+    """Return a load case ready for the mean squares (k,) of terms over designs of the variables (v,).
 
-    Parameters
-    ----------
-    load_case : LoadCase
-        The load case.
-    terms : (k,) sequence of Term
-        Responses with their weightings.
-    setting : mapping of str to float
-        All coefficients of the struts; of the variables a value in the middle of its range.
-    variables : (v,) sequence of str
-        Coefficients that vary.
-    band : (float, float)
-        Frequencies over which spectra are integrated [Hz].
-    nodes : int
-        Least number of quadrature nodes.
-    pairs : callable
-        Struts and roads to be paired, by names of struts and contact points.
+    The `setting` has every coefficient, of the variables a value in the middle of its range; `pairs` tells by
+    names of struts and contact points which to pair.
     """
     weights = [term.weighting and weightings.by_name(term.weighting) for term in terms]
     kinks = {f for weighting in weights if weighting for f in weighting.breakpoints}

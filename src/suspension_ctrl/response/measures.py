@@ -35,7 +35,7 @@ from .load_case import LoadCase
 from .weightings import Weighting
 
 _LARGEST = 1e6
-"""Beyond any factor and any point of a body; squares of such times those of any response are still numbers."""
+"""Largest factor and coordinate of a point: squares times those of any response are still finite."""
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _POINT = rf"\(\s*({_NUMBER})\s*,\s*({_NUMBER})\s*\)"
@@ -46,7 +46,7 @@ _UNITS = {"ACC": "m/s^2", "SWS": "m", "DTL": "N", "DLC": "-"}
 
 
 class Designs(NamedTuple):
-    """Designs (p, v) in a load case: all coefficients (p, c) too, and, design by design, response spectra."""
+    """Designs (p, v) in a load case, all their coefficients (p, c), and response spectra design by design."""
 
     values: Real
     coefficients: Real
@@ -56,12 +56,8 @@ class Designs(NamedTuple):
 Values = Callable[[Designs], Any]
 """From designs to the values (p,) of a measure that is no mean square."""
 
-_HANDLING: dict[str, tuple[str, bool]] = {
-    "roll_gradient": ("deg/g", True),
-    "roll_damping": ("-", False),
-    "front_load_transfer": ("-", True),
-}
-"""Measures of handling, functions of `Mechanics`: the unit, and whether it takes a `RollGeometry`."""
+_HANDLING = {"roll_gradient": ("deg/g", True), "roll_damping": ("-", False), "front_load_transfer": ("-", True)}
+"""Methods of `Mechanics`: the unit, and whether it takes a `RollGeometry`."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -73,10 +69,10 @@ class Measure(Record):
     name, unit : str
         Its name, and its unit, ``"-"`` for none.
     function : callable
-        Of two positional parameters: ``f(frequency, spectra)`` returns the value of a design from the one-sided
-        spectra (n,) of its responses by name [unit^2/Hz] at the middles (n,) of 1000 equal parts of the band [Hz].
-        Of one: ``f(designs)`` returns the values (p,) of designs (p, d), the variables in their order. Over
-        several load cases the mean by their shares counts, or the worst.
+        Of two positional parameters, ``f(frequency, spectra)``: the value of a design from the one-sided spectra
+        (n,) of its responses by name [unit^2/Hz] at the middles (n,) of 1000 equal parts of the band [Hz]. Of one,
+        ``f(designs)``: the values (p,) of designs (p, d), the variables in their order. The mean over several load
+        cases by their shares counts, or the worst.
 
     Raises
     ------
@@ -89,28 +85,25 @@ class Measure(Record):
     function: Callable[..., Any]
 
     def __post_init__(self) -> None:
-        if self.positional not in (1, 2):
+        if _positional(self.function) not in (1, 2):
             raise ValueError(f"function must take designs, or frequency and spectra, got {self.function!r}")
 
-    @property
-    def positional(self) -> int:
-        """Number of positional parameters of the function that have no default."""
-        if not callable(self.function):
-            return 0
-        parameters = inspect.signature(self.function).parameters.values()
-        return sum(
-            p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD) and p.default is p.empty for p in parameters
-        )
-
-    def values(self, designs: Designs) -> Any:
+    def values(self, designs: Designs) -> Real:
         """Return its values (p,) of designs."""
-        if self.positional == 1:
+        if _positional(self.function) == 1:
             found = np.asarray(self.function(designs.values.copy()), dtype=float)
         else:
             found = np.array([self.function(*one) for one in designs.spectra()], dtype=float)
         if found.shape != (len(designs.values),) or not np.isfinite(found).all():
             raise ValueError(f"measure {self.name} must return a finite number for each design, got {found!r}")
         return found
+
+
+def _positional(function: object) -> int:
+    """Return the number of positional parameters without default."""
+    parameters = inspect.signature(function).parameters.values() if callable(function) else ()
+    kinds = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+    return sum(p.kind in kinds and p.default is p.empty for p in parameters)
 
 
 class Term(NamedTuple):
@@ -132,19 +125,9 @@ class Term(NamedTuple):
 
 
 class CaseMeasure(NamedTuple):
-    """A measure in a load case.
+    """A measure in a load case: the `worst` of its terms or the root of the sum of their squares, or a function.
 
-    Parameters
-    ----------
-    name, unit : str
-    terms : tuple of Term
-        Whose mean squares it is made of; none if it has a function.
-    worst : bool
-        Whether the largest of the terms counts, or the root of the sum of their squares.
-    sign : float
-        -1 where more is better.
-    values : callable, optional
-        From `Designs` to values.
+    The `sign` is -1 where more is better.
     """
 
     name: str
@@ -195,8 +178,7 @@ def case_measure(measure: str | Measure, case: LoadCase, weighting: Weighting | 
         return CaseMeasure(name, _HANDLING[body][0], sign=sign, values=_handling(body, case))
     kind, _, where = body.partition(" ")
     if kind in _KINDS:
-        terms = _at_corners(kind, where.strip(), case.vehicle)
-        return CaseMeasure(name, _UNITS[kind], terms, True, sign)
+        return CaseMeasure(name, _UNITS[kind], _at_corners(kind, where.strip(), case.vehicle), True, sign)
     if kind == "ACC":
         term = Term(_accelerated(where.strip(), case.vehicle), weighting)
         return CaseMeasure(name, _UNITS[kind], (term,), False, sign)
@@ -208,7 +190,7 @@ def case_measure(measure: str | Measure, case: LoadCase, weighting: Weighting | 
 
 
 def case_limit(text: str, case: LoadCase, weighting: Weighting | None, own: Sequence[str | Measure] = ()) -> Limit:
-    """Return a limit in a load case; its measure is written out, or the name of one of the user's `own`."""
+    """Return a limit in a load case, on a measure written out or one of the user's `own` by its name."""
     found = _LIMIT.fullmatch(text) if isinstance(text, str) else None
     try:
         value = float(found[3]) if found else float("nan")
@@ -237,7 +219,7 @@ def _handling(name: str, case: LoadCase) -> Values:
 
 
 def _at_corners(kind: str, where: str, vehicle: Vehicle) -> tuple[Term, ...]:
-    """Terms of the strut or tyre called `where`, or of the axle's if it is one; of all wheels if it is empty."""
+    """Return the terms of a strut or tyre, of an axle's, or of all wheels if `where` is empty."""
     if kind == "DLC":
         assembled(vehicle)
     tyres = set(vehicle.tyres)
@@ -261,11 +243,8 @@ def _accelerated(where: str, vehicle: Vehicle) -> ResponseName:
     if point := re.fullmatch(_POINT, where):
         return _at_point(point[1], point[2])
     name = f"{where or 'body'}_acceleration"
-    vertical = [
-        known
-        for known, response in vehicle.meanings.items()
-        if response.kind == "acceleration" and response.where not in _TURNED
-    ]
+    accelerations = {r: m.where for r, m in vehicle.meanings.items() if m.kind == "acceleration"}
+    vertical = [response for response, place in accelerations.items() if place not in _TURNED]
     if name not in vertical:
         known = [r.removesuffix("_acceleration") for r in vertical]
         raise ValueError(f"ACC must be of one of {', '.join(known)} or a point (x, y), got {where!r}")

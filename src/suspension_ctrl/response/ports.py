@@ -12,15 +12,7 @@ from ..vehicles.vehicle import Vehicle
 
 
 class Ports(NamedTuple):
-    """Frequency response of a plant at n frequencies.
-
-    Parameters
-    ----------
-    h : (n, m + q, r + q) complex ndarray
-        Responses, then deflections of struts, by roads and by tensions of struts.
-    m, r : int
-        Numbers of responses and of roads.
-    """
+    """Frequency response (n, m + q, r + q): m responses and q deflections by r roads and q tensions of struts."""
 
     h: Complex
     m: int

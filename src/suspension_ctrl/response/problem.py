@@ -1,5 +1,6 @@
 """The ride problem: measures of a vehicle over coefficients of its struts, in load cases, within limits."""
 
+import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -13,7 +14,8 @@ from numpy.typing import ArrayLike
 from .. import checks
 from ..quantities import FrozenMapping, Real, Record
 from ..vehicles.vehicle import Setting, Vehicle
-from .load_case import LoadCase, Road
+from .bounds import checked_bounds
+from .load_case import LoadCase, Road, load_cases
 from .measures import Measure, case_limit, case_measure, name_of
 from .scores import NODES, RESOLVED, Kernel, Score, Scores
 from .weightings import Weighting, checked
@@ -46,9 +48,8 @@ class RideProblem(Record):
     band : (float, float)
         Frequencies over which the spectra are integrated [Hz].
     lower, upper : sequence of float, optional
-        Bounds of the variables: spring K_s [N/m] and damper C_s [N s/m] of a quarter car. Without `bounds` the
-        variables are the coefficients that have no default, in the vehicle's order; beside `bounds` they take
-        the place of its lower or upper values.
+        Bounds of the coefficients that have no default, in the vehicle's order: spring K_s [N/m] and damper C_s
+        [N s/m] of a quarter car. Beside `bounds` they take the place of its lower or upper values.
     bounds : mapping of str to (float, float), optional
         Bounds by name of those coefficients that vary, ``{"front.spring": (1e4, 4e4), ...}``.
     struts : mapping of str to float, optional
@@ -59,7 +60,7 @@ class RideProblem(Record):
         Limits on measures: ``"SWS <= 0.0287"``, in the worst load case; on one of your own by its name.
     cases : sequence of LoadCase, optional
         Several load cases; beside them a vehicle, road or speed takes the place of theirs. An objective is the
-        root mean square over them by their shares, of handling the mean.
+        root mean square over them by their shares, of handling and your own the mean.
     worst_case : bool
         Whether in place of that the worst case counts.
     nodes : int, optional
@@ -69,7 +70,7 @@ class RideProblem(Record):
     Raises
     ------
     ValueError
-        If a parameter is out of range, or if `nodes` does not resolve the resonances at a corner of the box.
+        If a parameter is out of range, or `nodes` does not resolve the resonances at a corner of the box.
     """
 
     cases: tuple[LoadCase, ...]
@@ -108,20 +109,18 @@ class RideProblem(Record):
             name: tuple(value) if isinstance(value, Sequence | np.ndarray) else value
             for name, value in (struts or {}).items()
         }
-        every = _load_cases(cases, vehicle=vehicle, road=road, speed=speed)
-        put = {
-            "cases": every,
-            "struts": FrozenMapping(fixed),
-            "bounds": _checked_bounds(every[0].vehicle, bounds, lower, upper, fixed),
-            "weighting": checked(weighting),
-            "band": (float(band[0]), float(band[1])),
-            "measures": tuple(measures),
-            "constraints": tuple(constraints),
-            "worst_case": bool(worst_case),
-        }
-        for name, value in put.items():
-            object.__setattr__(self, name, value)
-        object.__setattr__(self, "nodes", self._resolving(None if isinstance(nodes, _Found) else nodes))
+        every = load_cases(cases, vehicle=vehicle, road=road, speed=speed)
+        self._keep(
+            cases=every,
+            bounds=checked_bounds(every[0].vehicle, bounds, lower, upper, fixed),
+            struts=FrozenMapping(fixed),
+            weighting=checked(weighting),
+            band=(float(band[0]), float(band[1])),
+            measures=tuple(measures),
+            constraints=tuple(constraints),
+            worst_case=bool(worst_case),
+        )
+        self._keep(nodes=self._resolving(None if isinstance(nodes, _Found) else nodes))
 
     def replace(self, **changes: Any) -> "RideProblem":
         """Return the problem with other parameters; nodes that were not given are found anew."""
@@ -181,7 +180,7 @@ class RideProblem(Record):
         return terms[0] != terms[1]
 
     def evaluate(self, designs: ArrayLike) -> Real:
-        """Return the objectives of many designs.
+        """Return the objectives and constraints of many designs.
 
         Parameters
         ----------
@@ -190,15 +189,14 @@ class RideProblem(Record):
 
         Returns
         -------
-        (n, m) ndarray
-            ACC [m/s^2], SWS [m] and DTL [N] of each design, or what `measures` says; after these a column for
-            each constraint, how much the limit is exceeded as a share of it.
+        (n, m + c) ndarray
+            Objectives, ACC [m/s^2], SWS [m] and DTL [N] unless `measures` says otherwise; then for each constraint
+            the violation as a share of the limit.
 
         Raises
         ------
         ValueError
-            If `designs` does not have d columns, or a design is outside the bounds, where resonances may be
-            too sharp for the nodes.
+            If a design has not d values or is outside the bounds, where resonances may be too sharp for the nodes.
         """
         x = checks.designs(designs, len(self.variables))
         checks.rows_within("designs", x, self.lower, self.upper)
@@ -206,22 +204,20 @@ class RideProblem(Record):
 
     @cached_property
     def kernel(self) -> Kernel | None:
-        """What `evaluate` gives for a single design (d,), compiled.
-
-        None with measures of handling or of a user's own, which are not compiled.
-        """
+        """The compiled evaluation of one design; None with measures of handling or of a user's own."""
         return self._scores.kernel(self.nodes) if self._scores.compiled else None
 
     def __repr__(self) -> str:
         units = self.units
-        objectives = ", ".join(f"{name} [{units[name]}]" for name in self.objectives)
-        lines = [
-            f"RideProblem: {objectives}" + "".join(f"; {text}" for text in self.constraints),
-            ", ".join(f"{name} {low:g} to {high:g} {units[name]}" for name, (low, high) in self.bounds.items()),
-            "; ".join(f"{case.vehicle.__class__.__name__} at {case.speed:g} m/s" for case in self.cases),
+        parts = [
+            ", ".join(f"{name} [{units[name]}]" for name in self.objectives),
+            *self.constraints,
+            *(f"{name} {low:g} to {high:g} {units[name]}" for name, (low, high) in self.bounds.items()),
+            *(f"{type(case.vehicle).__name__} at {case.speed:g} m/s" for case in self.cases),
             f"{self.band[0]:g} to {self.band[1]:g} Hz, weighting {self.weighting}, {self.nodes} nodes",
         ]
-        return "\n    ".join(line if len(line) <= 84 else f"{line[:80]} ..." for line in lines)
+        text = f"RideProblem({'; '.join(parts)})"
+        return "\n".join(textwrap.wrap(text, 88, subsequent_indent="    ", max_lines=6, placeholder=" ..."))
 
     def _common(self, name: str) -> Any:
         first, *others = (getattr(case, name) for case in self.cases)
@@ -271,58 +267,3 @@ class RideProblem(Record):
         if len(corners) > _CORNERS:
             corners = np.random.default_rng(0).permutation(corners)[:_CORNERS]
         return max(float(errors.max(initial=0.0)) for errors in self._scores.errors(corners, nodes))
-
-
-def _load_cases(cases: Sequence[LoadCase], **given: Any) -> tuple[LoadCase, ...]:
-    """Return the load cases with what is `given` in place of theirs, or the one that it makes."""
-    given = {name: value for name, value in given.items() if value is not None}
-    if isinstance(cases, LoadCase):
-        raise ValueError("cases must be a list of load cases, got one by itself")
-    if len(cases) > 1 and len(given) == 3:
-        raise ValueError("cases must stand in place of vehicle, road and speed, got both")
-    if len(cases) == 0:
-        if len(given) < 3:
-            raise ValueError("vehicle, road and speed must be given, or cases in their place, got neither")
-        return (LoadCase(**given),)
-    if not all(isinstance(case, LoadCase) for case in cases):
-        raise ValueError(f"cases must be a list of load cases, got {list(cases)!r}")
-    return tuple(replace(case, **given) for case in cases)
-
-
-def _checked_bounds(
-    vehicle: Vehicle,
-    bounds: Mapping[str, tuple[float, float]] | None,
-    lower: Sequence[float],
-    upper: Sequence[float],
-    fixed: Setting,
-) -> FrozenMapping[str, tuple[float, float]]:
-    """Return the bounds by name, with `lower` and `upper` (d,) in place of theirs where given."""
-    known = {parameter.name: parameter for parameter in vehicle.parameters}
-    if bounds is None:
-        names = [name for name, parameter in known.items() if parameter.default is None]
-        sides = [lower, upper]
-    else:
-        names = list(bounds)
-        _check_pairs(bounds, known)
-        sides = [
-            side if len(side) else [pair[i] for pair in bounds.values()] for i, side in enumerate((lower, upper))
-        ]
-    checks.ordered("lower", "upper", *sides)
-    if len(sides[0]) != len(names):
-        raise ValueError(f"lower and upper must bound {', '.join(names)}, got {sides[0]!r}")
-    for name, value in zip(names, sides[0], strict=True):
-        check = checks.not_negative if known[name].default == 0 else checks.positive
-        check(f"lower bound of {name}", value, known[name].unit)
-    if both := set(names) & fixed.keys():
-        raise ValueError(f"struts must be those that do not vary, got {min(both)} with bounds")
-    pairs = zip(*(map(float, side) for side in sides), strict=True)
-    return FrozenMapping(dict(zip(names, pairs, strict=True)))
-
-
-def _check_pairs(bounds: Mapping[str, tuple[float, float]], known: Mapping[str, Any]) -> None:
-    if not bounds:
-        raise ValueError("bounds must hold one coefficient at least, got none")
-    for name, pair in bounds.items():
-        if name not in known:
-            raise ValueError(f"bounds must be one of {', '.join(known)}, coefficients of struts, got {name!r}")
-        checks.interval(f"bounds of {name}", pair, known[name].unit)

@@ -4,44 +4,21 @@ from collections.abc import Iterable
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import roots_legendre
 
 from .. import checks
+from ..quantities import Real
 
 _LEAST_PER_PANEL = 16
 """Nodes that a panel needs for 1e-9 where a slow pole, K/C of a soft and heavily damped strut, lies beside it."""
 
 
-def frequency_nodes(
-    band: tuple[float, float], nodes: int, breakpoints: Iterable[float] = ()
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return nodes and weights such that ``(g(f) * w).sum()`` is the integral of g over the band.
+def frequency_nodes(band: tuple[float, float], nodes: int, breakpoints: Iterable[float] = ()) -> tuple[Real, Real]:
+    """Return nodes [Hz], ascending, and weights such that ``(g(f) * w).sum()`` is the integral of g over the band.
 
     With u = sqrt(f) a road spectrum in a half-integer power of f becomes a rational function, on which
-    Gauss-Legendre quadrature converges geometrically. The nodes never touch the ends of the band.
-
-    Parameters
-    ----------
-    band : (float, float)
-        Lower and upper frequency [Hz], 0 <= lower < upper.
-    nodes : int
-        Least number of nodes over the band.
-    breakpoints : iterable of float
-        Frequencies at which the integrand has a kink [Hz]; those inside the band divide it into panels,
-        which share the nodes evenly, each at least 16.
-
-    Returns
-    -------
-    f : (n,) ndarray
-        Nodes in ascending order [Hz], n >= `nodes`.
-    w : (n,) ndarray
-        Weights [Hz].
-
-    Raises
-    ------
-    ValueError
-        If the band is not finite, reversed or reaches below zero, or `nodes` is not a whole number >= 2.
+    Gauss-Legendre quadrature converges geometrically. The nodes never touch the ends of the band. Breakpoints are
+    kinks of the integrand [Hz]: they divide the band into panels, which share the nodes evenly, 16 each at least.
     """
     checks.interval("band", band, "Hz")
     low, high = band
@@ -53,9 +30,7 @@ def frequency_nodes(
     return np.concatenate(f), np.concatenate(weight)
 
 
-def _panel(
-    x: NDArray[np.float64], w: NDArray[np.float64], start: float, end: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _panel(x: Real, w: Real, start: float, end: float) -> tuple[Real, Real]:
     """Gauss-Legendre nodes x and weights w of (-1, 1), carried to u in (start, end) and on to f = u^2."""
     half = (end - start) / 2
     u = start + half * (1 + x)

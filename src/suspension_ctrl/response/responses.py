@@ -67,9 +67,8 @@ def ride(
     known = checked(weighting)
     judged = [case_measure(one, case, known) for one in measures]
     own = {one.name for one in judged}
-    judged += [
-        CaseMeasure(name, signal_unit(name), (Term(name),)) for name in vehicle.responses if name not in own
-    ]
+    others = [name for name in vehicle.responses if name not in own]
+    judged += [CaseMeasure(name, signal_unit(name), (Term(name),)) for name in others]
     values = vehicle.coefficients(setting)
     scores = Scores([case], [Score((one,), False, one.sign) for one in judged], values, {}, band)
     design = np.array([list(values.values())])
@@ -108,19 +107,9 @@ def _note(one: CaseMeasure, diverging: set[ResponseName], off: Mapping[Term, flo
 
 
 def road_paths(closed: control.LTI, f: Real) -> Complex:
-    """Return H(w) from each road to each response of a vehicle with its struts.
+    """Return H(w) (n, m, r) of a closed vehicle from roads to responses [unit/m], at ascending f (n,) [Hz].
 
-    Parameters
-    ----------
-    closed : control.StateSpace or control.FrequencyResponseData
-        Inputs: roads [m] and, where a tyre is damped, their rates [m/s], which follow them.
-    f : (n,) ndarray
-        Frequencies in ascending order [Hz].
-
-    Returns
-    -------
-    (n, m, r) complex ndarray
-        [response unit/m].
+    The rate of the road is an input of its own where a tyre is damped.
     """
     omega = 2 * np.pi * f
     h = np.moveaxis(closed.frequency_response(omega, squeeze=False).frdata, 2, 0)
@@ -132,20 +121,7 @@ def road_paths(closed: control.LTI, f: Real) -> Complex:
 
 
 def frequency_responses(closed: control.LTI, f: Real, delays: Sequence[float] = (0.0,)) -> dict[str, Complex]:
-    """Return H(w) to every response of a vehicle with its struts from a road that is alike on all its tracks.
-
-    Parameters
-    ----------
-    closed, f
-        As for `road_paths`.
-    delays : (r,) sequence of float
-        How long after the first wheel each meets the road [s].
-
-    Returns
-    -------
-    dict of str to (n,) complex ndarray
-        By response [response unit/m].
-    """
+    """Return H(w) (n,) by response [unit/m] to a road that is alike on all tracks, met late by r delays [s]."""
     late = np.exp(-2j * np.pi * f[:, None] * np.asarray(delays))
     h = (road_paths(closed, f) * late[:, None, :]).sum(axis=2)
     return dict(zip(closed.output_labels, h.T, strict=True))
@@ -156,10 +132,12 @@ def response_psds(closed: control.LTI, f: Real, road: Real | Complex) -> dict[st
 
     Parameters
     ----------
-    closed, f
-        As for `road_paths`.
+    closed : control.StateSpace or control.FrequencyResponseData
+        The vehicle with its struts, ``vehicle.closed(...)``.
+    f : (n,) ndarray
+        Frequencies in ascending order [Hz].
     road : (n,) or (n, r, r) ndarray
-        The road's one-sided spectrum at these frequencies, under several wheels their cross-spectra [m^2/Hz].
+        One-sided spectrum of the road, under several wheels their cross-spectra [m^2/Hz].
 
     Returns
     -------
@@ -172,10 +150,7 @@ def response_psds(closed: control.LTI, f: Real, road: Real | Complex) -> dict[st
 
 
 def phase_degrees(h: Complex) -> Real:
-    """Return the continuous phase of a response (n,) [deg], beginning between -90 and 270 degrees.
-
-    A response that begins opposite to the road, at -180 or 180 degrees, so always begins at 180.
-    """
+    """Return the continuous phase (n,) [deg], beginning between -90 and 270: opposite to the road is 180."""
     phase = np.degrees(np.unwrap(np.angle(h)))
     return phase + 360 if phase[0] < -90 else phase
 

@@ -36,21 +36,10 @@ class Score(NamedTuple):
 
 
 class Kernel(NamedTuple):
-    """Scores of designs as data of a compiled function.
+    """Scores of designs as data: of c load cases, factors (s, k) of the mean squares of each and its share.
 
-    Parameters
-    ----------
-    cases : (c,) tuple of OneStrut or ManyStruts
-        The load cases.
-    squares : (c,) tuple of (s, k) ndarray
-        Factor of each mean square of a case in each score.
-    shares : (c,) ndarray
-        Share of each case in a mean over them.
-    worst_term, worst_case : (s,) ndarray of bool
-        Whether the largest of the terms, and of the cases, counts; otherwise the sum of the terms, and the mean
-        over the cases, of which the root is taken.
-    scale, offset : (s,) ndarray
-        Factor of that root, and constant.
+    Of each score (s,), whether the largest of the terms and of the cases counts, or the sum and the mean, and what
+    the root of that is multiplied with and what is added.
     """
 
     cases: tuple[Case, ...]
@@ -102,16 +91,7 @@ class Kernel(NamedTuple):
 class Scores:
     """Scores of designs in load cases, at any number of quadrature nodes.
 
-    Parameters
-    ----------
-    cases : sequence of LoadCase
-    scores : sequence of Score
-    variables : mapping of str to float
-        Coefficients that vary, and a value of each in the middle of its range.
-    fixed : mapping
-        The other coefficients that have no default.
-    band : (float, float)
-        Frequencies over which spectra are integrated [Hz].
+    The `variables` have a value each in the middle of its range; `fixed` holds the other coefficients.
     """
 
     def __init__(

@@ -18,25 +18,8 @@ from ..vehicles.feedback import check_measured
 
 
 @dataclass(frozen=True)
-class FilterWeighting:
-    """Weighting by an analogue filter, named as in ISO 2631: ``"Wk"``."""
-
-    name: str
-
-    breakpoints: ClassVar[tuple[float, ...]] = ()
-    """Frequencies at which the factor has a kink [Hz]: none."""
-
-    def factor(self, f: ArrayLike) -> Real:
-        """Magnitude of the weighting at the frequencies `f` (n,) [Hz], shape (n,) [-]."""
-        return np.abs(weighting(self.name)(2j * np.pi * np.asarray(f, dtype=float)))
-
-
-@dataclass(frozen=True)
 class TabulatedWeighting:
-    """Weighting by the one-third-octave table, straight in log factor over log frequency between the bands.
-
-    Beyond the table's 0.1 and 100 Hz the first and the last segment go on.
-    """
+    """Weighting by the one-third-octave table, straight in log factor over log frequency, beyond it too."""
 
     name: str
 
@@ -115,12 +98,12 @@ def checked(weighting: Weighting | control.LTI | None) -> Weighting | None:
     return weighting
 
 
-def by_name(weighting: Weighting) -> FilterWeighting | TabulatedWeighting | SystemWeighting:
+def by_name(weighting: Weighting) -> TabulatedWeighting | SystemWeighting:
     """Return the weighting called so, one of `FILTERS` or `TABLES`, or itself; ValueError for any other name."""
     if isinstance(weighting, SystemWeighting):
         return weighting
     checks.one_of("weighting", weighting, FILTERS + TABLES)
-    return TabulatedWeighting(weighting) if weighting in TABLES else FilterWeighting(weighting)
+    return TabulatedWeighting(weighting) if weighting in TABLES else SystemWeighting.of(_filter(weighting))
 
 
 def weighting(name: str) -> control.TransferFunction:
@@ -134,13 +117,8 @@ def weighting(name: str) -> control.TransferFunction:
     Returns
     -------
     control.TransferFunction
-        From acceleration to weighted acceleration [-]: the product of band limiting,
-        acceleration-velocity transition and upward step of ISO 8041-1 with the weighting's gain.
-
-    Raises
-    ------
-    ValueError
-        If there is no filter of that name.
+        From acceleration to weighted acceleration [-]: the product of band limiting, acceleration-velocity
+        transition and upward step of ISO 8041-1 with the weighting's gain.
     """
     checks.one_of("weighting", name, FILTERS)
     return _filter(name).copy()
