@@ -26,7 +26,7 @@ _ROUNDING = 1e-13
 
 
 class Variables(NamedTuple):
-    """Coefficients that vary: tensions (v, q, q) by derivatives of `order` (v,), and their values in place (v,)."""
+    """Coefficients that vary: tensions (v, q, q) by derivatives of `order` (v,), and values in place (v,)."""
 
     gain: Real
     order: NDArray[np.int64]

@@ -8,7 +8,7 @@ import numpy as np
 from numba import literal_unroll
 from numba.extending import register_jitable
 
-from ..quantities import Real
+from ..quantities import Bool, Real
 from ..vehicles.feedback import gains_by_order
 from ..vehicles.vehicle import assembled
 from .load_case import LoadCase
@@ -45,8 +45,8 @@ class Kernel(NamedTuple):
     cases: tuple[Case, ...]
     squares: tuple[Real, ...]
     shares: Real
-    worst_term: Real
-    worst_case: Real
+    worst_term: Bool
+    worst_case: Bool
     scale: Real
     offset: Real
 
@@ -55,15 +55,14 @@ class Kernel(NamedTuple):
 
         In numpy, as to compile this takes longer than many evaluations.
         """
-        total = np.zeros((self.scale.size, designs.shape[0]))
+        total, any_worst = np.zeros((self.scale.size, designs.shape[0])), self.worst_case.any()
         for case, squares, share in zip(self.cases, self.squares, self.shares, strict=True):
-            found = case.mean_squares(designs).T
-            for s, row in enumerate(squares):
-                value = np.zeros(designs.shape[0])
-                for k in np.flatnonzero(row):
-                    term = row[k] * found[k]
-                    value = np.maximum(value, term) if self.worst_term[s] else value + term
-                total[s] = np.maximum(total[s], value) if self.worst_case[s] else total[s] + share * value
+            found, value = case.mean_squares(designs).T, np.zeros_like(total)
+            for s, k in zip(*(index.tolist() for index in squares.nonzero()), strict=True):
+                combine = np.maximum if self.worst_term[s] else np.add
+                combine(value[s], squares[s, k] * found[k], out=value[s])
+            mean = total + share * value
+            total = np.where(self.worst_case[:, None], np.maximum(total, value), mean) if any_worst else mean
         return np.asarray(self.scale * np.sqrt(total.T) + self.offset)
 
     @register_jitable
