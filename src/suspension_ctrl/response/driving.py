@@ -14,8 +14,7 @@ from ..vehicles.vehicle import Pair, Setting, Vehicle
 if TYPE_CHECKING:
     import pandas as pd
 
-_POINTS = 4
-"""Least points of the profile in a wave of the fastest mode, which it then meets by 0.81, sinc^2 of 1/4."""
+_POINTS = 4  # of the profile in a wave of the fastest mode, at least: it meets that by 0.81, sinc^2 of 1/4
 _SAME_TRACK = 1e-3  # m
 
 
@@ -41,10 +40,10 @@ def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
 
     ``simulate(closed, profile, speed, contact_points)`` drives any model from roads to responses.
 
-    A wheel at (x, y) follows the track at y, ``z(t) = h(d(t) + x, y)``, where d is the place of the origin, the
-    body's centre of gravity. Between two points the road is straight, and the response to that is exact: the
-    states go from one sample to the next by matrix exponentials (first-order hold), also where the wheels pass
-    their points at different times. The straight pieces attenuate a wave of frequency f by sinc^2(f step/speed).
+    A wheel at (x, y) follows the track at y, ``z(t) = h(d(t) + x, y)``, where d is the place of the body's centre
+    of gravity. The response to a road that is straight between its points is exact (first-order hold), also where
+    the wheels pass their points at different times. The straight pieces attenuate a wave of frequency f by
+    sinc^2(f step/speed).
 
     Parameters
     ----------

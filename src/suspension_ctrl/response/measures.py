@@ -34,9 +34,7 @@ from . import weightings
 from .load_case import LoadCase
 from .weightings import Weighting
 
-_LARGEST = 1e6
-"""Largest factor and coordinate of a point: squares times those of any response are still finite."""
-
+_LARGEST = 1e6  # of factors and coordinates: squares times those of any response are still finite
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _POINT = rf"\(\s*({_NUMBER})\s*,\s*({_NUMBER})\s*\)"
 _LIMIT = re.compile(r"(.+?)(<=|>=)(.+)")
@@ -139,21 +137,11 @@ class CaseMeasure(NamedTuple):
 
 
 class Limit(NamedTuple):
-    """A limit on a measure, in its unit: the most that it may be, or the least."""
+    """A limit on a measure: g = scale * measure + offset is the violation as a share of it, met where g <= 0."""
 
     measure: CaseMeasure
-    most: bool
-    value: float
-
-    @property
-    def scale(self) -> float:
-        """Factor of the measure in g = scale * measure + offset, which is met where g <= 0."""
-        return (1.0 if self.most else -1.0) / (abs(self.value) or 1.0)
-
-    @property
-    def offset(self) -> float:
-        """Its constant; g is the violation as a share of the limit."""
-        return -self.scale * self.value
+    scale: float
+    offset: float
 
 
 def name_of(measure: str | Measure) -> str:
@@ -204,7 +192,8 @@ def case_limit(text: str, case: LoadCase, weighting: Weighting | None, own: Sequ
         raise ValueError(f"constraint must limit a measure without - in front, got {text!r}")
     if limited.terms and not (found[2] == "<=" and value > 0):
         raise ValueError(f"constraint on a measure of the ride must be <= a limit above zero, got {text!r}")
-    return Limit(limited, found[2] == "<=", value)
+    scale = (1.0 if found[2] == "<=" else -1.0) / (abs(value) or 1.0)
+    return Limit(limited, scale, -scale * value)
 
 
 def _handling(name: str, case: LoadCase) -> Values:
@@ -233,9 +222,8 @@ def _at_corners(kind: str, where: str, vehicle: Vehicle) -> tuple[Term, ...]:
     if not found:
         raise ValueError(f"{kind} must be of a vehicle that has it by name, got one without")
     if not chosen:
-        raise ValueError(
-            f"{kind} must be of one of {', '.join(filter(None, found)) or 'all wheels'}, got {where!r}"
-        )
+        known = ", ".join(filter(None, found)) or "all wheels"
+        raise ValueError(f"{kind} must be of one of {known}, got {where!r}")
     return tuple(Term(name, relative=kind == "DLC") for name in chosen.values())
 
 
@@ -261,9 +249,8 @@ def _at_point(*texts: str) -> ResponseName:
 def _term(text: str, vehicle: Vehicle) -> Term:
     found = re.fullmatch(rf"(?:({_NUMBER})\s+)?(?:(\S+)\s+)?(\w+|acceleration\s*{_POINT})", text)
     if not found:
-        raise ValueError(
-            f"measure must be ACC, SWS, DTL, DLC, or terms like '0.4 We pitch_acceleration', got {text!r}"
-        )
+        known = "ACC, SWS, DTL, DLC, or terms like '0.4 We pitch_acceleration'"
+        raise ValueError(f"measure must be {known}, got {text!r}")
     weighting, response = found[2], found[3]
     factor = float(found[1] or 1)
     if not 0 < factor <= _LARGEST:

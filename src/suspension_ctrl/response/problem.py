@@ -230,14 +230,14 @@ class RideProblem(Record):
         if nodes is not None:
             checks.at_least("nodes", nodes, 2)
         taken = nodes or next((n for n in NODES if self._error(n) < RESOLVED), NODES[-1])
-        if not (error := self._error(taken)) < RESOLVED:
-            several = any(len(case.vehicle.contact_points) > 1 for case in self.cases)
-            hint = "; under several wheels a band may have to begin above 0 Hz"
-            raise ValueError(
-                f"nodes must resolve every resonance in the box to {RESOLVED:g}, got {taken}, which is off by "
-                f"{error:.1g} at its corners{hint if several and not self.band[0] else ''}"
-            )
-        return taken if nodes else _Found(taken)
+        if (error := self._error(taken)) < RESOLVED:
+            return taken if nodes else _Found(taken)
+        several = any(case.wheels > 1 for case in self.cases) and not self.band[0]
+        hint = "; under several wheels a band may have to begin above 0 Hz" if several else ""
+        raise ValueError(
+            f"nodes must resolve every resonance in the box to {RESOLVED:g}, got {taken}, which is off by "
+            f"{error:.1g} at its corners{hint}"
+        )
 
     @cached_property
     def _scores(self) -> Scores:
@@ -247,7 +247,7 @@ class RideProblem(Record):
 
         def limited(text: str) -> Score:
             found = [case_limit(text, case, self.weighting, self.measures) for case in self.cases]
-            return Score(tuple(one.measure for one in found), True, found[0].scale, found[0].offset)
+            return Score(tuple(one.measure for one in found), True, *found[0][1:])
 
         if len(set(self.objectives)) < max(2, len(self.measures)):
             raise ValueError(f"measures must be 2 or more with different names, got {self.measures!r}")
@@ -256,7 +256,8 @@ class RideProblem(Record):
                 raise ValueError(f"{what} must have names of their own, got {list(names)}")
         middle = np.add(self.lower, self.upper) / 2
         scores = [*map(score, self.measures), *map(limited, self.constraints)]
-        if all(one.measures[0].values for one in scores):
+        own = any(isinstance(measure, Measure) for measure in self.measures)
+        if not own and all(one.measures[0].values for one in scores):
             raise ValueError(f"measures must hold one of the ride, got {self.measures!r}")
         variables = dict(zip(self.variables, middle.tolist(), strict=True))
         return Scores(self.cases, scores, variables, self.struts, self.band)
