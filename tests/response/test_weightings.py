@@ -1,3 +1,6 @@
+import pickle
+
+import control
 import numpy as np
 import pytest
 
@@ -60,3 +63,17 @@ def test_unknown_weightings_are_named():
 def test_a_returned_filter_can_be_changed_without_harm():
     weighting("Wk").num[0][0][:] = 0
     assert abs(weighting("Wk")(2j * np.pi)) > 0.4
+
+
+def test_weightings_of_any_system_are_equal_by_its_numbers_and_picklable():
+    """A transfer function, its state space and its response at lines: the same factor, three values."""
+    filter_, lines = weighting("Wk"), 2 * np.pi * np.geomspace(0.05, 100, 2000)
+    measured = control.frd(filter_(1j * lines), lines)
+    f = np.geomspace(0.1, 50, 40)
+    kinds = [weightings.SystemWeighting.of(system) for system in (filter_, control.ss(filter_), measured)]
+    for kind, rtol in zip(kinds, (1e-14, 1e-9, 1e-6), strict=True):
+        again = pickle.loads(pickle.dumps(kind))
+        assert (again, hash(again)) == (kind, hash(kind))
+        for one in (kind, again):
+            np.testing.assert_allclose(one.factor(f), np.abs(filter_(2j * np.pi * f)), rtol=rtol)
+    assert len(set(kinds)) == 3

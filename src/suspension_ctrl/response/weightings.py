@@ -5,16 +5,16 @@ The filters are the analogue ones of ISO 8041-1, the table its design-goal facto
 
 import math
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any, ClassVar
 
 import control
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from .. import checks, datafiles
 from ..quantities import Real, Record, frozen_array
-from ..vehicles.feedback import check_measured
+from ..vehicles.feedback import numbers_of, system_of
 
 
 @dataclass(frozen=True)
@@ -47,8 +47,7 @@ class SystemWeighting(Record):
     """Weighting by the magnitude of a system of python-control; equal where the numbers of the systems are."""
 
     name: str = field(compare=False)
-    system: control.LTI = field(compare=False, repr=False)
-    numbers: tuple[Any, ...] = field(repr=False)
+    numbers: tuple[NDArray[Any], ...] = field(repr=False)
 
     breakpoints: ClassVar[tuple[float, ...]] = ()
     """Frequencies at which the factor has a kink [Hz]: none."""
@@ -59,21 +58,21 @@ class SystemWeighting(Record):
         if not (system.ninputs == system.noutputs == 1 and system.isctime()):
             got = f"{system.ninputs} and {system.noutputs}, dt = {system.dt}"
             raise ValueError(f"weighting must have one input and one output in continuous time, got {got}")
-        if isinstance(system, control.FrequencyResponseData):
-            numbers: tuple[Any, ...] = (system.omega, system.frdata)
-            system = control.frd(system.frdata, system.omega, smooth=True, name=system.name)
-        elif isinstance(system, control.StateSpace):
-            numbers = (system.A, system.B, system.C, system.D)
-        else:
-            numbers = (system.num[0][0], system.den[0][0])
-        return cls(name=system.name, system=system, numbers=tuple(frozen_array(x, complex) for x in numbers))
+        of_quotient = isinstance(system, control.TransferFunction)
+        numbers = (system.num[0][0], system.den[0][0]) if of_quotient else numbers_of(system)
+        return cls(
+            name=system.name,
+            numbers=tuple(frozen_array(x, complex if np.iscomplexobj(x) else float) for x in numbers),
+        )
+
+    @cached_property
+    def system(self) -> control.LTI:
+        """Its system."""
+        return control.tf(*self.numbers) if self.numbers[0].ndim == 1 else system_of(self.numbers)
 
     def factor(self, f: ArrayLike) -> Real:
         """Magnitude of the weighting at the frequencies `f` (n,) [Hz], shape (n,) [-]."""
-        omega = 2 * np.pi * np.asarray(f, dtype=float)
-        if isinstance(self.system, control.FrequencyResponseData):
-            check_measured(omega, self.system.omega)
-        return np.abs(self.system(1j * omega))
+        return np.abs(self.system(2j * np.pi * np.asarray(f, dtype=float)))
 
     def __str__(self) -> str:
         return str(self.name)

@@ -6,6 +6,7 @@ from typing import Any, TypeAlias
 
 import control
 import numpy as np
+from numpy.typing import NDArray
 
 from ..quantities import Complex, Real
 from .assembly import StrutParameter
@@ -22,7 +23,12 @@ class MeasuredResponse(control.FrequencyResponseData):  # type: ignore[misc]  # 
     def eval(self, omega: Any, squeeze: bool | None = None) -> Complex:
         """Return it at angular frequencies [rad/s]; ValueError beyond the lines."""
         at = np.atleast_1d(omega).real
-        check_measured(at, self.omega)
+        found, known = (np.array([x.min(), x.max()]) / (2 * np.pi) for x in (at, self.omega))
+        if not known[0] <= found[0] <= found[1] <= known[1]:
+            raise ValueError(
+                "band must lie within what was measured, {:g} to {:g} Hz, got frequencies from {:g} to {:g} "
+                "Hz".format(*known, *found)
+            )
         return control.frd(self._spline(at), at).eval(omega, squeeze=squeeze)
 
     @cached_property
@@ -32,15 +38,16 @@ class MeasuredResponse(control.FrequencyResponseData):  # type: ignore[misc]  # 
         return CubicSpline(self.omega, self.frdata, axis=2)
 
 
-def check_measured(omega: Real, lines: Real) -> None:
-    """Raise ValueError unless angular frequencies [rad/s] lie within the ascending `lines` of a table."""
-    found, known = (np.array([x.min(), x.max()]) / (2 * np.pi) for x in (omega, lines))
-    if not known[0] <= found[0] <= found[1] <= known[1]:
-        raise ValueError(
-            "band must lie within what was measured, {:g} to {:g} Hz, got frequencies from {:g} to {:g} Hz".format(
-                *known, *found
-            )
-        )
+def numbers_of(system: System) -> tuple[NDArray[Any], ...]:
+    """Return A, B, C and D, or frequency response and lines [rad/s]: a system itself cannot be pickled."""
+    if isinstance(system, control.StateSpace):
+        return system.A, system.B, system.C, system.D
+    return system.frdata, system.omega
+
+
+def system_of(numbers: Sequence[NDArray[Any]], **names: Any) -> System:
+    """Return the system of these numbers."""
+    return control.ss(*numbers, **names) if len(numbers) == 4 else MeasuredResponse(*numbers, **names)
 
 
 def gains_by_order(parameters: Iterable[StrutParameter], values: Mapping[str, float], q: int) -> Real:

@@ -15,7 +15,7 @@ from ..documents import naming
 from ..quantities import FrozenMapping, Record, unit
 from ..tables import read_table
 from .assembly import Position, Response, ResponseName, StrutParameter, check_strut_names, joined, label
-from .feedback import System, selected
+from .feedback import System, numbers_of, selected, system_of
 from .plant_tables import frequency_responses
 from .vehicle import Vehicle, spring_and_damper
 
@@ -129,21 +129,15 @@ class Plant(Record, Vehicle):
         names = {"inputs": self.system.input_labels, "outputs": self.system.output_labels}
         if isinstance(self.system, control.StateSpace):
             names["states"] = self.system.state_labels
-        return _unpickled, (_arrays(self.system), names, self.contacts, self.struts)
+        return _unpickled, (numbers_of(self.system), names, self.contacts, self.struts)
 
     def _values(self) -> tuple[object, ...]:
         labels = (*self.system.input_labels, *self.system.output_labels)
-        return (*(a.tobytes() for a in _arrays(self.system)), labels, self.contacts, self.struts)
+        return (*(a.tobytes() for a in numbers_of(self.system)), labels, self.contacts, self.struts)
 
 
-def _unpickled(arrays: Sequence[NDArray[Any]], names: Mapping[str, list[str]], *rest: Any) -> Plant:
-    return Plant((control.ss if len(arrays) == 4 else control.frd)(*arrays, **names), *rest)
-
-
-def _arrays(system: System) -> tuple[NDArray[Any], ...]:
-    if isinstance(system, control.StateSpace):
-        return system.A, system.B, system.C, system.D
-    return system.frdata, system.omega
+def _unpickled(numbers: Sequence[NDArray[Any]], names: Mapping[str, list[str]], *rest: Any) -> Plant:
+    return Plant(system_of(numbers, **names), *rest)
 
 
 def _check_lines(system: control.FrequencyResponseData) -> None:
@@ -178,7 +172,7 @@ def _check_signals(system: System, roads: Sequence[str], struts: Sequence[str], 
     for name in system.input_labels:
         if name.removesuffix("_rate") not in roads and name not in tensions:
             raise ValueError(f"input must be {', '.join(roads)}, its rate, or like 'front_strut', got {name!r}")
-    if not all(np.isfinite(array).all() for array in _arrays(system)):
+    if not all(np.isfinite(array).all() for array in numbers_of(system)):
         raise ValueError("system must hold finite values throughout, got others")
 
 
@@ -192,7 +186,7 @@ def _ported(system: System, wheels: Sequence[str], struts: Sequence[str]) -> Sys
     travels = [joined(strut, "suspension_travel") for strut in struts]
     responses = dict.fromkeys([*(name for name in system.output_labels if name not in ports), *travels])
     ported = selected(_extended(system, deflections, travels), [*responses, *ports], inputs, "plant")
-    for array in _arrays(ported):
+    for array in numbers_of(ported):
         array.flags.writeable = False
     return ported
 
