@@ -19,22 +19,14 @@ ROOMS = {
 }
 
 PUBLIC = {
-    *("FlexibleBody", "FullCar", "HalfCar", "Payload", "Plant", "QuarterCar", "RollGeometry", "Seat"),
-    *("Constant", "Exponential", "Iso8608Road", "Isotropic", "MeasuredRoad", "PowerLawRoad", "Profile"),
-    *("Tabulated", "TwoSlopeRoad", "load_problem", "load_road", "load_vehicle"),
-    *(
-        "LoadCase",
-        "Measure",
-        "RideProblem",
-        "exposure",
-        "international_roughness_index",
-        "response_psds",
-        "ride",
-        "simulate",
-    ),
-    *("weighting", "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run"),
-    *("Sampling", "Study", "minimise", "non_dominated"),
-}
+    "FlexibleBody", "FullCar", "HalfCar", "Payload", "Plant", "QuarterCar", "RollGeometry", "Seat", "load_vehicle",
+    "Constant", "Exponential", "Iso8608Road", "Isotropic", "MeasuredRoad", "PowerLawRoad", "Profile", "Tabulated",
+    "TwoSlopeRoad", "load_road",
+    "LoadCase", "Measure", "RideProblem", "exposure", "international_roughness_index", "load_problem",
+    "response_psds", "ride", "simulate", "weighting",
+    "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run", "Sampling",
+    "minimise", "non_dominated", "Study",
+}  # fmt: skip
 
 COMMANDS = {"commands/ride.py", "commands/weighting.py"}
 """Modules named after the function whose results they print: they are what a user types."""
