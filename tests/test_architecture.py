@@ -143,3 +143,33 @@ def test_every_module_has_a_test_file(checkout):
         if not (tests / path.relative_to(PACKAGE).parent / f"test_{path.stem}.py").exists()
     }
     assert untested <= UNTESTED
+
+
+def private_names(tree: ast.AST) -> set[str]:
+    """Private names of other modules and objects that a module reads, imports or patches."""
+    found = set()
+    for node in ast.walk(tree):
+        match node:
+            case ast.ImportFrom(names=names):
+                found |= {alias.name for alias in names}
+            case ast.Attribute(value=ast.Name(id="self" | "cls" | "other")):
+                pass
+            case ast.Attribute(attr=name):
+                found.add(name)
+            case ast.Call(func=ast.Attribute(attr="setattr"), args=[_, ast.Constant(value=str(name)), *_]):
+                found.add(name)
+    return {name for name in found if name.startswith("_") and not name.endswith("__")} - NAMED_TUPLES
+
+
+NAMED_TUPLES = {"_asdict", "_fields", "_make", "_replace"}
+"""Methods that all named tuples have; their names are not private."""
+
+
+@pytest.mark.parametrize("room", ["src", "scripts", "benchmarks", "tests"])
+def test_no_private_name_of_another_module_is_touched(checkout, room):
+    found = {
+        f"{path.relative_to(checkout)}: {name}"
+        for path in (checkout / room).rglob("*.py")
+        for name in private_names(ast.parse(path.read_text(encoding="utf-8")))
+    }
+    assert found == set()
