@@ -88,7 +88,7 @@ def compiling() -> Iterator[None]:
 
         def on_start(self, _event: object) -> None:
             if not self.said:
-                stderr.print("compiling, once after installation: up to half a minute", highlight=False)
+                stderr.print("compiling, once after installation: about 10 s", highlight=False)
             self.said = True
 
         def on_end(self, _event: object) -> None:
