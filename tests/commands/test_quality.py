@@ -9,10 +9,11 @@ from suspension_ctrl.commands import comparing, quality
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.indicators import ReferenceFront
 from suspension_ctrl.study import comparison
+from suspension_ctrl.study import reference as references
+from suspension_ctrl.study.campaign import Campaign
 from suspension_ctrl.study.comparison import Comparison
-from suspension_ctrl.study.findings import findings
+from suspension_ctrl.study.findings import findings, last_rows
 from suspension_ctrl.study.reference import grid_front
-from suspension_ctrl.study.store import FolderStore
 
 
 def campaign(raises) -> Comparison:
@@ -36,23 +37,23 @@ def clock() -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["algorithm", "population", "evaluations", "seconds"])
 
 
-def reported(one: Comparison, folder) -> pd.DataFrame:
-    store = FolderStore(folder / "quality", {})
-    reference = ReferenceFront.of(grid_front(paper.ride_problem(), 40))
-    table = comparing.judge_seeds(one, reference, store, comparing.cluster_of(None, None))
-    request = comparing.Request(one, one.problem, {}, folder)
+def reported(one: Comparison, folder, monkeypatch) -> pd.DataFrame:
+    monkeypatch.setattr(references, "key", lambda problem, tolerance: "")  # it evaluates the problem
+    campaign = Campaign(one, folder)
+    front = ReferenceFront.of(grid_front(paper.ride_problem(), 40))
+    table, store = campaign.judge(front)
     if found := findings(one, table, clock(), 0.9):
-        quality.write(request, found, store)
+        quality.write(comparing.Request(campaign, one.problem, {}), found, store)
     return table
 
 
-def test_runs_that_raise_leave_the_others_in_tables_and_figures(tmp_path):
+def test_runs_that_raise_leave_the_others_in_tables_and_figures(tmp_path, monkeypatch):
     """The first run of the first algorithm is among those that raise."""
     first = np.random.default_rng(0).random((20, 2))[0, 0]
     ride = paper.ride_problem()
     limit = ride.lower[0] + (ride.upper[0] - ride.lower[0]) * first
-    table = reported(campaign(lambda x: x[0, 0] >= limit - 1e-6), tmp_path)
-    rows = quality.last_rows(table)
+    table = reported(campaign(lambda x: x[0, 0] >= limit - 1e-6), tmp_path, monkeypatch)
+    rows = last_rows(table)
     assert len(rows) == 16
     raised = rows[rows.error != ""]
     assert ("nsga2", 0) in set(zip(raised.algorithm, raised.seed, strict=True))
@@ -67,7 +68,7 @@ def test_runs_that_raise_leave_the_others_in_tables_and_figures(tmp_path):
 def test_an_algorithm_without_any_run_is_left_out(tmp_path, monkeypatch):
     one = campaign(lambda x: False)
     monkeypatch.setitem(comparison.ALGORITHMS, "nsga2", lambda population: Broken(population))
-    table = reported(one, tmp_path)
+    table = reported(one, tmp_path, monkeypatch)
     assert set(table[table.error != ""].algorithm) == {"nsga2"}
     assert set(pd.read_csv(tmp_path / "equal.csv").algorithm) == {"sobol"}
     assert not (tmp_path / "attainment_n20.png").exists()
@@ -84,8 +85,8 @@ class Broken:
         raise RuntimeError("out of order")
 
 
-def test_a_campaign_in_which_all_raise_says_only_that(tmp_path):
-    table = reported(campaign(lambda x: True), tmp_path)
+def test_a_campaign_in_which_all_raise_says_only_that(tmp_path, monkeypatch):
+    table = reported(campaign(lambda x: True), tmp_path, monkeypatch)
     assert (table.error == "RuntimeError: no such strut").all()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["quality"]
 

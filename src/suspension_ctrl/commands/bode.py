@@ -52,7 +52,7 @@ def bode(
     with terminal.waiting("drawing"):
         results.write_figure(folder / "figure6", figures.bode(drawn))
         results.write_figure(folder / "figure7", figures.spectra(drawn, str(problem.weighting)))
-    terminal.note(f"Road: {terminal.driven(case.road, case.speed)}; {low:g} to {high:g} Hz.")
+    terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     terminal.show("Natural frequencies", natural, dict.fromkeys(natural.columns[2:], 3), keys=2)
     print(folder)
 

@@ -1,26 +1,24 @@
 """Options of the commands, each declared once, and the numbers and names that their texts stand for."""
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
 from typer import BadParameter, Option
 
 
-def number(text: str) -> float:
+def number(text: str, kind: type[float] = float, what: str = "a number") -> float:
     """Return the number that an option's text stands for."""
     try:
-        return float(text)
+        return kind(text)
     except ValueError:
-        raise BadParameter(f"must be a number, got {text!r}") from None
+        raise BadParameter(f"must be {what}, got {text!r}") from None
 
 
-def whole_number(text: str) -> int:
+def whole_number(text: str) -> float:
     """Return the whole number that an option's text stands for."""
-    try:
-        return int(text)
-    except ValueError:
-        raise BadParameter(f"must be a whole number, got {text!r}") from None
+    return number(text, int, "a whole number")
 
 
 def whole_numbers(name: str, text: str) -> list[int]:
@@ -59,21 +57,12 @@ def settings(weighting: str | None, band: str | None) -> dict[str, Any]:
     return given if band is None else given | {"band": numbers("band", band, 2)}
 
 
-def _option(metavar: str, text: str, parser: Callable[[str], Any] | None = None, name: str = "") -> Any:
-    return Option(*filter(None, [name]), metavar=metavar, help=text, parser=parser)
+def _option(metavar: str | None, text: str, *name: str, parser: Callable[[str], Any] | None = None) -> Any:
+    return Option(*name, metavar=metavar, help=text, parser=parser)
 
 
-def _whole(text: str) -> Any:
-    return _option("NUMBER", text, whole_number)
-
-
-def _real(text: str) -> Any:
-    return _option("NUMBER", text, number)
-
-
-def _flag(name: str, text: str) -> Any:
-    return Option(name, help=text)
-
+_whole = partial(_option, "NUMBER", parser=whole_number)
+_real = partial(_option, "NUMBER", parser=number)
 
 Text = str | None
 Texts = list[str] | None
@@ -98,16 +87,16 @@ Response = Annotated[Texts, _option("NAME", "Response to draw, e.g. pitch_accele
 Points = Annotated[int, _whole("Frequencies on each curve.")]
 SwsLimit = Annotated[float, _real("Suspension working space [m].")]
 Population = Annotated[int, _whole("Population of MOEA/D-DRA.")]
-Generations = Annotated[int, _option("NUMBER", "Iterations of MOEA/D-DRA.", whole_number, "--iterations")]
-Problem = Annotated[File, _option("FILE", "TOML file of load cases, measures, limits.", name="--problem")]
+Generations = Annotated[int, _whole("Iterations of MOEA/D-DRA.", "--iterations")]
+Problem = Annotated[File, _option("FILE", "TOML file of load cases, measures, limits.")]
 Populations = Annotated[Text, _option("NUMBER,...", "Population sizes.  [default: 500,1000; --quick: 60,100]")]
 Iterations = Annotated[Text, _option("NUMBER,...", "Iterations.  [default: 10,20; --quick: 5,10]")]
 Repeats = Annotated[Whole, _whole("Timed runs at each configuration.  [default: 5; --quick: 2]")]
 ALGORITHMS = "nsga2, nsga2-standard-sort, nsga2-gamultiobj, moead-dra, moead-dra-raw, random, sobol"
 Algorithms = Annotated[str, _option("NAME,...", f"Of {ALGORITHMS}; the first is the baseline.")]
 Seed = Annotated[int, _whole("Seed of the first run; each repeat adds one.")]
-Quick = Annotated[bool, _flag("--quick", "Short form.")]
-Quality = Annotated[bool, _flag("--quality", "Judge quality over many seeds too.")]
+Quick = Annotated[bool, _option(None, "Short form.", "--quick")]
+Quality = Annotated[bool, _option(None, "Judge quality over many seeds too.", "--quality")]
 Seeds = Annotated[Whole, _whole("Runs of each algorithm in --quality.  [default: 31; --quick: 3]")]
 Target = Annotated[float, _real("Share of the reference hypervolume to reach [-].")]
 Jobs = Annotated[Whole, _whole("Processes for the runs of --quality.")]

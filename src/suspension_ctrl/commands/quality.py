@@ -3,8 +3,6 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-import pandas as pd
-
 from ..study import figures, lenses, study
 from ..study.findings import CONFIGURATION, Findings
 from ..study.store import StoredRun
@@ -24,13 +22,6 @@ SHORT = {
     "igd_plus": "IGD+", "seconds": "time [s]",
 }  # fmt: skip
 DECIMALS = {"evals": 0, "HV / ref.": 4, "IGD+": 5, "epsilon": 4, "spread": 3, "time [s]": 4}
-
-
-def last_rows(table: pd.DataFrame) -> pd.DataFrame:
-    """Return one row per run, as in the table of timed runs: its population at the end, or its error."""
-    ends = table[table.error.ne("") | table.set.eq(study.POPULATION)]
-    last = ends.groupby(["population", "algorithm", "seed"], sort=False).tail(1)
-    return last.drop(columns=["set", "members", "budget"]).assign(timing=False)
 
 
 def write(request: "Request", found: Findings, store: Mapping[str, StoredRun]) -> None:

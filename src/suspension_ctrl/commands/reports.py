@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from .comparing import Request
 
 Store = Mapping[str, StoredRun]
-FAMILIES = {2: "nsga2", 3: "moead-dra"}
 SHORT = {
     "population": "N", "iterations": "iter.", "budget": "equal", "evaluations": "evals",
     "published_seconds": "publ. [s]", "seconds": "here [s]", "microseconds_per_evaluation": "µs/eval",
@@ -31,7 +30,7 @@ def write(request: "Request", store: Store, timed: pd.DataFrame) -> None:
     """Write runs, tables, fronts and Figure 5."""
     folder = request.folder
     write_csv(folder / "runs.csv", timed)
-    for name, table in _tables(request, timed).items():
+    for name, table in printed.timed_tables(timed, request.published()).items():
         results.write_table(folder / name, table)
     (folder / "fronts").mkdir(exist_ok=True)
     for run in request.comparison.timed_runs():
@@ -43,10 +42,11 @@ def write(request: "Request", store: Store, timed: pd.DataFrame) -> None:
 
 def say(request: "Request", store: Store, timed: pd.DataFrame, origin: str) -> None:
     """Print the tables and what they rest on."""
-    found = _tables(request, timed)
-    for number in FAMILIES:
-        for algorithm, part in found.get(f"table{number}", timed.iloc[:0]).groupby("algorithm", sort=False):
-            terminal.show(f"Table {number}: {algorithm}, seconds published / here", printed.as_printed(part))
+    found = printed.timed_tables(timed, request.published())
+    for number, algorithm in printed.ALGORITHMS.items():
+        if f"table{number}" in found:
+            table = printed.as_printed(found[f"table{number}"])
+            terminal.show(f"Table {number}: {algorithm}, seconds published / here", table)
     title = f"Table 4: % is the time of {request.comparison.algorithms[0]} over the time of each"
     terminal.show(title, found["table4"].rename(columns=SHORT), DECIMALS, keys=4)
     _explain(request, origin)
@@ -54,17 +54,6 @@ def say(request: "Request", store: Store, timed: pd.DataFrame, origin: str) -> N
     barren = sum(timing.feasible_rows(request.problem, final).empty for final in finals)
     if barren:
         terminal.note(f"{barren} of {len(finals)} timed runs found no design within the limits.")
-
-
-def _tables(request: "Request", timed: pd.DataFrame) -> dict[str, pd.DataFrame]:
-    """Return Tables 2 to 4 by the names of their files, without those of algorithms that did not run."""
-    published = request.published()
-    found = {
-        f"table{number}": printed.seconds_by_repeat(timed, published, family)
-        for number, family in FAMILIES.items()
-    }
-    found["table4"] = printed.comparison(timed, published)
-    return {name: table for name, table in found.items() if len(table)}
 
 
 def _write_figure5(request: "Request", populations: pd.DataFrame) -> None:
@@ -86,7 +75,7 @@ def _explain(request: "Request", origin: str) -> None:
         how = "their worst" if problem.worst_case else "their mean square by shares"
         terminal.note(f"Objectives are over {len(problem.cases)} load cases, {how}; limits hold in each.")
     for number, case in enumerate(problem.cases, start=1):
-        terminal.note(f"Case {number}, share {case.share:g}: {terminal.driven(case.road, case.speed)}.")
+        terminal.note(f"Case {number}, share {case.share:g}: {case.describe()}.")
     weighted = f"ACC is weighted with {problem.weighting}. " if problem.weighted else ""
     terminal.note(f"{weighted}Hypervolume and IGD+ are medians over the repeats, against {origin}.")
     period = MoeadDra.utility_period

@@ -31,6 +31,7 @@ def ride(
     Writes ride.csv and modes.csv to a folder; its path is the last line printed.
     """
     from ..paper import experiment as paper
+    from ..response.load_case import LoadCase
     from ..response.responses import ride
     from ..roads.files import load_road
     from ..tables import write_csv
@@ -41,9 +42,8 @@ def ride(
     strut = {name: value for name, value in {"spring": spring, "damper": damper}.items() if value is not None}
     values = car.coefficients({**own, **o.by_name("setting", setting or ""), **strut})
     problem = paper.ride_problem(**o.settings(weighting, band))
-    case, (low, high) = problem.cases[0], problem.band
-    on = case.road if road is None else load_road(road)
-    at = case.speed if speed is None else speed
+    on, at = (problem.road if road is None else load_road(road)), (problem.speed if speed is None else speed)
+    case, (low, high) = LoadCase(vehicle=car, road=on, speed=at), problem.band
     found = ride(car, values, on, speed=at, weighting=problem.weighting, band=problem.band)
     table = (found if found.note.any() else found.drop(columns="note")).reset_index()
     modes = car.modes(values)
@@ -53,7 +53,7 @@ def ride(
     write_csv(folder / "modes.csv", modes)
     units = {parameter.name: parameter.unit for parameter in car.parameters}
     terminal.note(f"{title}: {', '.join(f'{name} {value:g} {units[name]}' for name, value in values.items())}.")
-    terminal.note(f"Road: {terminal.driven(on, at)}; {low:g} to {high:g} Hz.")
+    terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table)
     terminal.show("Modes", modes, dict.fromkeys(modes.columns[1:], 3))
     print(folder)

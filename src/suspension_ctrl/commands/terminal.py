@@ -68,6 +68,7 @@ def progress(items: Iterable[T], total: int, text: str = "") -> Iterator[T]:
     settings: dict[str, Any] = {"transient": True, "auto_refresh": False, "disable": not stderr.is_terminal}
     with bars.Progress(*columns, console=stderr, **settings) as bar:
         task = bar.add_task("", total=total)
+        bar.refresh()
         for item in items:
             bar.update(task, advance=1, refresh=True)
             yield item
@@ -96,11 +97,6 @@ def compiling() -> Iterator[None]:
 
     with event.install_listener("numba:compile", Compilation()):
         yield
-
-
-def driven(road: Any, speed: float) -> str:
-    """Return a road and a speed in words."""
-    return f"{road.describe()}; {speed:g} m/s"
 
 
 def note(text: str) -> None:

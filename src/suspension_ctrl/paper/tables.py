@@ -10,6 +10,15 @@ from ..response.problem import RideProblem
 from ..study.comparison import EQUAL_EVALUATIONS, EQUAL_ITERATIONS
 
 CONFIGURATION = ["population", "iterations"]
+ALGORITHMS = {2: "nsga2", 3: "moead-dra"}
+"""The published algorithm by the number of its table of times."""
+
+
+def timed_tables(runs: pd.DataFrame, published: pd.DataFrame) -> dict[str, pd.DataFrame]:
+    """Return Tables 2 to 4 as ``"table2"`` to ``"table4"``, without those of algorithms that did not run."""
+    found = {f"table{n}": seconds_by_repeat(runs, published, name) for n, name in ALGORITHMS.items()}
+    found["table4"] = comparison(runs, published)
+    return {name: table for name, table in found.items() if len(table)}
 
 
 def seconds_by_repeat(runs: pd.DataFrame, published: pd.DataFrame, algorithm: str) -> pd.DataFrame:

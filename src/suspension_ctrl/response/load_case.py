@@ -59,6 +59,11 @@ class LoadCase(Record):
         checks.positive("speed", self.speed, "m/s")
         checks.positive("share", self.share)
 
+    def describe(self) -> str:
+        """Return road and speed in words."""
+        road = self.road.describe() if hasattr(self.road, "describe") else repr(self.road)
+        return f"{road}; {self.speed:g} m/s"
+
     @property
     def wheels(self) -> int:
         """Number of roads under the vehicle."""

@@ -57,3 +57,10 @@ def _verdict(differences: pd.DataFrame, algorithms: Sequence[str]) -> list[str]:
         inference.verdict(judged[judged.set == chosen], first, second, f"Hypervolume of the {words}")
         for words, chosen in SETS.items()
     ]
+
+
+def last_rows(table: pd.DataFrame) -> pd.DataFrame:
+    """Return one row per run, as in the table of timed runs: its population at the end, or its error."""
+    ends = table[table.error.ne("") | table.set.eq(POPULATION)]
+    last = ends.groupby(["population", "algorithm", "seed"], sort=False).tail(1)
+    return last.drop(columns=["set", "members", "budget"]).assign(timing=False)

@@ -32,6 +32,14 @@ class Refined(NamedTuple):
     change: float  # of the hypervolume from half as many points, relative
     second: float  # the same from a second grid, of sqrt(2) fewer points: it shares the corners alone
 
+    def describe(self, variables: int) -> str:
+        """Return the grid and its convergence in words."""
+        points = " x ".join([str(self.points)] * variables)
+        return (
+            f"the non-dominated designs of a {points} grid (hypervolume {self.front.volume:.4f}, which half as "
+            f"many values change by {self.change:.1e} and a second grid by {self.second:.1e})"
+        )
+
 
 def refined(problem: Minimisable, tolerance: float = TOLERANCE, most: int = MOST) -> Refined:
     """Return the front of a grid that neither half as many points nor a second grid changes.
