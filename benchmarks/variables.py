@@ -71,9 +71,9 @@ def main(
     final = table[table.set == study.POPULATION]
     files.write_csv(folder / "runs.csv", table)
     medians = final.pivot_table("relative_hypervolume", "problem", "algorithm", "median", sort=False)
-    results.write_table(folder / "medians", medians.reset_index())
+    files.write_table(folder / "medians", medians.reset_index())
     compared = statistics.pairwise(final, ["problem"], ["relative_hypervolume"], ALGORITHMS)
-    results.write_table(folder / "differences", compared)
+    files.write_table(folder / "differences", compared)
     terminal.show("Hypervolume / reference, medians", medians.reset_index(), dict.fromkeys(ALGORITHMS, 4))
     print(folder)
     if errors:

@@ -3,6 +3,7 @@
 import json
 import os
 
+import numpy as np
 import pandas as pd
 import pytest
 from hypothesis import given
@@ -98,3 +99,14 @@ def test_any_text_makes_a_name_that_stays_in_its_folder(text):
     assert name == tables.file_name(name)
     assert not name.endswith(".")
     assert not name.startswith(".")
+
+
+def test_tables_are_written_as_csv_markdown_and_latex(tmp_path):
+    frame = pd.DataFrame({"algorithm": ["a_b"], "time [s]": [0.123456789], "runs": [31], "HV [%]": [np.nan]})
+    tables.write_table(tmp_path / "table", frame)
+    pd.testing.assert_frame_equal(pd.read_csv(tmp_path / "table.csv"), frame)
+    assert "| a_b         | 0.123457" in (tmp_path / "table.md").read_text()
+    latex = (tmp_path / "table.tex").read_text()
+    assert r"\toprule" in latex
+    assert r"a\_b & 0.123457 & 31" in latex
+    assert r"HV [\%]" in latex

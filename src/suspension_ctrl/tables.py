@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from os import PathLike
 
     import pandas as pd
+    from matplotlib.figure import Figure
 
 _LARGEST = 1e9
 """Beyond what roads and vehicles have; its square is still a number."""
@@ -114,3 +115,18 @@ def write_text(path: Path, text: str) -> None:
 def write_json(path: Path, content: Mapping[str, Any]) -> None:
     """Write a JSON file, indented."""
     write_text(path, json.dumps(dict(content), indent=2) + "\n")
+
+
+def write_table(stem: Path, frame: "pd.DataFrame") -> None:
+    """Write a table as CSV in full, and as Markdown and LaTeX (booktabs) with six digits."""
+    write_csv(stem.with_suffix(".csv"), frame)
+    shown = frame.map(lambda value: f"{value:.6g}" if isinstance(value, float) else value)
+    write_text(stem.with_suffix(".md"), shown.to_markdown(index=False, disable_numparse=True) + "\n")
+    latex = shown.style.hide(axis="index").format(escape="latex").format_index(escape="latex", axis="columns")
+    write_text(stem.with_suffix(".tex"), latex.to_latex(hrules=True))
+
+
+def write_figure(stem: Path, figure: "Figure") -> None:
+    """Write a figure as PNG and as PDF, named `stem` with the ending added."""
+    for suffix in (".png", ".pdf"):
+        write_whole(stem.with_name(stem.name + suffix), lambda temporary: figure.savefig(temporary, dpi=160))

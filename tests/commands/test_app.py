@@ -178,7 +178,7 @@ OF = {
         (["--setting", "spring=soft"], "setting must be like front.spring=1e4,front.damper=2000, got", 2),
         (["--setting", "front.spring=1e4"], "must be one of spring, damper, got 'front.spring'", 2),
         (["--spring", "-1"], "spring must be finite and > 0 N/m, got -1.0", 2),
-        (["--body-mass", "400"], "body_mass, wheel_mass, tyre_stiffness must stand together, got no whe", 2),
+        (["--body-mass", "400"], "body_mass, wheel_mass, tyre_stiffness must stand together, got no t", 2),
         (["--vehicle", "minaker_half", "--body-mass", "400"],
          "vehicle must stand without body_mass, wheel_mass, tyre_stiffness, got 'minaker_half' with one", 2),
         (["--body-mass", "400", "--wheel-mass", "45", "--tyre-stiffness", "2e5", "--spring", "2e4"],

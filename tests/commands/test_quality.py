@@ -8,7 +8,7 @@ from suspension_ctrl import Problem
 from suspension_ctrl.commands import comparing, quality
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.indicators import ReferenceFront
-from suspension_ctrl.study import comparison
+from suspension_ctrl.study import comparison, workers
 from suspension_ctrl.study import reference as references
 from suspension_ctrl.study.campaign import Campaign
 from suspension_ctrl.study.comparison import Comparison
@@ -93,4 +93,4 @@ def test_a_campaign_in_which_all_raise_says_only_that(tmp_path, monkeypatch):
 
 def test_runs_are_made_in_one_place():
     with pytest.raises(ValueError, match=r"^jobs must stand without scheduler, got 2 and 'tcp://h:1'$"):
-        comparing.cluster_of(2, "tcp://h:1")
+        workers.cluster(2, "tcp://h:1")

@@ -1,7 +1,5 @@
 import sys
 
-import numpy as np
-import pandas as pd
 import pytest
 
 from suspension_ctrl.commands import results
@@ -37,14 +35,3 @@ def test_folders_that_cannot_be_written_are_named():
 
     with pytest.raises(ValueError, match=r"^out must be a folder that can be written, got '/proc/results'"):
         results.results_folder(Path("/proc/results"))
-
-
-def test_tables_are_written_as_csv_markdown_and_latex(tmp_path):
-    frame = pd.DataFrame({"algorithm": ["a_b"], "time [s]": [0.123456789], "runs": [31], "HV [%]": [np.nan]})
-    results.write_table(tmp_path / "table", frame)
-    pd.testing.assert_frame_equal(pd.read_csv(tmp_path / "table.csv"), frame)
-    assert "| a_b         | 0.123457" in (tmp_path / "table.md").read_text()
-    latex = (tmp_path / "table.tex").read_text()
-    assert r"\toprule" in latex
-    assert r"a\_b & 0.123457 & 31" in latex
-    assert r"HV [\%]" in latex

@@ -19,23 +19,13 @@ def suspension_ctrl() -> None:
 
 def _add(command: Callable[..., None], *examples: str) -> None:
     """Add a command, with a paragraph of examples that is not wrapped."""
-    lines = ["\b", "Examples:", *(f"  suspension-ctrl {command.__name__} {text}".rstrip() for text in examples)]
+    lines = ["\b", "Examples:", *(f"  suspension-ctrl {command.__name__} {text}" for text in examples)]
     app.command(epilog="\n".join(lines))(command)
 
 
-_add(
-    compare.compare,
-    "--quick",
-    "--quality --jobs 2 --algorithms nsga2,moead-dra",
-    "--vehicle jian_2022_full --road C --repeats 1",
-)
+_add(compare.compare, "--quick", "--quality --jobs 2", "--vehicle jian_2022_full --road C --repeats 1")
 _add(optimum.optimum, "--band 0.1,20", "--vehicle jian_2022_full --road C --sws-limit 0.01")
-_add(
-    bode.bode,
-    "",
-    "--design 22000,1500 --design 12389.2,1616.3",
-    "--vehicle minaker_half --response pitch_acceleration",
-)
+_add(bode.bode, "--design 22000,1500 --design 12e3,1600", "--vehicle minaker_half --response pitch_acceleration")
 _add(weighting.weighting, "--out figure2")
 _add(
     ride.ride,

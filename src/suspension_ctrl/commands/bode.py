@@ -36,7 +36,7 @@ def bode(
     from .. import checks
     from ..paper.experiment import chosen
     from ..response import curves, figures
-    from ..tables import write_csv
+    from ..tables import write_csv, write_figure
     from . import results, terminal
 
     checks.at_least("points", points, 2)
@@ -50,8 +50,8 @@ def bode(
     write_csv(folder / "natural_frequencies.csv", natural)
     write_csv(folder / "curves.csv", pd.concat([curves.curve_table(one) for one in drawn]))
     with terminal.waiting("drawing"):
-        results.write_figure(folder / "figure6", figures.bode(drawn))
-        results.write_figure(folder / "figure7", figures.spectra(drawn, str(problem.weighting)))
+        write_figure(folder / "figure6", figures.bode(drawn))
+        write_figure(folder / "figure7", figures.spectra(drawn, str(problem.weighting)))
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     terminal.show("Natural frequencies", natural, dict.fromkeys(natural.columns[2:], 3), keys=2)
     print(folder)

@@ -38,6 +38,7 @@ def compare(
     tables, figures, every run and every front to a folder; its path is the last line printed. An interrupted
     command resumes with the same --out.
     """
+    from ..study.workers import cluster
     from . import comparing
 
     given = {"populations": populations, "iterations": iterations, "repeats": repeats, "seeds": seeds}
@@ -47,5 +48,5 @@ def compare(
         raise ValueError(f"jobs and scheduler must stand with quality, got {scheduler or jobs!r} without it")
     defaults = QUICK if quick else FULL
     options = context.params | {name: defaults[name] if v is None else v for name, v in given.items()}
-    cluster = comparing.cluster_of(jobs, scheduler) if quality else None
-    comparing.carry_out(comparing.Request.of(options), cluster)
+    where = cluster(jobs, scheduler) if quality else None
+    comparing.carry_out(comparing.Request.of(options), where)

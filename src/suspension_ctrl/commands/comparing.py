@@ -1,7 +1,7 @@
 """A comparison as its command asks for it: timed, judged, written and printed."""
 
 from collections.abc import Mapping
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
@@ -14,7 +14,7 @@ from ..paper import experiment as paper
 from ..quantities import column_headers
 from ..response.files import load_problem
 from ..response.problem import RideProblem
-from ..study import machine, reference, timing, workers
+from ..study import machine, reference, timing
 from ..study.campaign import Campaign
 from ..study.comparison import Comparison
 from ..study.findings import findings, last_rows
@@ -54,16 +54,6 @@ class Request:
         folder = results.results_folder(options["out"], resumed_by="timed")
         return cls(Campaign(comparison, folder, tolerance, terminal.progress), problem, options)
 
-    @property
-    def comparison(self) -> Comparison:
-        """The comparison."""
-        return self.campaign.comparison
-
-    @property
-    def folder(self) -> Path:
-        """The folder of results and finished runs."""
-        return self.campaign.folder
-
     def published(self) -> pd.DataFrame:
         """Return the times of the paper, none beside another problem."""
         of_paper = all(self.options[name] is None for name in PAPERS)
@@ -90,22 +80,9 @@ def chosen_problem(options: Mapping[str, Any]) -> RideProblem:
     return load_problem(file)
 
 
-def cluster_of(jobs: int | None, scheduler: str | None) -> AbstractContextManager[Any]:
-    """Return a context with a Dask client, or with None for runs made here."""
-    if jobs is not None and scheduler is not None:
-        raise ValueError(f"jobs must stand without scheduler, got {jobs} and {scheduler!r}")
-    if jobs is not None:
-        checks.at_least("jobs", jobs, 1)
-        return workers.local_cluster(jobs)
-    if scheduler is None:
-        return nullcontext()
-    workers.check_address(scheduler)
-    return workers.scheduler_at(scheduler)
-
-
 def carry_out(request: Request, cluster: AbstractContextManager[Any] | None) -> None:
     """Time, judge, write and say; with a cluster likewise the runs over many seeds."""
-    campaign, record = request.campaign, request.folder / "environment.json"
+    campaign, record = request.campaign, request.campaign.folder / "environment.json"
     if not record.exists():  # of the command that began the timed runs
         texts = {name: str(value) if isinstance(value, Path) else value for name, value in request.options.items()}
         with machine.single_thread():
@@ -123,13 +100,13 @@ def carry_out(request: Request, cluster: AbstractContextManager[Any] | None) -> 
     if cluster is not None:
         with cluster as client, terminal.compiling():
             table, judged = campaign.judge(front, client)
-        write_csv(request.folder / "runs.csv", pd.concat([timed, last_rows(table)]))
+        write_csv(request.campaign.folder / "runs.csv", pd.concat([timed, last_rows(table)]))
         clock, target = timing.seconds_by_evaluations(campaign.comparison, store), request.options["target"]
         if found := findings(campaign.comparison, table, clock, target):
             quality.write(request, found, judged)
             quality.say(found, target)
         raised = int(table.error.ne("").sum())
-    print(request.folder)
+    print(request.campaign.folder)
     if raised:
-        terminal.complain(f"{raised} runs raised: see the column error of {request.folder / 'runs.csv'}")
+        terminal.complain(f"{raised} runs raised: see the column error of {request.campaign.folder / 'runs.csv'}")
         raise typer.Exit(1)

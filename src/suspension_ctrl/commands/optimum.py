@@ -1,19 +1,9 @@
 """Table 5: the reference car, the published optimum, and the best struts of the same suspension travel."""
 
-from typing import TYPE_CHECKING
-
 from . import options as o
 
-if TYPE_CHECKING:
-    import pandas as pd
-
-    from ..response.problem import RideProblem
-    from ..search.driver import Run
-
 WEIGHTINGS = ("Wk", "Wb", "Wb-table")
-STARTS = 8  # designs of the Pareto set from which a search goes downhill
 DECIMALS = {"[m": 4, "[N]": 1, "[N": 0, "[%]": 2}
-PAPERS = {"reference car": "reference", "published optimum": "optimised"}
 
 
 def optimum(
@@ -35,7 +25,8 @@ def optimum(
     import pandas as pd
 
     from .. import checks
-    from ..paper import experiment as paper
+    from ..paper.experiment import chosen
+    from ..paper.optimum import table5
     from ..search.driver import minimise
     from ..search.moead_dra import MoeadDra
     from ..tables import write_csv
@@ -48,7 +39,7 @@ def optimum(
     of_paper = (vehicle, road, speed) == (None, None, None)
     parts = []
     for weighting in terminal.progress(WEIGHTINGS, len(WEIGHTINGS), "weightings"):
-        problem, own = paper.chosen(vehicle, road, speed, **o.settings(weighting, band))
+        problem, own = chosen(vehicle, road, speed, **o.settings(weighting, band))
         with terminal.compiling():
             run = minimise(problem, optimiser, iterations=iterations, seed=seed)
         designs = {} if of_paper else {"its own struts": tuple(own[name] for name in problem.variables)}
@@ -60,27 +51,3 @@ def optimum(
         digits = {name: next(d for unit, d in DECIMALS.items() if unit in name) for name in shown.columns[1:]}
         terminal.show(f"Table 5, ACC weighted by {weighting}", shown, digits)
     print(folder)
-
-
-def table5(
-    problem: "RideProblem", run: "Run", limit: float, own: "dict[str, tuple[float, ...]]"
-) -> "pd.DataFrame":
-    """Return the best designs within the limit and those picked, after the vehicle's own or the paper's two."""
-    import numpy as np
-
-    from ..paper import experiment as paper
-    from ..paper import optimum, tables
-
-    columns = {} if own else paper.table5()
-    published = {name: columns[key] for name, key in PAPERS.items() if key in columns}
-    papers = {"reference car": paper.reference_design(), "published optimum": paper.optimised_design()}
-    designs, of_paper = own or dict(papers), not own
-    off = np.abs(run.objectives[:, problem.objectives.index("SWS")] - limit)
-    starts = run.designs[off.argsort(kind="stable")[:STARTS]]
-    for objective in ("ACC", "DTL"):
-        name = f"exact, least {objective}" if of_paper else f"least {objective} up to the limit"
-        designs[name] = optimum.least_within_limit(problem, limit, objective, starts, at_limit=of_paper)
-    below = optimum.AT_LIMIT if of_paper else 1.0
-    for objective in ("ACC", "DTL"):
-        designs[f"picked, least {objective}"] = optimum.pick_at_limit(problem, run, limit, objective, below)
-    return tables.beside_published(problem, designs, published)

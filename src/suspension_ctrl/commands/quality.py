@@ -7,8 +7,8 @@ from ..study import figures, lenses, study
 from ..study.findings import CONFIGURATION, Findings
 from ..study.store import StoredRun
 from ..study.study import INDICATORS
-from ..tables import write_csv, write_text
-from . import results, terminal
+from ..tables import write_csv, write_figure, write_table, write_text
+from . import terminal
 
 if TYPE_CHECKING:
     from .comparing import Request
@@ -26,12 +26,12 @@ DECIMALS = {"evals": 0, "HV / ref.": 4, "IGD+": 5, "epsilon": 4, "spread": 3, "t
 
 def write(request: "Request", found: Findings, store: Mapping[str, StoredRun]) -> None:
     """Write tables, verdict and figures."""
-    write_csv(request.folder / "quality.csv", found.course.drop(columns="seconds"))
+    write_csv(request.campaign.folder / "quality.csv", found.course.drop(columns="seconds"))
     for name, table in (("equal", found.medians), ("differences", found.differences), ("to_reach", found.reached)):
-        results.write_table(request.folder / name, table.rename(columns=_header))
-    write_text(request.folder / "verdict.md", "\n\n".join(found.verdict) + "\n")
+        write_table(request.campaign.folder / name, table.rename(columns=_header))
+    write_text(request.campaign.folder / "verdict.md", "\n\n".join(found.verdict) + "\n")
     with terminal.waiting("drawing"):
-        for population in request.comparison.populations:
+        for population in request.campaign.comparison.populations:
             _draw(request, found, store, population)
 
 
@@ -41,20 +41,20 @@ def _header(column: str) -> str:
 
 
 def _draw(request: "Request", found: Findings, store: Mapping[str, StoredRun], population: int) -> None:
-    comparison, folder = request.comparison, request.folder
+    comparison, folder = request.campaign.comparison, request.campaign.folder
     course = found.course[found.course.population == population]
     sets = (study.POPULATION, study.CUT_ARCHIVE)
-    results.write_figure(folder / f"anytime_n{population}", figures.anytime_panels(course, sets))
+    write_figure(folder / f"anytime_n{population}", figures.anytime_panels(course, sets))
     equal = found.equal
     at_end = (equal.population == population) & (equal.iterations == max(comparison.iterations))
     last = equal[at_end & (equal.lens == lenses.EVALUATIONS) & (equal.set == study.POPULATION)]
-    results.write_figure(folder / f"boxes_n{population}", figures.box_panels(last, INDICATORS))
+    write_figure(folder / f"boxes_n{population}", figures.box_panels(last, INDICATORS))
     names = comparison.algorithms[:2]
     finals = comparison.studies()[population].finals(store).rename(columns=request.headers())
     first, second = (finals[finals.algorithm == name] for name in (names[0], names[-1]))
     if len(names) == 2 and set(first.seed) & set(second.seed):
         drawn = figures.attainment_panels(first, second, list(request.headers().values()), names)
-        results.write_figure(folder / f"attainment_n{population}", drawn)
+        write_figure(folder / f"attainment_n{population}", drawn)
 
 
 def say(found: Findings, target: float) -> None:

@@ -9,8 +9,8 @@ from ..paper import tables as printed
 from ..search.moead_dra import MoeadDra
 from ..study import figures, timing
 from ..study.store import StoredRun
-from ..tables import write_csv
-from . import results, terminal
+from ..tables import write_csv, write_figure, write_table
+from . import terminal
 
 if TYPE_CHECKING:
     from .comparing import Request
@@ -28,54 +28,30 @@ DECIMALS = {
 
 def write(request: "Request", store: Store, timed: pd.DataFrame) -> None:
     """Write runs, tables, fronts and Figure 5."""
-    folder = request.folder
+    folder = request.campaign.folder
     write_csv(folder / "runs.csv", timed)
     for name, table in printed.timed_tables(timed, request.published()).items():
-        results.write_table(folder / name, table)
+        write_table(folder / name, table)
     (folder / "fronts").mkdir(exist_ok=True)
-    for run in request.comparison.timed_runs():
+    for run in request.campaign.comparison.timed_runs():
         front = timing.front(request.problem, store[run.name].final)
         write_csv(folder / "fronts" / f"{run.name}.csv", front)
     with terminal.waiting("drawing"):
-        _write_figure5(request, timing.final_populations(request.comparison, store))
+        _write_figure5(request, timing.final_populations(request.campaign.comparison, store))
 
 
 def say(request: "Request", store: Store, timed: pd.DataFrame, origin: str) -> None:
     """Print the tables and what they rest on."""
+    problem, comparison = request.problem, request.campaign.comparison
     found = printed.timed_tables(timed, request.published())
     for number, algorithm in printed.ALGORITHMS.items():
         if f"table{number}" in found:
             table = printed.as_printed(found[f"table{number}"])
             terminal.show(f"Table {number}: {algorithm}, seconds published / here", table)
-    title = f"Table 4: % is the time of {request.comparison.algorithms[0]} over the time of each"
+    title = f"Table 4: % is the time of {comparison.algorithms[0]} over the time of each"
     terminal.show(title, found["table4"].rename(columns=SHORT), DECIMALS, keys=4)
-    _explain(request, origin)
-    finals = [store[run.name].final for run in request.comparison.timed_runs()]
-    barren = sum(timing.feasible_rows(request.problem, final).empty for final in finals)
-    if barren:
-        terminal.note(f"{barren} of {len(finals)} timed runs found no design within the limits.")
-
-
-def _write_figure5(request: "Request", populations: pd.DataFrame) -> None:
-    """Draw the first algorithm beside the second, and in further figures beside each of the others."""
-    across, *up = request.headers().values()
-    first, *others = request.comparison.algorithms
-    for number, other in enumerate(others or [first]):
-        shown = populations[populations.algorithm.isin([first, other])]
-        stem = f"figure5_{other}" if number else "figure5"
-        results.write_figure(request.folder / stem, figures.final_populations(shown, across, up))
-
-
-def _explain(request: "Request", origin: str) -> None:
-    """Print limits, load cases, weighting, reference front, and whether MOEA/D-DRA allocated resources."""
-    problem, comparison = request.problem, request.comparison
-    if problem.constraints:
-        terminal.note(f"Limits: {', '.join(problem.constraints)}.")
-    if len(problem.cases) > 1:
-        how = "their worst" if problem.worst_case else "their mean square by shares"
-        terminal.note(f"Objectives are over {len(problem.cases)} load cases, {how}; limits hold in each.")
-    for number, case in enumerate(problem.cases, start=1):
-        terminal.note(f"Case {number}, share {case.share:g}: {case.describe()}.")
+    for line in problem.describe():
+        terminal.note(line)
     weighted = f"ACC is weighted with {problem.weighting}. " if problem.weighted else ""
     terminal.note(f"{weighted}Hypervolume and IGD+ are medians over the repeats, against {origin}.")
     period = MoeadDra.utility_period
@@ -84,3 +60,17 @@ def _explain(request: "Request", origin: str) -> None:
             f"In up to {period} iterations MOEA/D-DRA has not allocated resources yet: its utilities first change "
             f"after iteration {period}."
         )
+    finals = [store[run.name].final for run in comparison.timed_runs()]
+    barren = sum(timing.feasible_rows(problem, final).empty for final in finals)
+    if barren:
+        terminal.note(f"{barren} of {len(finals)} timed runs found no design within the limits.")
+
+
+def _write_figure5(request: "Request", populations: pd.DataFrame) -> None:
+    """Draw the first algorithm beside the second, and in further figures beside each of the others."""
+    across, *up = request.headers().values()
+    first, *others = request.campaign.comparison.algorithms
+    for number, other in enumerate(others or [first]):
+        shown = populations[populations.algorithm.isin([first, other])]
+        stem = f"figure5_{other}" if number else "figure5"
+        write_figure(request.campaign.folder / stem, figures.final_populations(shown, across, up))

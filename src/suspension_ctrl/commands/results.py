@@ -1,17 +1,10 @@
-"""Results on disk: a folder that held nothing before, and files that appear whole or not at all."""
+"""The folder for the results of a command, which held nothing before."""
 
 from contextlib import suppress
 from datetime import datetime
 from itertools import chain, count
 from pathlib import Path
 from tempfile import NamedTemporaryFile
-from typing import TYPE_CHECKING
-
-from ..tables import write_csv, write_text, write_whole
-
-if TYPE_CHECKING:
-    import pandas as pd
-    from matplotlib.figure import Figure
 
 
 def results_folder(out: Path | None, resumed_by: str | None = None) -> Path:
@@ -42,18 +35,3 @@ def _made_new(folder: Path) -> Path:
             path.mkdir(parents=True)
             break
     return path
-
-
-def write_table(stem: Path, frame: "pd.DataFrame") -> None:
-    """Write a table as CSV in full, and as Markdown and LaTeX (booktabs) with six digits."""
-    write_csv(stem.with_suffix(".csv"), frame)
-    shown = frame.map(lambda value: f"{value:.6g}" if isinstance(value, float) else value)
-    write_text(stem.with_suffix(".md"), shown.to_markdown(index=False, disable_numparse=True) + "\n")
-    latex = shown.style.hide(axis="index").format(escape="latex").format_index(escape="latex", axis="columns")
-    write_text(stem.with_suffix(".tex"), latex.to_latex(hrules=True))
-
-
-def write_figure(stem: Path, figure: "Figure") -> None:
-    """Write a figure as PNG and as PDF, named `stem` with the ending added."""
-    for suffix in (".png", ".pdf"):
-        write_whole(stem.with_name(stem.name + suffix), lambda temporary: figure.savefig(temporary, dpi=160))

@@ -70,9 +70,8 @@ def chosen_vehicle(
     if not given:
         file = load_vehicle(PAPERS if name is None else name)
         return file.name, file.vehicle, file.setting
-    options = ", ".join(masses)
     if name is not None:
-        raise ValueError(f"vehicle must stand without {options}, got {name!r} with one")
-    if missing := [parameter for parameter in masses if parameter not in given]:
-        raise ValueError(f"{options} must stand together, got no {missing[0]}")
+        raise ValueError(f"vehicle must stand without {', '.join(masses)}, got {name!r} with one")
+    if missing := masses.keys() - given.keys():
+        raise ValueError(f"{', '.join(masses)} must stand together, got no {min(missing)}")
     return "Quarter car", QuarterCar(**given), {}

@@ -20,8 +20,7 @@ console = Console(width=None if sys.stdout.isatty() else 130)
 stderr = Console(stderr=True)
 T = TypeVar("T")
 
-_GAP = 3
-"""Columns between two columns of a table."""
+_GAP = 3  # columns of text between two columns of a table
 
 
 def run(app: typer.Typer, *before: str, name: str | None = None) -> NoReturn:
@@ -92,8 +91,7 @@ def compiling() -> Iterator[None]:
                 stderr.print("compiling, once after installation: about 10 s", highlight=False)
             self.said = True
 
-        def on_end(self, _event: object) -> None:
-            pass
+        on_end = on_start
 
     with event.install_listener("numba:compile", Compilation()):
         yield

@@ -13,7 +13,7 @@ def weighting(out: o.Out = None) -> None:
     from matplotlib.figure import Figure
 
     from ..response import figures, weightings
-    from ..tables import write_csv
+    from ..tables import write_csv, write_figure
     from . import results
 
     f = weightings.BANDS
@@ -23,5 +23,5 @@ def weighting(out: o.Out = None) -> None:
     write_csv(folder / "figure2.csv", pd.DataFrame({"frequency [Hz]": f, **factors}))
     figure = Figure(figsize=(7, 4.6), layout="constrained")
     figures.weighting_factors(figure.add_subplot(), ("Wk", "Wb"), ("Wk-table", "Wb-table"))
-    results.write_figure(folder / "figure2", figure)
+    write_figure(folder / "figure2", figure)
     print(folder)

@@ -1,5 +1,6 @@
 """The best strut within a limit of suspension travel: by descent, and picked from a Pareto set (Table 5)."""
 
+from collections.abc import Mapping
 from operator import itemgetter
 from typing import TYPE_CHECKING, Any
 
@@ -9,12 +10,18 @@ from .. import checks
 from ..quantities import Real
 from ..response.problem import RideProblem
 from ..search.indicators import non_dominated
+from . import experiment, tables
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from ..search.driver import Run
 
 AT_LIMIT = 0.002
 """Share of the limit by which the travel of a design picked for Table 5 may lie below it."""
+
+_STARTS = 8
+"""Designs of a run, those nearest to the limit, from which a search for Table 5 descends."""
 
 _HELD = 1e-6
 """Share of a limit by which a design within it may exceed it."""
@@ -128,3 +135,23 @@ def _ends(starts: Real, settings: dict[str, Any]) -> list[Real]:
 def _held(spare: Real, at_limit: bool) -> float:
     """Return the worst violation of a limit, as a negative share of it."""
     return float(-np.abs(spare).max() if at_limit else spare.min())
+
+
+def table5(problem: RideProblem, run: "Run", limit: float, own: Mapping[str, tuple[float, ...]]) -> "pd.DataFrame":
+    """Return Table 5: the least ACC and DTL within a limit of travel [m], and designs picked from a run.
+
+    Before them stand a vehicle's `own` designs by name, or if there are none the paper's two with what it printed.
+    """
+    columns = experiment.table5()
+    published = {"reference car": columns["reference"], "published optimum": columns["optimised"]}
+    papers = {"reference car": experiment.reference_design(), "published optimum": experiment.optimised_design()}
+    designs = dict(own or papers)
+    travel = run.objectives[:, problem.objectives.index("SWS")]
+    starts = run.designs[np.abs(travel - limit).argsort(kind="stable")[:_STARTS]]
+    for objective in ("ACC", "DTL"):
+        name = f"least {objective} up to the limit" if own else f"exact, least {objective}"
+        designs[name] = least_within_limit(problem, limit, objective, starts, at_limit=not own)
+    for objective in ("ACC", "DTL"):
+        below = 1.0 if own else AT_LIMIT
+        designs[f"picked, least {objective}"] = pick_at_limit(problem, run, limit, objective, below)
+    return tables.beside_published(problem, designs, {} if own else published)

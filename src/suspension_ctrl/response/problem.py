@@ -207,6 +207,15 @@ class RideProblem(Record):
         """The compiled evaluation of one design; None with measures of handling or of a user's own."""
         return self._scores.kernel(self.nodes) if self._scores.compiled else None
 
+    def describe(self) -> list[str]:
+        """Return limits and load cases in words, a line each."""
+        lines = [f"Limits: {', '.join(self.constraints)}."] if self.constraints else []
+        if len(self.cases) > 1:
+            how = "their worst" if self.worst_case else "their mean square by shares"
+            lines.append(f"Objectives are over {len(self.cases)} load cases, {how}; limits hold in each.")
+        cases = enumerate(self.cases, start=1)
+        return lines + [f"Case {n}, share {case.share:g}: {case.describe()}." for n, case in cases]
+
     def __repr__(self) -> str:
         units = self.units
         parts = [

@@ -1,7 +1,7 @@
 """Work spread over processes and machines by Dask, or done here: the same results in any order."""
 
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import TYPE_CHECKING, Any, TypeVar
 from uuid import uuid4
 
@@ -68,6 +68,19 @@ def scheduler_at(address: str, timeout: float = 10.0) -> Iterator["Client"]:
         except TimeoutError:
             raise ValueError(f"scheduler must have a worker, got {address!r} without one") from None
         yield client
+
+
+def cluster(jobs: int | None = None, scheduler: str | None = None) -> AbstractContextManager["Client | None"]:
+    """Return a context with a client of so many processes or of a scheduler, or with None for work done here."""
+    if jobs is not None and scheduler is not None:
+        raise ValueError(f"jobs must stand without scheduler, got {jobs} and {scheduler!r}")
+    if jobs is not None:
+        checks.at_least("jobs", jobs, 1)
+        return local_cluster(jobs)
+    if scheduler is None:
+        return nullcontext()
+    check_address(scheduler)
+    return scheduler_at(scheduler)
 
 
 def outcomes(
