@@ -158,7 +158,7 @@ def private_names(tree: ast.AST) -> set[str]:
                 found.add(name)
             case ast.Call(func=ast.Attribute(attr="setattr"), args=[_, ast.Constant(value=str(name)), *_]):
                 found.add(name)
-    return {name for name in found if name.startswith("_") and not name.endswith("__")} - NAMED_TUPLES
+    return {name for name in found if name.startswith("_") and not name.endswith("_")} - NAMED_TUPLES
 
 
 NAMED_TUPLES = {"_asdict", "_fields", "_make", "_replace"}
