@@ -227,7 +227,9 @@ def test_searches_of_the_full_car_find_more_than_25_000_random_designs(full_car)
 
 
 def test_a_study_in_full(tmp_path):
-    problem = load_problem(written(tmp_path, STUDY))
+    path = written(tmp_path, STUDY)
+    problem = load_problem(path)
+    assert load_problem(str(path)) == problem
     car = Seat(name="driver", mass=60.0, spring=8e3, damper=500.0).on(load_vehicle("minaker_half").vehicle)
     loaded = Payload(mass=100.0, position=(-1.0, 0.0)).on(car)
     assert problem.cases == (

@@ -1,4 +1,5 @@
 import pickle
+import re
 
 import control
 import numpy as np
@@ -77,3 +78,33 @@ def test_weightings_of_any_system_are_equal_by_its_numbers_and_picklable():
         for one in (kind, again):
             np.testing.assert_allclose(one.factor(f), np.abs(filter_(2j * np.pi * f)), rtol=rtol)
     assert len(set(kinds)) == 3
+
+
+def test_any_system_is_a_weighting_by_its_magnitude():
+    """Equal where the numbers are, whatever it is called; measured ones between their lines."""
+    filter_, f = weightings.weighting("Wk"), np.geomspace(0.5, 20.0, 50)
+    lines = 2 * np.pi * np.linspace(0.4, 21.0, 2000)
+    for system in (filter_, control.ss(filter_), control.frd(filter_(1j * lines), lines)):
+        one, other = (weightings.checked(system.copy(name=name)) for name in ("a", "b"))
+        assert one == other
+        assert hash(one) == hash(other)
+        assert (str(one), one.breakpoints) == ("a", ())
+        np.testing.assert_allclose(one.factor(f), weightings.by_name("Wk").factor(f), rtol=1e-7)
+    assert weightings.checked(filter_) != weightings.checked(2 * filter_)
+    assert filter_.name == "Wk"
+
+
+@pytest.mark.parametrize(
+    ("system", "message"),
+    [
+        (control.rss(2, 2, 1), "weighting must have one input and one output in continuous time, got 1 and 2"),
+        (
+            control.tf([1], [1, 1], 0.1),
+            "weighting must have one input and one output in continuous time, got 1 and 1",
+        ),
+        (3.0, "weighting must be one of Wk, Wd, Wf, Wc, We, Wj, Wb, Wk-table, Wb-table, got 3.0"),
+    ],
+)
+def test_what_is_no_weighting(system, message):
+    with pytest.raises(ValueError, match="^" + re.escape(message)):
+        weightings.checked(system)

@@ -81,30 +81,13 @@ def _table1() -> dict[str, dict[str, str]]:
     return {row["symbol"]: row for row in datafiles.rows("paper/table1_vehicle.csv")}
 
 
-VEHICLE_HELP = "Vehicle in place of the paper's: path of a TOML file, or the name of one that comes along."
-
-
-ROAD_HELP = "Road in place of the paper's: class of ISO 8608 (C, C-lower, C-upper), or path of a CSV or TOML file."
-
-
 def chosen(
     vehicle: str | None, road: str | None, speed: float | None, **settings: Any
 ) -> tuple[RideProblem, Mapping[str, float]]:
     """Return the paper's problem with another vehicle, road or speed, and the vehicle's own setting.
 
-    Parameters
-    ----------
-    vehicle, road : str, optional
-        As for `load_vehicle` and `load_road`.
-    speed : float, optional
-        Vehicle speed [m/s].
-    **settings
-        Further parameters of `RideProblem`.
-
-    Raises
-    ------
-    ValueError
-        If a file is not in order, has no bounds, or the settings do not fit.
+    Names and files are those of `load_vehicle` and `load_road`, settings further parameters of `RideProblem`.
+    ValueError for a vehicle without bounds.
     """
     papers = ride_problem()
     changes: dict[str, Any] = {

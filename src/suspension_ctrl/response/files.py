@@ -29,8 +29,8 @@ _KEYS = (
 _CASE = ("vehicle", "road", "speed_m_per_s", "share", "payload", "roll_geometry")
 
 
-def load_problem(path: Path) -> RideProblem:
-    """Return the problem that a TOML file holds.
+def load_problem(path: str | Path) -> RideProblem:
+    """Return the problem of a TOML file.
 
     Raises
     ------
@@ -39,6 +39,7 @@ def load_problem(path: Path) -> RideProblem:
     OSError
         If it, or a file that it names, cannot be read.
     """
+    path = Path(path)
     with naming(path):
         table = read_toml(path)
         table.check_keys(dict(zip(_KEYS, _KEYS, strict=True)), ["cases", "measures"])

@@ -41,12 +41,8 @@ class RoughnessIndex(Record):
 def golden_car() -> control.StateSpace:
     """Return the reference quarter car, with masses per mass of the body.
 
-    Tyre 653 1/s^2, spring 63.3 1/s^2, damper 6.0 1/s and wheel 0.15, the golden car of [1]_ and [2]_.
-
-    Returns
-    -------
-    control.StateSpace
-        From ``road`` to ``suspension_travel`` in the same unit: elevations [m] or, as it is linear, slopes [m/m].
+    Tyre 653 1/s^2, spring 63.3 1/s^2, damper 6.0 1/s and wheel 0.15, the golden car of [1]_ and [2]_: from
+    ``road`` to ``suspension_travel`` in the same unit, elevations [m] or, as it is linear, slopes [m/m].
 
     References
     ----------
@@ -102,7 +98,7 @@ def international_roughness_index(profile: Profile) -> RoughnessIndex:
 
 
 def _mean_rectified(slope: Real, first: float, dt: float) -> float:
-    """Mean magnitude of the car's response to slopes (k,), each held for `dt` [s], after steady slope `first`."""
+    """Return the mean magnitude of the response to slopes (k,) of `dt` [s] each, after steady slope `first`."""
     car = golden_car()
     at_rest = -np.linalg.solve(car.A, car.B)[:, 0] * first
     sampled = control.sample_system(car, dt, method="zoh")

@@ -120,7 +120,7 @@ def weighting(name: str) -> control.TransferFunction:
         transition and upward step of ISO 8041-1 with the weighting's gain.
     """
     checks.one_of("weighting", name, FILTERS)
-    return _filter(name).copy()
+    return _filter(name).copy(name=name)
 
 
 @lru_cache
