@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib import colormaps
@@ -32,14 +32,8 @@ def weighting_factors(ax: Axes, filters: Sequence[str], tables: Sequence[str]) -
     for colour, name in zip(COLOURS, filters, strict=False):
         ax.loglog(f, by_name(name).factor(f), color=colour, label=f"{name}, filter")
     for colour, name in zip(COLOURS, tables, strict=False):
-        ax.loglog(
-            BANDS,
-            by_name(name).factor(BANDS),
-            "o",
-            ms=3.5,
-            color=colour,
-            label=f"{name.removesuffix('-table')}, table",
-        )
+        label = f"{name.removesuffix('-table')}, table"
+        ax.loglog(BANDS, by_name(name).factor(BANDS), "o", ms=3.5, color=colour, label=label)
     ax.set_xlabel("frequency [Hz]")
     ax.set_ylabel("weighting factor [-]")
     ax.grid(which="both", alpha=0.3)
@@ -96,8 +90,7 @@ def weighted_name(response: str) -> str:
     return f"weighted_{response.removeprefix('body_')}"
 
 
-@dataclass(frozen=True)
-class _Panel:
+class _Panel(NamedTuple):
     title: str
     unit: str
     density_unit: str

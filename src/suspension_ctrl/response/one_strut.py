@@ -18,16 +18,8 @@ class OneStrut(NamedTuple):
     c = -P22. Both |a + b D|^2 and |1 + c D|^2 are linear in the powers 1, K, C, K^2, C^2 of a design. Only
     numerators that are not zero at every frequency are kept.
 
-    Parameters
-    ----------
-    denominator : (5, n) ndarray
-        Coefficients of |1 + c D|^2 at n frequencies.
-    numerators : (q, n) ndarray
-        Coefficients of |a + b D|^2, each times the density to integrate it with.
-    term, power : (q,) ndarray
-        Term and power of a numerator.
-    terms : int
-        Number of terms k.
+    The denominator (5, n) has the coefficients of |1 + c D|^2 at n frequencies, the numerators (q, n) those of
+    |a + b D|^2 times a density, `term` and `power` (q,) what each belongs to, of `terms` in all.
     """
 
     denominator: Real
