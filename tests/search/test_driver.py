@@ -1,16 +1,18 @@
 """What every optimiser owes: budgets, seeds, histories, and clear errors."""
 
 import json
+import pickle
 import re
 import subprocess
 import sys
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
-from functions import dtlz2, zdt1
-from suspension_ctrl import MoeadDra, Nsga2, Problem, minimise
+from functions import dtlz2, slow, zdt1
+from suspension_ctrl import MoeadDra, Nsga2, Problem, Run, minimise
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.gamultiobj import Gamultiobj
 from suspension_ctrl.search.sampling import Sampling
@@ -27,6 +29,8 @@ OPTIMISERS = {
     "random": Sampling(population=40, points="random"),
     "sobol": Sampling(population=40),
 }
+
+PROBLEM = zdt1(4)
 
 every_optimiser = pytest.mark.parametrize("optimiser", OPTIMISERS.values(), ids=OPTIMISERS.keys())
 
@@ -140,10 +144,10 @@ def test_any_number_of_variables(optimiser):
 @pytest.mark.parametrize(
     ("budget", "message"),
     [
-        ({}, "exactly one of iterations and evaluations must be given, got None and None"),
+        ({}, "one of iterations and evaluations, or seconds, must be given, got None, None and None"),
         (
             {"iterations": 1, "evaluations": 99},
-            "exactly one of iterations and evaluations must be given, got 1 and 99",
+            "one of iterations and evaluations, or seconds, must be given, got 1, 99 and None",
         ),
         ({"iterations": 0}, "iterations must be a whole number >= 1, got 0"),
         ({"iterations": 2.5}, "iterations must be a whole number >= 1, got 2.5"),
@@ -254,3 +258,80 @@ def test_evaluations_are_counted_where_they_are_made():
     toolbox = optimiser.toolbox(problem)
     toolbox.register("tournament", lambda rng, objectives, crowding, size: np.arange(size // 2))
     assert minimise(problem, optimiser, iterations=3, seed=0, toolbox=toolbox).evaluations == 40 + 3 * 20
+
+
+@pytest.mark.parametrize("optimiser", [Nsga2(population=20), MoeadDra(population=20)], ids=["nsga2", "moead-dra"])
+def test_callbacks_get_the_run_so_far_and_may_end_it(optimiser):
+    seen = []
+    run = minimise(
+        PROBLEM, optimiser, iterations=9, seed=1, callback=lambda run: seen.append(run) or len(seen) == 4
+    )
+    assert len(seen) == 4
+    for iterations, so_far in enumerate(seen, 1):
+        alone = minimise(PROBLEM, optimiser, iterations=iterations, seed=1)
+        np.testing.assert_array_equal(so_far.designs, alone.designs)
+        assert so_far.evaluations == alone.evaluations
+        assert len(so_far.history) == iterations + 1
+    np.testing.assert_array_equal(run.designs, seen[-1].designs)
+
+
+def test_seconds_end_a_search_alone_or_beside_another_budget():
+    problem = Problem(evaluate=slow, lower=(0.0,) * 4, upper=(1.0,) * 4, objectives=("f1", "f2"))
+    alone = minimise(problem, Nsga2(population=8), seconds=0.2, seed=0)  # an evaluation takes 0.03 s
+    assert 2 <= len(alone.history) <= 9
+    beside = minimise(problem, Nsga2(population=8), iterations=10**6, seconds=0.1, seed=0)
+    assert 2 <= len(beside.history) <= 6
+    assert len(minimise(problem, Nsga2(population=8), evaluations=24, seconds=60.0, seed=0).history) == 3
+    with pytest.raises(ValueError, match=r"^seconds must be finite and > 0 s, got 0$"):
+        minimise(problem, Nsga2(population=8), seconds=0)
+
+
+def starts(designs: np.ndarray, run: Run) -> dict:
+    frame = run.to_frame()
+    return {"array": designs, "list": designs.tolist(), "run": run, "frame": frame, "mixed": frame.iloc[:, ::-1]}
+
+
+@pytest.mark.parametrize("kind", ["array", "list", "run", "frame", "mixed"])
+def test_given_designs_take_the_place_of_the_first_sampled_ones(kind):
+    ride = paper.ride_problem(nodes=256)
+    before = minimise(ride, Nsga2(population=8), iterations=3, seed=5)
+    start = starts(before.designs, before)[kind]
+    for optimiser in (Nsga2(population=20), MoeadDra(population=20), Gamultiobj(population=20)):
+        toolbox = optimiser.toolbox(ride)
+        sampled = toolbox.sample(np.random.default_rng(7), 20)
+        seen = []
+        toolbox.register("evaluate", lambda x, seen=seen: seen.append(x) or ride.evaluate(x))
+        minimise(ride, optimiser, iterations=1, seed=7, start=start, toolbox=toolbox)
+        np.testing.assert_array_equal(seen[0], np.concatenate([before.designs, sampled[8:]]))
+
+
+@pytest.mark.parametrize(
+    ("start", "message"),
+    [
+        (np.zeros((21, 2)) + 20e3, "start must lie within"),
+        ([20e3, 2e3], "start must have shape (k, 2), got (2,)"),
+        ([[20e3, 2e3]] * 21, "start must have no more designs than the population, 20, got 21"),
+        (
+            pd.DataFrame({"spring [N/m]": [2e4]}),
+            "start must have the columns spring [N/m], damper [N s/m], got none",
+        ),
+    ],
+)
+def test_rejects_starts_that_do_not_fit(start, message):
+    with pytest.raises(ValueError, match="^" + re.escape(message)):
+        minimise(paper.ride_problem(nodes=256), Nsga2(population=20), iterations=1, start=start)
+
+
+def test_a_sample_has_no_start():
+    with pytest.raises(ValueError, match=r"^start must be None for an optimiser whose toolbox has no verb sample"):
+        minimise(PROBLEM, Sampling(population=8), iterations=1, start=np.zeros((1, len(PROBLEM.lower))))
+
+
+def test_runs_are_shown_in_a_few_lines_and_pickled():
+    run = minimise(paper.ride_problem(nodes=256), Nsga2(population=20), iterations=1, seed=0)
+    lines = repr(run).splitlines()
+    assert lines[0] == "Run: 20 designs, 20 feasible"
+    assert re.fullmatch(r"    least ACC \S+ m/s\^2, SWS \S+ m, DTL \S+ N", lines[1])
+    assert re.fullmatch(r"    40 evaluations, \S+ s, seed 0", lines[2])
+    assert pickle.loads(pickle.dumps(run)) == run
+    assert not run.designs.flags.writeable

@@ -1,22 +1,25 @@
 """Run an optimiser on a problem: budget, seed, timings and history in one place."""
 
+import itertools
 import warnings
-from collections.abc import Iterator, Sequence
-from copy import copy
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
+from math import inf
 from time import perf_counter, process_time
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 from deap.base import Toolbox
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike
 
 from .. import checks
+from ..quantities import Real, unit
 from .clock import PhaseClock
-from .constraints import InfeasibleWarning, violations
-from .population import State
-from .problem import Minimisable
+from .constraints import InfeasibleWarning
+from .deap_adapter import with_deap_operators
+from .population import Population, State
+from .problem import Minimisable, headers_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -43,18 +46,12 @@ class Optimiser(Protocol):
         """Yield the state after the start and after each iteration, without end."""
 
 
-@dataclass(frozen=True, eq=False)
-class Run:
-    """Result of `minimise`.
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Run(Population):
+    """Result of `minimise`: the final population and how it came about.
 
     Attributes
     ----------
-    designs : (n, d) ndarray
-        Final population.
-    objectives : (n, m) ndarray
-        Its objectives.
-    constraints : (n, c) ndarray
-        Values g of its constraints, met where g <= 0.
     evaluations : int
         Designs evaluated, the start included.
     seconds, cpu_seconds : float
@@ -65,24 +62,11 @@ class Run:
         What `history` is made of.
     """
 
-    designs: NDArray[np.float64]
-    objectives: NDArray[np.float64]
-    constraints: NDArray[np.float64]
     evaluations: int
-    seconds: float
-    cpu_seconds: float
+    seconds: float = field(metadata=unit("s"))
+    cpu_seconds: float = field(metadata=unit("s"))
     seed: int
     log: "Log"
-
-    @cached_property
-    def violation(self) -> NDArray[np.float64]:
-        """Total violation of each design (n,): the sum of max(0, g) over its constraints."""
-        return violations(self.constraints, 0)
-
-    @property
-    def feasible(self) -> NDArray[np.bool_]:
-        """Which designs meet all constraints (n,)."""
-        return self.violation == 0
 
     @cached_property
     def history(self) -> "pd.DataFrame":
@@ -95,14 +79,18 @@ class Run:
         """
         import pandas as pd  # a third of a second: not at import of the package, nor in a run
 
-        return pd.DataFrame(self.log.rows, columns=self.log.columns)
+        return pd.DataFrame(list(self.log.rows), columns=list(self.log.columns))
+
+    def __repr__(self) -> str:
+        spent = f"    {self.evaluations} evaluations, {self.seconds:.3g} s, seed {self.seed}"
+        return f"{super().__repr__()}\n{spent}"
 
 
 class Log(NamedTuple):
     """Rows and columns of a history, before a table is made of them."""
 
-    columns: list[str]
-    rows: list[tuple[float, ...]]
+    columns: tuple[str, ...]
+    rows: tuple[tuple[float, ...], ...]
 
 
 def minimise(
@@ -111,8 +99,11 @@ def minimise(
     *,
     iterations: int | None = None,
     evaluations: int | None = None,
+    seconds: float | None = None,
     seed: int | None = None,
     toolbox: Toolbox | None = None,
+    start: "ArrayLike | Population | pd.DataFrame | None" = None,
+    callback: Callable[[Run], object] | None = None,
 ) -> Run:
     """Search for the Pareto-optimal designs of a problem.
 
@@ -123,12 +114,19 @@ def minimise(
     optimiser : Nsga2 or MoeadDra
         The algorithm with its settings.
     iterations, evaluations : int
-        Exactly one of them: iterations after the start, or a number of evaluations, of which as many whole
+        At most one of them: iterations after the start, or a number of evaluations, of which as many whole
         iterations are made as it allows.
+    seconds : float
+        Wall-clock time after which no further iteration is begun [s]; alone or beside one of the others, the
+        first to be spent ends the search.
     seed : int, optional
         Seed of every random draw; a fresh one, kept in the result, if not given.
     toolbox : deap.base.Toolbox, optional
-        The optimiser's toolbox for this problem with some verbs exchanged.
+        The optimiser's toolbox for this problem with some verbs exchanged, by DEAP's operators too.
+    start : (k, d) array_like, Population or DataFrame, optional
+        Designs that take the place of the first k sampled ones; of a DataFrame the columns of the variables.
+    callback : callable, optional
+        Gets the run so far after each iteration; True ends the search.
 
     Returns
     -------
@@ -138,8 +136,8 @@ def minimise(
     Raises
     ------
     ValueError
-        If the budget is not one of the two or too small, the seed is negative, or the problem's evaluation
-        returns a wrong shape or a value that is not finite.
+        If no budget is given or one is too small, the seed is negative, `start` does not fit, or the problem's
+        evaluation returns a wrong shape or a value that is not finite.
 
     Warns
     -----
@@ -147,29 +145,79 @@ def minimise(
         If no design of the final population meets all constraints.
     """
     per_iteration = optimiser.evaluations_per_iteration(len(problem.objectives))
-    count = _iteration_count(optimiser.population, per_iteration, iterations, evaluations)
+    count = _iteration_count(optimiser.population, per_iteration, iterations, evaluations, seconds)
     if seed is None:
         seed = int(np.random.SeedSequence().generate_state(1)[0])
     checks.at_least("seed", seed, 0)
-    toolbox = copy(toolbox or optimiser.toolbox(problem))
+    toolbox = with_deap_operators(toolbox or optimiser.toolbox(problem), problem)
+    if start is not None:
+        _start_from(toolbox, problem, optimiser.population, start)
     clock = PhaseClock(toolbox, optimiser.phases)
-    search = optimiser.search(problem, toolbox, np.random.default_rng(seed))
-    rows = []
+    rows: list[tuple[float, ...]] = []
+    end = perf_counter() + (inf if seconds is None else seconds)
+    for state in _timed(optimiser.search(problem, toolbox, np.random.default_rng(seed)), clock, rows):
+        if callback and len(rows) > 1 and callback(_run(problem, state, clock, rows, seed)):
+            break
+        if len(rows) > count or perf_counter() >= end:
+            break
+    run = _run(problem, state, clock, rows, seed)
+    if problem.constraints and not run.feasible.any():
+        warnings.warn(_infeasible(problem.constraints, run), InfeasibleWarning, stacklevel=2)
+    return run
+
+
+def _timed(search: Iterator[State], clock: PhaseClock, rows: list[tuple[float, ...]]) -> Iterator[State]:
+    """Yield the states of a search, adding for each a row to those of the log."""
     wall = cpu = 0.0
-    for iteration in range(count + 1):
+    for iteration in itertools.count():
         wall_start, cpu_start = perf_counter(), process_time()
         state = next(search)
         wall, cpu = wall + perf_counter() - wall_start, cpu + process_time() - cpu_start
         rows.append((iteration, state.evaluations, wall, cpu, *clock.seconds.values(), *state.ideal))
-    seconds = [f"{phase}_seconds" for phase in clock.seconds]
+        yield state
+
+
+def _run(
+    problem: Minimisable, state: State, clock: PhaseClock, rows: Sequence[tuple[float, ...]], seed: int
+) -> Run:
+    phases = [f"{phase}_seconds" for phase in clock.seconds]
     ideal = [f"ideal_{name}" for name in problem.objectives]
-    log = Log(["iteration", "evaluations", "seconds", "cpu_seconds", *seconds, *ideal], rows)
-    run = Run(
-        state.designs, state.objectives, state.constraints, int(state.evaluations), wall, cpu, int(seed), log
+    return Run(
+        designs=state.designs,
+        objectives=state.objectives,
+        constraints=state.constraints,
+        headers=headers_of(problem),
+        evaluations=int(state.evaluations),
+        seconds=rows[-1][2],
+        cpu_seconds=rows[-1][3],
+        seed=int(seed),
+        log=Log(("iteration", "evaluations", "seconds", "cpu_seconds", *phases, *ideal), tuple(rows)),
     )
-    if problem.constraints and not run.feasible.any():
-        warnings.warn(_infeasible(problem.constraints, run), InfeasibleWarning, stacklevel=2)
-    return run
+
+
+def _start_from(toolbox: Toolbox, problem: Minimisable, size: int, start: Any) -> None:
+    """Have the toolbox sample the designs of `start` first."""
+    if isinstance(start, Population):
+        start = start.designs
+    elif hasattr(start, "columns"):
+        variables = list(headers_of(problem)[: len(problem.lower)])
+        if missing := [name for name in variables if name not in start.columns]:
+            raise ValueError(f"start must have the columns {', '.join(variables)}, got none called {missing[0]}")
+        start = start[variables].to_numpy()
+    designs = np.array(start, dtype=float)
+    if designs.ndim != 2 or designs.shape[1] != len(problem.lower):
+        raise ValueError(f"start must have shape (k, {len(problem.lower)}), got {designs.shape}")
+    checks.rows_within("start", designs, problem.lower, problem.upper)
+    if len(designs) > size:
+        raise ValueError(f"start must have no more designs than the population, {size}, got {len(designs)}")
+    sample: Callable[..., Real] | None = getattr(toolbox, "sample", None)
+    if sample is None:
+        raise ValueError("start must be None for an optimiser whose toolbox has no verb sample, got designs")
+
+    def sample_the_rest(rng: np.random.Generator, count: int) -> Real:
+        return np.concatenate([designs, sample(rng, count)[len(designs) :]])
+
+    toolbox.register("sample", sample_the_rest)
 
 
 def _infeasible(names: Sequence[str], run: Run) -> str:
@@ -181,13 +229,20 @@ def _infeasible(names: Sequence[str], run: Run) -> str:
     )
 
 
-def _iteration_count(start: int, per_iteration: int, iterations: int | None, evaluations: int | None) -> int:
+def _iteration_count(
+    start: int, per_iteration: int, iterations: int | None, evaluations: int | None, seconds: float | None
+) -> float:
+    if seconds is not None:
+        checks.positive("seconds", seconds, "s")
     if iterations is not None and evaluations is None:
         checks.at_least("iterations", iterations, 1)
         return iterations
     if evaluations is not None and iterations is None:
         checks.at_least("evaluations", evaluations, start + per_iteration)
         return (evaluations - start) // per_iteration
+    if iterations is None and seconds is not None:
+        return inf
     raise ValueError(
-        f"exactly one of iterations and evaluations must be given, got {iterations!r} and {evaluations!r}"
+        "one of iterations and evaluations, or seconds, must be given, "
+        f"got {iterations!r}, {evaluations!r} and {seconds!r}"
     )

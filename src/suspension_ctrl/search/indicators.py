@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
 
-from ..quantities import Record, frozen_array
+from ..quantities import Real, Record, frozen_array
 from .decomposition import farthest_first
 
 
@@ -16,7 +16,12 @@ def non_dominated(objectives: ArrayLike) -> NDArray[np.bool_]:
     return moocore.is_nondominated(objectives, keep_weakly=True)
 
 
-def evenly_spread(objectives: NDArray[np.float64], size: int) -> NDArray[np.int64]:
+def best_of(objectives: Real) -> Real:
+    """Return those of the objectives (n, m) that no other one dominates."""
+    return objectives[non_dominated(objectives)]
+
+
+def evenly_spread(objectives: Real, size: int) -> NDArray[np.int64]:
     """Return which `size` of the objectives (n, m) to keep so that they cover the set evenly, in ascending order.
 
     The ones with the least of each objective, then each time the one farthest from all kept, each objective
@@ -52,9 +57,9 @@ class ReferenceFront(Record):
         Hypervolume of the whole front in scaled objectives [-].
     """
 
-    objectives: NDArray[np.float64]
-    ideal: NDArray[np.float64]
-    nadir: NDArray[np.float64]
+    objectives: Real
+    ideal: Real
+    nadir: Real
     volume: float
 
     HYPERVOLUME_REFERENCE = 1.1
@@ -67,7 +72,7 @@ class ReferenceFront(Record):
         self._keep(**{name: frozen_array(getattr(self, name)) for name in ("objectives", "ideal", "nadir")})
 
     @classmethod
-    def of(cls, objectives: NDArray[np.float64]) -> "ReferenceFront":
+    def of(cls, objectives: Real) -> "ReferenceFront":
         """Return the front of mutually non-dominated objectives (n, m)."""
         ideal, nadir = objectives.min(axis=0), objectives.max(axis=0)
         whole = cls(objectives, ideal, nadir, 0.0)
@@ -82,7 +87,7 @@ class ReferenceFront(Record):
             self, objectives=self.scaled(self.objectives), ideal=0 * self.ideal, nadir=0 * self.nadir + 1
         )
 
-    def scaled(self, objectives: ArrayLike) -> NDArray[np.float64]:
+    def scaled(self, objectives: ArrayLike) -> Real:
         """Return objectives (n, m) with this front's ideal point at 0 and its nadir at 1."""
         return (np.asarray(objectives, dtype=float) - self.ideal) / (self.nadir - self.ideal)
 

@@ -1,50 +1,116 @@
-"""What a search hands out after each iteration."""
+"""A population: designs, their objectives and constraints; the record of states, runs and traces."""
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..quantities import Bool, Real, Record, frozen_array
 from .constraints import violations
+from .indicators import non_dominated
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
-@dataclass(frozen=True)
-class State:
-    """Population of a search.
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Population(Record):
+    """Designs with their objectives and constraints.
 
     Parameters
     ----------
     designs : (n, d) ndarray
+        The designs.
     objectives : (n, m) ndarray
+        Their objectives.
     constraints : (n, c) ndarray
-        Values g of the constraints, met where g <= 0.
+        Values g of their constraints, met where g <= 0.
+    headers : (d + m,) tuple of str
+        Names of variables and objectives with their units, such as "SWS [m]"; x1 .. xd, f1 .. fm if empty.
+    """
+
+    designs: Real
+    objectives: Real
+    constraints: Real
+    headers: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        for name in ("designs", "objectives", "constraints"):
+            object.__setattr__(self, name, frozen_array(getattr(self, name)))
+        if not self.headers:
+            counted = (("x", self.designs.shape[1]), ("f", self.objectives.shape[1]))
+            headers = tuple(f"{letter}{i + 1}" for letter, count in counted for i in range(count))
+            object.__setattr__(self, "headers", headers)
+
+    @cached_property
+    def violation(self) -> Real:
+        """Total violation of each design (n,): the sum of max(0, g) over its constraints."""
+        return frozen_array(violations(self.constraints, 0))
+
+    @property
+    def feasible(self) -> Bool:
+        """Which designs meet all constraints (n,)."""
+        return self.violation == 0
+
+    def to_frame(self) -> "pd.DataFrame":
+        """Return a row per design: variables, objectives and, where there are constraints, `violation`."""
+        import pandas as pd  # a third of a second: not at import of the package
+
+        table = pd.DataFrame(np.hstack([self.designs, self.objectives]), columns=list(self.headers))
+        return table.assign(violation=self.violation) if self.constraints.shape[1] else table
+
+    def front(self) -> "pd.DataFrame":
+        """Return the rows of the feasible designs that no other feasible one dominates, without `violation`."""
+        feasible = np.flatnonzero(self.feasible)
+        front = feasible[non_dominated(self.objectives[feasible])]
+        return self.to_frame()[list(self.headers)].iloc[front].reset_index(drop=True)
+
+    def _repr_html_(self) -> str:
+        return self.to_frame().to_html(max_rows=20)
+
+    def __repr__(self) -> str:
+        return (
+            f"{type(self).__name__}: {len(self.designs)} designs, {self.feasible.sum()} feasible\n{self._ideal()}"
+        )
+
+    def _ideal(self) -> str:
+        kept = self.objectives[self.feasible]
+        if not len(kept):
+            return "    no feasible design"
+        headers = self.headers[self.designs.shape[1] :]
+        named = zip(headers, kept.min(axis=0), strict=True)
+        return "    least " + ", ".join(_with_unit(header, value) for header, value in named)
+
+
+def _with_unit(header: str, value: float) -> str:
+    name, _, unit = header.partition(" [")
+    return f"{name} {value:.5g} {unit.removesuffix(']')}".rstrip()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class State(Population):
+    """The population of a search after an iteration.
+
+    Parameters
+    ----------
     ideal : (m,) ndarray
         Least value seen of each objective, among feasible designs as soon as there is one.
     evaluations : int
         Designs evaluated so far.
     """
 
-    designs: NDArray[np.float64]
-    objectives: NDArray[np.float64]
-    constraints: NDArray[np.float64]
-    ideal: NDArray[np.float64]
+    ideal: Real
     evaluations: int
 
     @classmethod
-    def of(
-        cls,
-        designs: NDArray[np.float64],
-        values: NDArray[np.float64],
-        ideal: NDArray[np.float64],
-        evaluations: int,
-    ) -> "State":
+    def of(cls, designs: Real, values: Real, ideal: Real, evaluations: int) -> "State":
         """Return the state of a population with these values (n, m + c)."""
-        m = ideal.size
-        objectives, constraints = np.ascontiguousarray(values[:, :m]), np.ascontiguousarray(values[:, m:])
-        return cls(designs, objectives, constraints, ideal, evaluations)
-
-    @cached_property
-    def violation(self) -> NDArray[np.float64]:
-        """Total violation of each design (n,): the sum of max(0, g) over its constraints."""
-        return violations(self.constraints, 0)
+        objectives, constraints = np.split(values, [ideal.size], axis=1)
+        return cls(
+            designs=designs,
+            objectives=objectives,
+            constraints=constraints,
+            ideal=frozen_array(ideal),
+            evaluations=evaluations,
+        )

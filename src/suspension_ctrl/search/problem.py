@@ -1,14 +1,15 @@
 """What the optimisers work on: objectives to be minimised over a box. They know no cars."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
 import numpy as np
 from numba.extending import is_jitted
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .. import checks
+from ..quantities import FrozenMapping, Real, Record, column_headers
 
 Kernel = tuple[Any, ...]
 """A numba-compiled function of a design (d,) to objectives and constraints (m + c,) and its further arguments.
@@ -41,7 +42,7 @@ class Minimisable(Protocol):
         """Objectives and constraints of one design as a compiled function, if there is one."""
 
     @property
-    def evaluate(self) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    def evaluate(self) -> Callable[[Real], Real]:
         """Function from designs (n, d) to objectives and constraints (n, m + c)."""
 
 
@@ -57,8 +58,8 @@ class Described(Minimisable, Protocol):
         """Unit of a variable or an objective by name."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Problem:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Problem(Record):
     """Two or more objectives to be minimised over a box of real variables.
 
     Parameters
@@ -87,7 +88,7 @@ class Problem:
         If the bounds are not finite or not lower < upper, the names do not fit, or the kernel is not compiled.
     """
 
-    evaluate: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+    evaluate: Callable[[Real], Real]
     lower: Sequence[float]
     upper: Sequence[float]
     objectives: Sequence[str]
@@ -106,9 +107,18 @@ class Problem:
         names = tuple(self.variables) or tuple(f"x{i + 1}" for i in range(len(self.lower)))
         if isinstance(self.variables, str) or not len(set(names)) == len(names) == len(self.lower):
             raise ValueError(f"variables must be {len(self.lower)} different names, got {self.variables!r}")
-        object.__setattr__(self, "variables", names)
         if self.kernel is not None and not _is_kernel(self.kernel):
             raise ValueError(f"kernel must be a function compiled by numba and a tuple, got {self.kernel!r}")
+        bounds = {
+            name: tuple(np.asarray(getattr(self, name), dtype=float).tolist()) for name in ("lower", "upper")
+        }
+        lists = {name: tuple(getattr(self, name)) for name in ("objectives", "constraints")}
+        for name, value in {"variables": names, "units": FrozenMapping(self.units), **bounds, **lists}.items():
+            object.__setattr__(self, name, value)
+
+    def replace(self, **changes: Any) -> "Problem":
+        """Return the problem with other parameters."""
+        return replace(self, **changes)
 
 
 def _is_kernel(kernel: object) -> bool:
@@ -120,9 +130,15 @@ def _is_kernel(kernel: object) -> bool:
     return False
 
 
-def evaluate_checked(
-    evaluate: Callable[[NDArray[np.float64]], ArrayLike], designs: NDArray[np.float64], problem: Minimisable
-) -> NDArray[np.float64]:
+def headers_of(problem: Minimisable) -> tuple[str, ...]:
+    """Return the names of variables and objectives with their units, () where a problem has no such names."""
+    names = [*getattr(problem, "variables", ()), *problem.objectives]
+    if len(names) < len(problem.lower) + len(problem.objectives):
+        return ()
+    return tuple(column_headers(names, getattr(problem, "units", {})))
+
+
+def evaluate_checked(evaluate: Callable[[Real], ArrayLike], designs: Real, problem: Minimisable) -> Real:
     """Return the values (n, m + c) of `designs` (n, d): the problem's objectives, then its constraints.
 
     The evaluation works on a copy and its answer is copied: it may spoil the one and reuse the other.

@@ -41,7 +41,7 @@ class Decomposed(NamedTuple):
 
     def state(self, evaluations: int) -> State:
         """Return a copy of what the search shows of itself after so many evaluations."""
-        return State.of(self.designs.copy(), self.values.copy(), self.ideal.copy(), evaluations)
+        return State.of(self.designs, self.values, self.ideal, evaluations)
 
     def span(self) -> Real:
         """Return the distance (m,) from the ideal point to the worst of each objective, 1 where there is none.

@@ -1,47 +1,31 @@
 """What a search has seen: its populations along the way and every design that it evaluated."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 from numba.extending import register_jitable
 from numpy.typing import NDArray
 
-from ..quantities import Real
+from ..quantities import FrozenMapping, Real
 from .compiled import call, verb_of
-from .constraints import violations
 from .driver import Optimiser
-from .population import State
+from .population import Population, State
 from .problem import Kernel, Minimisable
 
 
-@dataclass(frozen=True)
-class Trace:
-    """A search of which everything was kept.
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Trace(Population):
+    """All designs that a search evaluated, in order, and its populations along the way.
 
     Parameters
     ----------
-    states : dict of int to State
+    states : mapping of int to State
         By budget of evaluations, the state after the last iteration within it.
-    designs : (n, d) ndarray
-        All designs evaluated, in order.
-    objectives : (n, m) ndarray
-        Their objectives.
-    constraints : (n, c) ndarray
-        Values g of their constraints, met where g <= 0.
     """
 
-    states: dict[int, State]
-    designs: Real
-    objectives: Real
-    constraints: Real
-
-    @cached_property
-    def feasible(self) -> NDArray[np.bool_]:
-        """Which of the designs meet all constraints (n,)."""
-        return violations(self.constraints, 0) == 0
+    states: Mapping[int, State]
 
 
 def trace(problem: Minimisable, optimiser: Optimiser, budgets: Iterable[int], seed: int) -> Trace:
@@ -75,7 +59,8 @@ def trace(problem: Minimisable, optimiser: Optimiser, budgets: Iterable[int], se
         states |= dict.fromkeys(reached, state)
         if ordered[-1] in states:
             break
-    return Trace(states, *recorded.seen())
+    designs, objectives, constraints = recorded.seen()
+    return Trace(designs=designs, objectives=objectives, constraints=constraints, states=FrozenMapping(states))
 
 
 class Recorded:

@@ -13,7 +13,7 @@ import numpy as np
 from .. import checks, tables
 from ..quantities import Real
 from ..search.constraints import feasible_objectives
-from ..search.indicators import ReferenceFront, non_dominated
+from ..search.indicators import ReferenceFront, best_of
 from ..search.problem import Minimisable
 from .machine import provenance
 
@@ -77,13 +77,9 @@ def grid_front(problem: Minimisable, points: int) -> Real:
     for start in range(0, total, _CHUNK):
         places = np.unravel_index(np.arange(start, min(start + _CHUNK, total)), [points] * len(axes))
         designs = np.stack([axis[place] for axis, place in zip(axes, places, strict=True)], axis=-1)
-        merged = np.concatenate([front, _best(feasible_objectives(problem.evaluate(designs), m))])
-        front = _best(merged)
+        merged = np.concatenate([front, best_of(feasible_objectives(problem.evaluate(designs), m))])
+        front = best_of(merged)
     return front
-
-
-def _best(objectives: Real) -> Real:
-    return objectives[non_dominated(objectives)]
 
 
 def best_known(found: Sequence[Real]) -> ReferenceFront:
@@ -91,7 +87,7 @@ def best_known(found: Sequence[Real]) -> ReferenceFront:
     merged = np.concatenate(found)
     if len(merged) == 0:
         raise ValueError("constraints must leave a feasible design, got none in any run")
-    best = _best(merged)
+    best = best_of(merged)
     if not np.ptp(best, axis=0).all():
         raise ValueError(
             f"the best designs of all runs must differ in every objective, got {len(best)} that do not"

@@ -10,9 +10,9 @@ import numpy as np
 import pandas as pd
 
 from .. import checks
-from ..quantities import Bool, FrozenMapping, Real, Record
+from ..quantities import FrozenMapping, Real, Record
 from ..search.driver import Optimiser
-from ..search.indicators import ReferenceFront, evenly_spread, non_dominated
+from ..search.indicators import ReferenceFront, best_of, evenly_spread
 from ..search.problem import Minimisable
 from ..search.trace import Trace, trace
 from ..tables import file_name
@@ -151,9 +151,7 @@ class Study(Record):
             trace(self.problems[problem], optimiser, [max(self.budgets)], self.seeds[0])
             for optimiser in self.algorithms.values()
         ]
-        best = _best(
-            np.concatenate([one.objectives for one in seen]), np.concatenate([one.feasible for one in seen])
-        )
+        best = best_of(np.concatenate([one.objectives[one.feasible] for one in seen]))
         if len(best) == 0:
             raise ValueError(
                 f"references must hold {problem!r}, of which the runs from seed {self.seeds[0]} found no feasible "
@@ -207,8 +205,8 @@ def judged_run(
 
 def _judged(seen: Trace, budget: int, population: int, reference: ReferenceFront) -> Iterator[dict[str, Any]]:
     state = seen.states[budget]
-    archive = _best(seen.objectives[: state.evaluations], seen.feasible[: state.evaluations])
-    best = _best(state.objectives, state.violation == 0)
+    archive = best_of(seen.objectives[: state.evaluations][seen.feasible[: state.evaluations]])
+    best = best_of(state.objectives[state.feasible])
     sets = {POPULATION: cut(best, population), ARCHIVE: archive, CUT_ARCHIVE: cut(archive, population)}
     for name, objectives in sets.items():
         yield {
@@ -218,11 +216,6 @@ def _judged(seen: Trace, budget: int, population: int, reference: ReferenceFront
             "members": len(objectives),
             **{indicator: getattr(reference, indicator)(objectives) for indicator in INDICATORS},
         }
-
-
-def _best(objectives: Real, feasible: Bool) -> Real:
-    candidates = objectives[feasible]
-    return candidates[non_dominated(candidates)]
 
 
 def cut(objectives: Real, population: int) -> Real:

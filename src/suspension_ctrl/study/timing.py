@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping, MutableMapping
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from ..quantities import Real, column_headers
@@ -39,17 +38,14 @@ def carry_out(comparison: Comparison, store: MutableMapping[str, StoredRun]) -> 
             run = minimise(
                 comparison.problem, planned.optimiser, evaluations=planned.evaluations, seed=planned.seed
             )
-            final = population(comparison.problem, run, planned.optimiser.population)
+            final = population(run, planned.optimiser.population)
             store[planned.name] = StoredRun(run.history, final)
         yield planned
 
 
-def population(problem: Described, run: Run, size: int) -> pd.DataFrame:
+def population(run: Run, size: int) -> pd.DataFrame:
     """Return `size` final designs of a run, spread evenly if it has more, with objectives and any violation."""
-    names = column_headers([*problem.variables, *problem.objectives], problem.units)
-    kept = evenly_spread(run.objectives, size)
-    table = pd.DataFrame(np.hstack([run.designs[kept], run.objectives[kept]]), columns=names)
-    return table.assign(**{VIOLATION: run.violation[kept]}) if problem.constraints else table
+    return run.to_frame().iloc[evenly_spread(run.objectives, size)].reset_index(drop=True)
 
 
 def front(problem: Described, final: pd.DataFrame) -> pd.DataFrame:
