@@ -83,8 +83,10 @@ def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
     return drive(closed, *arguments, **options)
 
 
-def _drive_vehicle(vehicle: Vehicle, setting: Setting | Pair, *arguments: Any, **options: Any) -> "pd.DataFrame":
-    return _drive(vehicle.closed(setting), *arguments, **options | {"contact_points": vehicle.contact_points})
+def _drive_vehicle(
+    vehicle: Vehicle, setting: Setting | Pair, profile: Profile, speed: float, *, periodic: bool = False
+) -> "pd.DataFrame":
+    return _drive(vehicle.closed(setting), profile, speed, vehicle.contact_points, periodic=periodic)
 
 
 def _drive(
