@@ -43,6 +43,7 @@ def write(request: "Request", store: Store, timed: pd.DataFrame) -> None:
 def say(request: "Request", store: Store, timed: pd.DataFrame, origin: str) -> None:
     """Print the tables and what they rest on."""
     problem, comparison = request.problem, request.campaign.comparison
+    runs = comparison.timed_runs()
     found = printed.timed_tables(timed, request.published())
     for number, algorithm in printed.ALGORITHMS.items():
         if f"table{number}" in found:
@@ -55,12 +56,12 @@ def say(request: "Request", store: Store, timed: pd.DataFrame, origin: str) -> N
     weighted = f"ACC is weighted with {problem.weighting}. " if problem.weighted else ""
     terminal.note(f"{weighted}Hypervolume and IGD+ are medians over the repeats, against {origin}.")
     period = MoeadDra.utility_period
-    if min(comparison.iterations) <= period and any(name.startswith("moead") for name in comparison.algorithms):
+    if min(comparison.iterations) <= period and any(isinstance(run.optimiser, MoeadDra) for run in runs):
         terminal.note(
             f"In up to {period} iterations MOEA/D-DRA has not allocated resources yet: its utilities first change "
             f"after iteration {period}."
         )
-    finals = [store[run.name].final for run in comparison.timed_runs()]
+    finals = [store[run.name].final for run in runs]
     barren = sum(timing.feasible_rows(problem, final).empty for final in finals)
     if barren:
         terminal.note(f"{barren} of {len(finals)} timed runs found no design within the limits.")
