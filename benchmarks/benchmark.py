@@ -14,7 +14,7 @@ from scipy import signal
 from typer import Option
 
 from peers import OURS, Contenders, contenders
-from sections import evaluation, process, report, searches, summary
+from sections import cold_start, evaluation, process, report, searches, summary
 from suspension_ctrl import tables as files
 from suspension_ctrl.commands import results, terminal
 from suspension_ctrl.paper import experiment as paper
@@ -41,6 +41,7 @@ SETTINGS: dict[str, Any] = {
     "grid": 400,
     "compare": [],
     "import_repeats": 15,
+    "cold_repeats": 5,
 }
 QUICK = SETTINGS | {
     "repeats": 2,
@@ -57,6 +58,7 @@ QUICK = SETTINGS | {
     "grid": 100,
     "compare": ["--quick"],
     "import_repeats": 2,
+    "cold_repeats": 1,
 }
 
 
@@ -111,6 +113,7 @@ def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summar
         process=kept(
             "process", process.measure(COMPARE, settings["compare"], repeats, settings["import_repeats"])
         ),
+        cold_start=kept("cold_start", cold_start.measure(settings["cold_repeats"])),
         errors=evaluation.errors(problem, settings["sample"], seed=0),
         memory=evaluation.memory(settings["memory_designs"], settings["nodes"]),
         evaluation=kept(

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from peers import OURS, Contenders, Job
-from sections import evaluation, process, report, searches, summary, timing
+from sections import cold_start, evaluation, process, report, searches, summary, timing
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.indicators import ReferenceFront
 
@@ -154,10 +154,29 @@ def measurements(ours: float, theirs: float) -> summary.Measurements:
         moead=searched([1000]),
         target=searched([500]).assign(contender=lambda t: t.contender + ", NSGA-II"),
         process=pd.DataFrame([{"contender": n, "seconds": s} for n, s in imports.items()]),
+        cold_start=cold_starts(0.1, 1.0),
         errors=dict.fromkeys(names, 1e-8),
         memory=100.0,
         absent={"other": "ModuleNotFoundError: no"},
     )
+
+
+def cold_starts(filled: float, empty: float) -> pd.DataFrame:
+    rows = [(n, s, m) for n in cold_start.PROGRAMS for s, m in (("filled", filled), ("empty", empty))]
+    return pd.DataFrame(rows, columns=["contender", "store", "multiple"])
+
+
+def test_cold_starts_are_held_to_their_bars():
+    goals = cold_start.goals(cold_starts(0.5, 2.0))
+    assert [(what, multiple <= bar) for what, bar, multiple in goals] == [
+        ("import", False), ("first evaluate", False), ("first Nsga2", True), ("first MoeadDra", True),
+        ("second MoeadDra", True), ("second MoeadDra beyond evaluate", True),
+    ]  # fmt: skip
+
+
+def test_processor_time_is_that_of_the_program():
+    short, long = (cold_start.processor_seconds(f"sum(range({n}))", None) for n in (1, 10_000_000))
+    assert 0 < short < long < 30
 
 
 def test_goals_held_and_missed():

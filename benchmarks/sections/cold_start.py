@@ -1,0 +1,68 @@
+"""Section 6: processor time of a user's first run, with numba's store empty and filled."""
+
+import os
+import subprocess
+import sys
+from tempfile import TemporaryDirectory
+
+import pandas as pd
+
+CONTROL = "import control"
+IMPORT = f"{CONTROL}; from suspension_ctrl import MoeadDra, Nsga2, RideProblem, minimise"
+_PROBLEM = f"{IMPORT}; from suspension_ctrl.paper import experiment; problem = experiment.ride_problem()"
+PROGRAMS = {
+    "import": IMPORT,
+    "evaluate": f"{_PROBLEM}; problem.evaluate([[2e4, 1500.0]])",
+    "Nsga2": f"{_PROBLEM}; minimise(problem, Nsga2(population=500), iterations=10, seed=1)",
+    "MoeadDra": f"{_PROBLEM}; minimise(problem, MoeadDra(population=500), iterations=10, seed=1)",
+}
+"""What is run in a process of its own; the searches are the paper's, of 5,500 and 1,500 evaluations."""
+
+EMPTY, FILLED = "empty", "filled"
+
+
+def measure(repeats: int) -> pd.DataFrame:
+    """Return one row per program, repeat and state of the store: contender, repeat, store, seconds, multiple.
+
+    `multiple` is the processor time beyond that of `import control`, in multiples of it; the latter is the mean of
+    a process before and one after.
+    """
+    processor_seconds(CONTROL, None)  # brings the files into memory
+    rows = []
+    for repeat in range(1, repeats + 1):
+        for name, program in PROGRAMS.items():
+            with TemporaryDirectory() as folder:
+                for store in (EMPTY, FILLED):
+                    before = processor_seconds(CONTROL, None)
+                    seconds = processor_seconds(program, folder)
+                    control = (before + processor_seconds(CONTROL, None)) / 2
+                    multiple = seconds / control - 1
+                    rows.append((name, repeat, store, seconds, multiple))
+    return pd.DataFrame(rows, columns=["contender", "repeat", "store", "seconds", "multiple"])
+
+
+def processor_seconds(program: str, folder: str | None) -> float:
+    """Return the processor time [s] of a new process that runs a program, numba's store in `folder`."""
+    environment = os.environ | ({} if folder is None else {"NUMBA_CACHE_DIR": folder})
+    command = [sys.executable, "-c", f"{program}; import time; print(time.process_time())"]
+    return float(subprocess.run(command, check=True, capture_output=True, text=True, env=environment).stdout)
+
+
+def medians(timings: pd.DataFrame) -> pd.DataFrame:
+    """Return the median multiples by program, columns empty and filled."""
+    table = timings.pivot_table(index="contender", columns="store", values="multiple", aggfunc="median")
+    return table.loc[list(PROGRAMS), [EMPTY, FILLED]]
+
+
+def goals(timings: pd.DataFrame) -> list[tuple[str, float, float]]:
+    """Return what is to hold: what, largest multiple, and the one measured."""
+    table = medians(timings)
+    beyond = table[FILLED]["MoeadDra"] - table[FILLED]["evaluate"]
+    return [
+        ("import", 0.1, float(table[FILLED]["import"])),
+        ("first evaluate", 1.2, float(table[EMPTY]["evaluate"])),
+        ("first Nsga2", 3.0, float(table[EMPTY]["Nsga2"])),
+        ("first MoeadDra", 3.0, float(table[EMPTY]["MoeadDra"])),
+        ("second MoeadDra", 0.6, float(table[FILLED]["MoeadDra"])),
+        ("second MoeadDra beyond evaluate", 0.15, float(beyond)),
+    ]
