@@ -7,9 +7,13 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 
+from suspension_ctrl import Problem
+from suspension_ctrl.study.campaign import Campaign
+from suspension_ctrl.study.comparison import Comparison
 from suspension_ctrl.study.store import FolderStore
 
 RUNS, BUDGET, POPULATION = 24, 200, 20
@@ -165,3 +169,43 @@ def test_a_folder_without_permission_is_refused_in_one_line(tmp_path):
     assert status == 1
     assert error.startswith("error: [Errno 13] Permission denied: ")
     assert error.count("\n") == 1
+
+
+def test_a_campaign_in_a_program_resumes_from_its_folder(tmp_path):
+    """A cheap problem whose front is f2 = 1 - f1; what is stored is not evaluated again."""
+    evaluated = []
+
+    def evaluate(x):
+        evaluated.append(len(x))
+        return np.stack([x[:, 0], 1 - x[:, 0] + x[:, 1]], axis=1)
+
+    problem = Problem(evaluate=evaluate, lower=(0, 0), upper=(1, 1), objectives=("f1", "f2"))
+    comparison = Comparison(
+        problem=problem, algorithms=["nsga2", "sobol"], populations=[20], iterations=[2], repeats=2, seeds=3
+    )
+    watched = []
+
+    def watch(runs, total, text):
+        watched.append((text, total))
+        return runs
+
+    campaign = Campaign(comparison, tmp_path, tolerance=0.02, watch=watch)
+    store = campaign.time()
+    assert sorted(store) == sorted(run.name for run in comparison.timed_runs())
+    front, origin = campaign.reference(store, grid=False)
+    assert origin == "the non-dominated designs of all these runs"
+    table, judged = campaign.judge(front)
+    assert table.groupby(["algorithm", "seed"]).ngroups == len(judged) == 2 * 3
+    finals = comparison.studies()[20].finals(judged)
+    assert finals.groupby(["algorithm", "seed"]).size().between(1, 20).all()
+    assert (finals.f2 >= 1 - finals.f1 - 1e-12).all()
+    assert watched == [("timed runs", 4), ("quality, N = 20", 6)]
+
+    before = sum(evaluated)
+    again, _ = campaign.judge(front)
+    pd.testing.assert_frame_equal(again, table)
+    assert watched[-1] == ("quality, N = 20", 0)
+    assert sum(evaluated) == before + 64  # the sample that tells one problem from another
+    grid, origin = campaign.reference(store, grid=True)
+    assert origin.startswith("the non-dominated designs of a ")
+    assert grid.hypervolume(front.objectives) <= grid.volume
