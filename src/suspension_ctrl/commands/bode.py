@@ -92,7 +92,7 @@ def read_designs(path: Path, problem: "RideProblem") -> list[list[float]]:
 
 
 def design_label(values: Sequence[float]) -> str:
-    """Return what a design is called in legends and tables."""
+    """Return the label of a design."""
     if len(values) == 2:
         return f"{values[0] / 1e3:.10g} kN/m, {values[1] / 1e3:.10g} kN s/m"
     return ", ".join(f"{value:.6g}" for value in values)

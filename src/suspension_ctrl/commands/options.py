@@ -1,4 +1,4 @@
-"""Options of the commands, each declared once, and the numbers and names that their texts stand for."""
+"""Options of the commands, each declared once, and the parsers of their texts."""
 
 from collections.abc import Callable
 from functools import partial
@@ -9,7 +9,7 @@ from typer import BadParameter, Option
 
 
 def number(text: str, kind: type[float] = float, what: str = "a number") -> float:
-    """Return the number that an option's text stands for."""
+    """Parse a number; BadParameter names the option and the text."""
     try:
         return kind(text)
     except ValueError:
@@ -17,7 +17,7 @@ def number(text: str, kind: type[float] = float, what: str = "a number") -> floa
 
 
 def whole_number(text: str) -> float:
-    """Return the whole number that an option's text stands for."""
+    """Parse a whole number."""
     return number(text, int, "a whole number")
 
 
@@ -52,7 +52,7 @@ def names(text: str) -> list[str]:
 
 
 def settings(weighting: str | None, band: str | None) -> dict[str, Any]:
-    """Return those settings of a ride problem that are given."""
+    """Return the given settings of a ride problem."""
     given: dict[str, Any] = {} if weighting is None else {"weighting": weighting}
     return given if band is None else given | {"band": numbers("band", band, 2)}
 

@@ -41,7 +41,7 @@ def write(request: "Request", store: Store, timed: pd.DataFrame) -> None:
 
 
 def say(request: "Request", store: Store, timed: pd.DataFrame, origin: str) -> None:
-    """Print the tables and what they rest on."""
+    """Print the tables, the problem and the reference front."""
     problem, comparison = request.problem, request.campaign.comparison
     runs = comparison.timed_runs()
     found = printed.timed_tables(timed, request.published())

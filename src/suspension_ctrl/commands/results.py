@@ -1,4 +1,4 @@
-"""The folder for the results of a command, which held nothing before."""
+"""The folder for the results of a command: new, empty, or of a command to resume."""
 
 from contextlib import suppress
 from datetime import datetime

@@ -27,7 +27,7 @@ def ride(
 ) -> None:
     """Print the ride and the modes of one vehicle.
 
-    The vehicle is that of a file with its own struts, or a quarter car of given masses, tyre, spring and damper.
+    A vehicle from a file with its own struts, or a quarter car from masses, tyre, spring and damper.
     Writes ride.csv and modes.csv to a folder; its path is the last line printed.
     """
     from ..paper import experiment as paper

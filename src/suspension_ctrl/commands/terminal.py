@@ -74,13 +74,13 @@ def progress(items: Iterable[T], total: int, text: str = "") -> Iterator[T]:
 
 
 def waiting(text: str) -> AbstractContextManager[Any]:
-    """Return a context in which a terminal says what is being waited for."""
+    """Return a context that shows a text beside a spinner in a terminal, nothing in a pipe."""
     return stderr.status(text, spinner="line") if stderr.is_terminal else nullcontext()
 
 
 @contextmanager
 def compiling() -> Iterator[None]:
-    """Say in a terminal when numba begins to compile what it has not compiled before."""
+    """Announce the first compilation by numba in this context, in a terminal; code from its cache is none."""
     from numba.core import event
 
     class Compilation(event.Listener):

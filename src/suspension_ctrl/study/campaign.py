@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Campaign:
-    """A comparison in a folder of finished runs; a campaign that was stopped makes the missing ones alone.
+    """A comparison in a folder of finished runs; a stopped campaign resumes with the missing ones.
 
     Parameters
     ----------
