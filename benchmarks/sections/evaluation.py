@@ -32,7 +32,7 @@ def methods(problem: RideProblem) -> dict[str, Method]:
 
     def loop(magnitudes: Callable[[Any], NDArray[np.float64]]) -> Method:
         def evaluate(designs: NDArray[np.float64]) -> NDArray[np.float64]:
-            cars = (problem.vehicle.closed(spring, damper) for spring, damper in designs)
+            cars = (problem.vehicle.closed((spring, damper)) for spring, damper in designs)
             return np.sqrt([(densities * magnitudes(car) ** 2).sum(axis=1) for car in cars])
 
         return evaluate
@@ -69,7 +69,7 @@ def errors(problem: RideProblem, sample: int, seed: int) -> dict[str, float]:
 
 def adaptive(problem: RideProblem, spring: float, damper: float) -> list[float]:
     """Return the objectives of a design by scipy's adaptive quadrature of python-control's response."""
-    car = problem.vehicle.closed(spring, damper)
+    car = problem.vehicle.closed((spring, damper))
     resonances = sorted({abs(pole) / (2 * np.pi) for pole in car.poles()})
     low, high = problem.band
 

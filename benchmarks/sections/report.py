@@ -197,7 +197,7 @@ def picture(found: Measurements) -> Figure:
     """Draw seconds against population, a line per library, ours thick."""
     table = medians(found.nsga2, "population")
     names = sorted(table.contender.unique(), key=lambda name: (name != OURS, name))
-    colours = ["black", *colormaps["tab10"].colors]
+    colours = ["black", *colormaps["tab10"](range(10))]
     figure = Figure(figsize=(8, 5), layout="constrained")
     ax = figure.subplots()
     for name, colour in zip(names, colours, strict=False):

@@ -1,7 +1,8 @@
 """Sections 2 and 3: NSGA-II and MOEA/D of every library on the same problem with the same evaluator."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -70,6 +71,10 @@ def working(field: Contenders, problem: Minimisable) -> Contenders:
     return field._replace(nsga2=nsga2, moead=moead, absent=absent)
 
 
+def _prepared(prepare: Prepare, task: Task, seed: int) -> Callable[[], Any]:
+    return prepare(replace(task, seed=seed)).run
+
+
 def by_population(
     searches: Mapping[str, Prepare],
     problem: Minimisable,
@@ -91,10 +96,7 @@ def by_population(
         task = Task(problem, population, generations, 0)
         entries = {n: s for n, s in searches.items() if expected[n] * population <= limit}
         found = take_turns(
-            {
-                name: lambda seed, prepare=prepare, task=task: prepare(replace(task, seed=seed)).run
-                for name, prepare in entries.items()
-            },
+            {name: partial(_prepared, prepare, task) for name, prepare in entries.items()},
             repeats,
             limit,
         )
@@ -106,7 +108,7 @@ def by_population(
     return table.assign(evaluations=table.contender.map(counts).where(table.population == task.population))
 
 
-@njit
+@njit(cache=True)
 def scaled(
     objectives: NDArray[np.float64], ideal: NDArray[np.float64], span: NDArray[np.float64]
 ) -> NDArray[np.float64]:
