@@ -25,8 +25,12 @@ SWS_LIMIT = 0.0287
 """Design limit of the suspension working space [m]."""
 
 
+def _table1() -> dict[str, dict[str, str]]:
+    return {row["symbol"]: row for row in datafiles.rows("paper/table1_vehicle.csv")}
+
+
 def ride_problem(**changes: Any) -> RideProblem:
-    """Return the problem of Table 1; keyword arguments take the place of `RideProblem`'s, e.g. ``weighting``."""
+    """Return the problem of Table 1 with changed parameters of `RideProblem`, e.g. ``weighting``."""
     rows = _table1()
     value = {symbol: float(row["value"]) for symbol, row in rows.items() if row["value"]}
     car = QuarterCar(body_mass=value["Mb"], wheel_mass=value["Mw"], tyre_stiffness=value["Kt"])
@@ -53,10 +57,7 @@ def optimised_design() -> tuple[float, float]:
 
 
 def table5() -> dict[str, dict[str, float]]:
-    """Return the columns ``reference`` and ``optimised`` of Table 5 by quantity.
-
-    Ks [N/m], Cs [N s/m], SWS [m], ACC [m/s^2], DTL [N].
-    """
+    """Return ``reference`` and ``optimised`` of Table 5: Ks [N/m], Cs [N s/m], SWS [m], ACC [m/s^2], DTL [N]."""
     rows = datafiles.rows("paper/table5_optimum.csv")
     return {
         column: {row["quantity"]: float(row[column]) * (1e3 if row["unit"].startswith("k") else 1) for row in rows}
@@ -69,39 +70,30 @@ def published_seconds() -> "pd.DataFrame":
     import pandas as pd
 
     tables = {"nsga2": "paper/table2_nsga2_seconds.csv", "moead-dra": "paper/table3_moead_seconds.csv"}
-    frames = [
-        pd.read_csv(datafiles.path(name), comment="#").assign(algorithm=algorithm)
-        for algorithm, name in tables.items()
-    ]
+    frames = {name: pd.read_csv(datafiles.path(path), comment="#") for name, path in tables.items()}
+    seconds = pd.concat(frames, names=["algorithm"]).reset_index("algorithm")
     columns = ["algorithm", "population", "iterations", "repeat", "published_seconds"]
-    return pd.concat(frames).rename(columns={"seconds": "published_seconds"})[columns]
-
-
-def _table1() -> dict[str, dict[str, str]]:
-    return {row["symbol"]: row for row in datafiles.rows("paper/table1_vehicle.csv")}
+    return seconds.rename(columns={"seconds": "published_seconds"})[columns]
 
 
 def chosen(
     vehicle: str | None, road: str | None, speed: float | None, **settings: Any
 ) -> tuple[RideProblem, Mapping[str, float]]:
-    """Return the paper's problem with another vehicle, road or speed, and the vehicle's own setting.
+    """Return the paper's problem with another vehicle, road, speed or settings, and the vehicle's own setting.
 
     Names and files are those of `load_vehicle` and `load_road`, settings further parameters of `RideProblem`.
-    ValueError for a vehicle without bounds.
     """
     papers = ride_problem()
-    changes: dict[str, Any] = {
-        "road": papers.road if road is None else load_road(road),
-        "speed": papers.speed if speed is None else speed,
-    } | settings
+    if road is not None:
+        settings["road"] = load_road(road)
+    if speed is not None:
+        settings["speed"] = speed
     if vehicle is None:
-        struts = dict(zip(papers.variables, reference_design(), strict=True))
-        return papers.replace(**changes), struts
+        return papers.replace(**settings), dict(zip(papers.variables, reference_design(), strict=True))
     file = load_vehicle(vehicle)
     if not file.bounds:
         raise ValueError(f"vehicle must be a file with bounds, got {vehicle!r}")
-    if "bounds" not in settings:
-        changes["bounds"] = file.bounds
+    bounds = settings.pop("bounds", file.bounds)
     struts = file.vehicle.coefficients(file.setting)
-    fixed = {name: value for name, value in struts.items() if name not in changes["bounds"]}
-    return papers.replace(vehicle=file.vehicle, struts=fixed, **changes), struts
+    fixed = {name: value for name, value in struts.items() if name not in bounds}
+    return papers.replace(vehicle=file.vehicle, struts=fixed, bounds=bounds, **settings), struts

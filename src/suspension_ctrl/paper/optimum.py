@@ -20,11 +20,8 @@ if TYPE_CHECKING:
 AT_LIMIT = 0.002
 """Share of the limit by which the travel of a design picked for Table 5 may lie below it."""
 
-_STARTS = 8
-"""Designs of a run, those nearest to the limit, from which a search for Table 5 descends."""
-
-_HELD = 1e-6
-"""Share of a limit by which a design within it may exceed it."""
+_STARTS = 8  # designs of a run, nearest to the limit, from which a search for Table 5 descends
+_HELD = 1e-6  # share of a limit by which a design within it may exceed it
 
 
 def least_within_limit(
@@ -32,27 +29,12 @@ def least_within_limit(
 ) -> tuple[float, ...]:
     """Return the design with the least `objective` among those whose travel SWS is up to `limit`.
 
-    Sequential quadratic programming (SLSQP) descends from each start; the best end counts. The maximum over
-    wheels is not differentiable: it is replaced by a slack variable bounded below by each wheel (epigraph form).
-
-    Parameters
-    ----------
-    problem : RideProblem
-        Its bounds and constraints hold too.
-    limit : float
-        Suspension working space of every wheel [m].
-    objective : {"ACC", "DTL"}
-        The objective.
-    starts : (k, d) ndarray
-        Designs, e.g. of a Pareto set.
-    at_limit : bool
-        Whether the travel of every wheel is to equal the limit.
-
-    Raises
-    ------
-    ValueError
-        If no design within the limit is found.
+    `limit` [m] bounds the travel of every wheel, or equals it if `at_limit`. Sequential quadratic programming
+    (SLSQP) descends from each of the `starts` (k, d); the best end counts. The maximum over wheels is not
+    differentiable: it is replaced by a slack variable bounded below by each wheel (epigraph form).
     """
+    from scipy.optimize import minimize
+
     checks.positive("sws_limit", limit, "m")
     wheels = problem.cases[0].vehicle.tyres
     least = [objective] if objective == "ACC" else [f"{objective} {wheel}".strip() for wheel in wheels]
@@ -72,47 +54,27 @@ def least_within_limit(
         found = scores(point)
         return np.concatenate([point[-1] - found[:most] / scale, -found[travels:]])
 
-    settings: dict[str, Any] = {
-        "method": "SLSQP",
-        "jac": "3-point",
-        "bounds": [(0, 1)] * len(lower) + [(0, None)],
-        "constraints": [
-            {"type": "ineq", "fun": room},
-            {"type": "eq" if at_limit else "ineq", "fun": spare_travel},
-        ],
-        "options": {"ftol": 1e-12, "maxiter": 200},
-    }
+    def held(end: Real) -> bool:
+        spare = spare_travel(end)
+        return bool(min(room(end).min(), -np.abs(spare).max() if at_limit else spare.min()) >= -_HELD)
+
+    limits = [{"type": "ineq", "fun": room}, {"type": "eq" if at_limit else "ineq", "fun": spare_travel}]
+    settings: dict[str, Any] = {"method": "SLSQP", "jac": "3-point", "constraints": limits}
+    settings |= {"bounds": [(0, 1)] * len(lower) + [(0, None)], "options": {"ftol": 1e-12, "maxiter": 200}}
     units = np.column_stack([(starts - lower) / width, smooth.evaluate(starts)[:, :most].max(axis=1) / scale])
-    ends = _ends(units, settings)
-    held = [end for end in ends if min(room(end).min(), _held(spare_travel(end), at_limit)) >= -_HELD]
-    if not held:
+    ends = [end for end in (minimize(itemgetter(-1), unit, **settings).x for unit in units) if held(end)]
+    if not ends:
         raise ValueError(f"sws_limit must be a travel that a design within the bounds has, got {limit} m")
-    best = min(held, key=itemgetter(-1))
+    best = min(ends, key=itemgetter(-1))
     return tuple((lower + np.clip(best[:-1], 0, 1) * width).tolist())
 
 
 def pick_at_limit(
     problem: RideProblem, run: "Run", limit: float, objective: str, below: float = AT_LIMIT
 ) -> tuple[float, ...]:
-    """Return the design of a run's Pareto set with the least `objective` among those at SWS = `limit`.
+    """Return the design of a run's Pareto set with the least `objective` at a travel SWS up to `limit` [m].
 
-    Parameters
-    ----------
-    problem : RideProblem
-        The problem of the run.
-    run : Run
-        Its final population.
-    limit : float
-        Suspension working space [m].
-    objective : {"ACC", "DTL"}
-        The objective.
-    below : float
-        Share of the limit by which a design may lie below it, 1 for all within it.
-
-    Raises
-    ------
-    ValueError
-        If the Pareto set has no design there.
+    `below` is the share of the limit by which its travel may lie below it, 1 for all within it.
     """
     sws = run.objectives[:, problem.objectives.index("SWS")]
     at_limit = ((1 - below) * limit <= sws) & (sws <= limit)
@@ -126,21 +88,10 @@ def pick_at_limit(
     return tuple(run.designs[best].tolist())
 
 
-def _ends(starts: Real, settings: dict[str, Any]) -> list[Real]:
-    from scipy.optimize import minimize
-
-    return [minimize(itemgetter(-1), start, **settings).x for start in starts]
-
-
-def _held(spare: Real, at_limit: bool) -> float:
-    """Return the worst violation of a limit, as a negative share of it."""
-    return float(-np.abs(spare).max() if at_limit else spare.min())
-
-
 def table5(problem: RideProblem, run: "Run", limit: float, own: Mapping[str, tuple[float, ...]]) -> "pd.DataFrame":
-    """Return Table 5: the least ACC and DTL within a limit of travel [m], and designs picked from a run.
+    """Return Table 5: the designs of least ACC and DTL within a limit of travel [m], and those picked from a run.
 
-    Before them stand a vehicle's `own` designs by name, or if there are none the paper's two with what it printed.
+    First come a vehicle's `own` designs by name, or if there are none the paper's two beside the printed values.
     """
     columns = experiment.table5()
     published = {"reference car": columns["reference"], "published optimum": columns["optimised"]}
@@ -151,7 +102,7 @@ def table5(problem: RideProblem, run: "Run", limit: float, own: Mapping[str, tup
     for objective in ("ACC", "DTL"):
         name = f"least {objective} up to the limit" if own else f"exact, least {objective}"
         designs[name] = least_within_limit(problem, limit, objective, starts, at_limit=not own)
+    below = 1.0 if own else AT_LIMIT
     for objective in ("ACC", "DTL"):
-        below = 1.0 if own else AT_LIMIT
         designs[f"picked, least {objective}"] = pick_at_limit(problem, run, limit, objective, below)
     return tables.beside_published(problem, designs, {} if own else published)

@@ -22,22 +22,10 @@ def timed_tables(runs: pd.DataFrame, published: pd.DataFrame) -> dict[str, pd.Da
 
 
 def seconds_by_repeat(runs: pd.DataFrame, published: pd.DataFrame, algorithm: str) -> pd.DataFrame:
-    """Return Table 2 (`algorithm` ``"nsga2"``) or Table 3 (``"moead-dra"``).
+    """Return Table 2 (`algorithm` ``"nsga2"``) or 3 (``"moead-dra"``) of runs from `timing.tidy`, a row per run.
 
-    Parameters
-    ----------
-    runs : DataFrame
-        A row per run, from `timing.tidy`.
-    published : DataFrame
-        From `experiment.published_seconds`.
-    algorithm : str
-        The published algorithm.
-
-    Returns
-    -------
-    DataFrame
-        Columns algorithm, population, iterations, repeat, published_seconds, seconds, evaluations and
-        microseconds_per_evaluation.
+    Columns: algorithm, population, iterations, repeat, published_seconds (from `experiment.published_seconds`),
+    seconds, evaluations, microseconds_per_evaluation.
     """
     measured = runs[(runs.algorithm == algorithm) & (runs.budget == EQUAL_ITERATIONS)]
     keys = ["algorithm", *CONFIGURATION, "repeat"]
@@ -49,8 +37,7 @@ def seconds_by_repeat(runs: pd.DataFrame, published: pd.DataFrame, algorithm: st
 def as_printed(table: pd.DataFrame) -> pd.DataFrame:
     """Return Table 2 or 3 as printed, a column per configuration.
 
-    Each cell of a repeat holds "published / measured" seconds; below them stand both means, the evaluations
-    per run and the microseconds per evaluation.
+    A row per repeat of "published / measured" seconds, then both means, evaluations and microseconds of each.
     """
     columns: dict[str, list[str]] = {}
     for (population, iterations), part in table.groupby(CONFIGURATION):
@@ -66,27 +53,17 @@ def as_printed(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def comparison(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
-    """Return Table 4, each algorithm against the first of the runs, at equal iterations and evaluations.
+    """Return Table 4 of runs from `timing.tidy`: each algorithm against the first at equal effort.
 
-    Parameters
-    ----------
-    runs, published : DataFrame
-        As for `seconds_by_repeat`.
-
-    Returns
-    -------
-    DataFrame
-        A row per configuration, budget and algorithm: evaluations, means of published and measured seconds,
-        microseconds per evaluation, ``published_ratio_percent`` and ``ratio_percent`` (mean seconds of the first
-        over those of this algorithm, times 100), median hypervolume and IGD+.
+    A row per configuration, budget (equal iterations or evaluations) and algorithm: evaluations, means of
+    published and measured seconds, microseconds per evaluation, ``published_ratio_percent`` and ``ratio_percent``
+    (mean seconds of the first over those of this algorithm, times 100), median hypervolume and IGD+.
     """
     keys = [*CONFIGURATION, "algorithm", "budget"]
     summary = {
-        "evaluations": ("evaluations", "first"),
-        "seconds": ("seconds", "mean"),
-        "hypervolume": ("hypervolume", "median"),
-        "igd_plus": ("igd_plus", "median"),
-    }
+        "evaluations": ("evaluations", "first"), "seconds": ("seconds", "mean"),
+        "hypervolume": ("hypervolume", "median"), "igd_plus": ("igd_plus", "median"),
+    }  # fmt: skip
     table = runs.groupby(keys, sort=False).agg(**summary).reset_index()
     table = pd.concat([table, _also_at_equal_evaluations(table)]).sort_values(keys[:2], kind="stable")
     means = published.groupby(["algorithm", *CONFIGURATION]).published_seconds.mean().reset_index()
@@ -111,33 +88,17 @@ def _also_at_equal_evaluations(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def beside_published(
-    problem: RideProblem,
-    designs: Mapping[str, tuple[float, ...]],
-    published: Mapping[str, Mapping[str, float]],
+    problem: RideProblem, designs: Mapping[str, tuple[float, ...]], published: Mapping[str, Mapping[str, float]]
 ) -> pd.DataFrame:
-    """Return Table 5: objectives of named designs, with published values and the deviation from them.
+    """Return Table 5: objectives of designs by name, beside published values by design and objective.
 
-    Parameters
-    ----------
-    problem : RideProblem
-        The problem.
-    designs : mapping
-        Spring [N/m] and damper [N s/m] by name.
-    published : mapping
-        Published objectives by name of a design, then of the objective, in the problem's units.
-
-    Returns
-    -------
-    DataFrame
-        A row per design: weighting, design, variables, objectives, ``published <objective>`` and
-        ``<objective> off [%]``; NaN where nothing is published.
+    A row per design: weighting, design, variables, objectives, ``published <objective>`` and
+    ``<objective> off [%]``; NaN where nothing is published.
     """
     values = np.array(list(designs.values()), dtype=float)
     objectives = problem.evaluate(values)
-    table = pd.DataFrame(
-        np.hstack([values, objectives]),
-        columns=column_headers([*problem.variables, *problem.objectives], problem.units),
-    )
+    headers = column_headers([*problem.variables, *problem.objectives], problem.units)
+    table = pd.DataFrame(np.hstack([values, objectives]), columns=headers)
     table.insert(0, "design", list(designs))
     table.insert(0, "weighting", str(problem.weighting))
     for column, name in enumerate(problem.objectives):
