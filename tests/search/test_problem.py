@@ -1,4 +1,6 @@
+import pickle
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -66,3 +68,26 @@ def test_the_first_bad_design_is_named():
         ValueError, match=r"^evaluate must return finite objectives and constraints, got \[1.0, 2.0, inf\]"
     ):
         evaluate_checked(lambda x: [[1, 2, np.inf], [1, 2, 3]], designs, limited)
+
+
+def doubled(x: np.ndarray) -> np.ndarray:
+    """Return an evaluation that can be pickled: objectives twice the variables."""
+    return 2 * x
+
+
+def test_problems_are_changed_compared_hashed_and_pickled():
+    one = Problem(**GOOD | {"evaluate": doubled}, units={"a": "m"})
+    for other in (one.replace(upper=(2.0, 2.0)), replace(one, upper=[2, 2])):
+        assert other != one
+        assert other.upper == (2.0, 2.0)
+        assert other.replace(upper=(1.0, 1.0)) == one
+    assert hash(one) == hash(replace(one))
+    assert pickle.loads(pickle.dumps(one)) == one
+
+
+def test_a_problem_stays_as_it_was_made():
+    lower, units = np.zeros(2), {"a": "m"}
+    one = Problem(**GOOD | {"lower": lower}, units=units)
+    lower[0], units["a"] = 0.5, "s"
+    assert one.lower == (0.0, 0.0)
+    assert dict(one.units) == {"a": "m"}

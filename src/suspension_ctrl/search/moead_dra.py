@@ -95,6 +95,7 @@ class MoeadDra:
         if self.objective_scales is not None:
             for scale in np.ravel(self.objective_scales):
                 checks.positive("objective_scales", scale)
+            object.__setattr__(self, "objective_scales", tuple(np.ravel(self.objective_scales).tolist()))
             if self.normalise:
                 raise ValueError(f"objective_scales must be None with normalise, got {self.objective_scales!r}")
         checks.one_of("update", self.update, _SWEEPS)
