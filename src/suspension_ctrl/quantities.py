@@ -13,6 +13,7 @@ from . import checks
 Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Bool = NDArray[np.bool_]
+Integer = NDArray[np.int64]
 K = TypeVar("K")
 V = TypeVar("V", covariant=True)
 

@@ -31,11 +31,8 @@ def _type_of_call(context: Any) -> Callable[..., Any]:
 def _lowered_call(context: Any, builder: Any, signature: Any, values: Any) -> Any:
     function, given, inner = _typed(context.typing_context, *signature.args)
     settings, arguments = (cgutils.unpack_tuple(builder, value) for value in values)
-    passed = (
-        [*arguments, *settings]
-        if is_jitted(signature.args[0].instance_class.function)
-        else [values[0], *arguments]
-    )
+    jitted = is_jitted(signature.args[0].instance_class.function)
+    passed = [*arguments, *settings] if jitted else [values[0], *arguments]
     cast = [context.cast(builder, *each) for each in zip(passed, given, inner.args, strict=True)]
     return context.get_function(function, inner)(builder, cast)
 
@@ -44,9 +41,9 @@ lower_builtin(call, types.BaseTuple, types.BaseTuple)(_lowered_call)
 
 
 def _typed(context: Any, verb: Any, arguments: Any) -> tuple[Any, tuple[Any, ...], Any]:
-    """Return numba's types of a verb's function, of what it is given, and of the call.
+    """Return numba's types of a verb's function, of the values given to it, and of the call.
 
-    A method is given the verb, then the arguments; a user's compiled function the arguments, then the settings.
+    A method gets the verb, then the arguments; a user's compiled function the arguments, then the settings.
     """
     function = verb.instance_class.function
     given = (*arguments.types, *verb.types) if is_jitted(function) else (verb, *arguments.types)
@@ -65,10 +62,7 @@ def _compiled(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def verb_of(given: tuple[Any, ...]) -> Any:
-    """Return a compiled function and its last arguments as a verb; a verb is returned as it is.
-
-    The class of that verb is known to this process alone.
-    """
+    """Return a compiled function and its last arguments as a verb of a class of this process; a verb as it is."""
     if hasattr(given, "function"):
         return given
     function, settings = given
@@ -86,9 +80,6 @@ _numbers = count()
 
 
 def storable(verb: Any) -> bool:
-    """Whether a verb and those among its settings are of this package.
-
-    Numba's store holds classes by their names, and fails in processes that do not know one of them.
-    """
+    """Whether a verb and the verbs in its settings are of this package: numba's store holds classes by name."""
     ours = type(verb).__module__.startswith(f"{__package__.split('.')[0]}.")
     return ours and all(storable(setting) for setting in verb if hasattr(setting, "function"))

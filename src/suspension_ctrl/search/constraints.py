@@ -1,12 +1,8 @@
-"""Which designs meet their constraints, and how those that do not compare with others.
+"""Constraints of designs: values (n, m + c) are m objectives to be minimised, then c constraints g, met if g <= 0.
 
-Values of designs are arrays (n, m + c): m objectives to be minimised, then c constraints g, met where g <= 0.
-A feasible design is better than an infeasible one, and of two infeasible ones that with the smaller violation.
-
-References
-----------
-K. Deb, "An efficient constraint handling method for genetic algorithms", Computer Methods in Applied Mechanics and
-Engineering 186, 2000.
+A feasible design is better than an infeasible one, a smaller violation better than a larger one (K. Deb, "An
+efficient constraint handling method for genetic algorithms", Computer Methods in Applied Mechanics and Engineering
+186, 2000).
 """
 
 import numpy as np
@@ -46,10 +42,9 @@ def feasible_objectives(values: Real, m: int) -> Real:
 
 
 def ideal_with(ideal: Real, values: Real, found: bool) -> Real:
-    """Return the ideal point (m,) with further values (n, m + c) taken in.
+    """Return the ideal point (m,) after values (n, m + c): of feasible designs alone once one is `found`.
 
-    The ideal point is that of the feasible designs alone, as soon as one has been `found`; until then it is that
-    of all. The least values of infeasible designs may be far from any that a feasible one can have.
+    The least values of infeasible designs may be far out of reach of feasible ones.
     """
     feasible = feasible_objectives(values, ideal.size)
     if len(feasible):
@@ -59,21 +54,16 @@ def ideal_with(ideal: Real, values: Real, found: bool) -> Real:
 
 
 _BEYOND = 1e-3
-"""How far beyond the worst feasible value infeasible designs are spread, in ranges or magnitudes of it: little, so
-that no range overflows, yet so much that even 1e9 ranks of violation stay apart in double precision."""
+"""Spread of infeasible designs beyond the worst feasible value, in its ranges or magnitudes: no range overflows,
+and 1e9 ranks of violation still differ in double precision."""
 
 
 def constrained(values: Real, m: int) -> Real:
-    """Return objectives (n, m) among which dominance is the constrained dominance of values (n, m + c).
+    """Return objectives (n, m) whose dominance is the constrained dominance of values (n, m + c).
 
-    Those of feasible designs are their own. Those of an infeasible one are all beyond the worst of any feasible
-    design, the farther the higher its violation ranks: it is dominated by every feasible design and by every
-    infeasible one of smaller violation. Ranks in place of violations, so that none is lost in a large objective.
-
-    References
-    ----------
-    K. Deb, A. Pratap, S. Agarwal, T. Meyarivan, "A fast and elitist multiobjective genetic algorithm:
-    NSGA-II", IEEE Trans. Evol. Comput. 6(2), 2002, section VI.
+    Infeasible designs get objectives beyond the worst feasible ones, farther by the rank of their violation (a
+    violation itself may vanish beside a large objective). K. Deb, A. Pratap, S. Agarwal, T. Meyarivan, "A fast and
+    elitist multiobjective genetic algorithm: NSGA-II", IEEE Trans. Evol. Comput. 6(2), 2002, section VI.
     """
     if values.shape[1] == m:
         return values

@@ -10,48 +10,32 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 from numba.extending import register_jitable
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from ..quantities import Real
+from ..quantities import Integer, Real, frozen_array
 from .constraints import violation_of
 from .operators import draw_below
 
 ZERO_WEIGHT = 1e-4
-"""What stands for a weight of zero, so that no objective is left out of a subproblem altogether."""
+"""Stands for a weight of zero: every subproblem keeps every objective."""
 
 _SAMPLE_SEED = 2009  # equal sizes give equal weights: the sample is part of the definition
 
 
 @lru_cache
 def weight_vectors(size: int, objectives: int) -> Real:
-    """Return widely spread weight vectors.
+    """Return spread weight vectors (N, m), N >= m, of sum one, read-only: the unit vectors first.
 
-    The unit vectors come first; then, again and again, the candidate farthest from all those chosen, out of
-    a uniform sample of the simplex.
-
-    Parameters
-    ----------
-    size : int
-        Number of vectors N.
-    objectives : int
-        Number of objectives m, at most N.
-
-    Returns
-    -------
-    (N, m) ndarray
-        Non-negative vectors of sum one, read-only.
+    Each further one is the farthest from all chosen ones in a uniform sample of the simplex.
     """
     rng = np.random.default_rng(_SAMPLE_SEED)
     candidates = rng.dirichlet(np.ones(objectives), max(5000, 5 * size))
     points = np.concatenate([np.eye(objectives), candidates])
-    weights = points[farthest_first(points, np.arange(objectives), size)]
-    weights.flags.writeable = False
-    return weights
+    return frozen_array(points[farthest_first(points, np.arange(objectives), size)])
 
 
-def farthest_first(points: Real, start: NDArray[np.int64], size: int) -> NDArray[np.int64]:
-    """Return which `size` of the points (n, m): those in `start`, then again and again the farthest."""
+def farthest_first(points: Real, start: Integer, size: int) -> Integer:
+    """Return the indices (size,) of those of the points (n, m) in `start`, then always of the farthest."""
     columns = np.ascontiguousarray(points.T)
     chosen = np.empty(size, dtype=np.int64)
     nearest = np.full(len(points), np.inf)
@@ -64,26 +48,20 @@ def farthest_first(points: Real, start: NDArray[np.int64], size: int) -> NDArray
 
 
 @lru_cache
-def neighbourhoods(size: int, objectives: int, neighbours: int) -> NDArray[np.int64]:
-    """Return for each of `weight_vectors` the indices of the nearest ones, itself first; (N, T), read-only."""
+def neighbourhoods(size: int, objectives: int, neighbours: int) -> Integer:
+    """Return the indices (N, T), read-only, of the nearest of `weight_vectors` to each, itself first."""
     weights = weight_vectors(size, objectives)
-    _, nearest = cKDTree(weights).query(weights, k=neighbours)
-    nearest = np.ascontiguousarray(nearest, dtype=np.int64)
-    nearest.flags.writeable = False
-    return nearest
+    return frozen_array(cKDTree(weights).query(weights, k=neighbours)[1], dtype=np.int64)
 
 
-def corner_subproblems(weights: Real) -> NDArray[np.int64]:
-    """Return the indices of the subproblems whose weights (N, m) are the unit vectors, in objective order."""
+def corner_subproblems(weights: Real) -> Integer:
+    """Return the indices (m,) of the unit vectors among weights (N, m), in the order of the objectives."""
     return np.array([np.flatnonzero(weights[:, j] == 1.0)[0] for j in range(weights.shape[1])])
 
 
 @njit(cache=True, inline="always")  # a call for each comparison would cost more than what it compares
 def tchebycheff(objectives: Real, weight: Real, ideal: Real) -> float:
-    """Return g(F | lambda) = max_j lambda_j |F_j - z_j|; all arguments (m,), equation (14).
-
-    Whatever follows the m objectives is left out.
-    """
+    """Return g(F | lambda) = max_j lambda_j |F_j - z_j|, equation (14), of objectives (m + c,), the first m."""
     g = 0.0
     for j in range(ideal.size):
         g = max(g, weight[j] * abs(objectives[j] - ideal[j]))
@@ -92,16 +70,13 @@ def tchebycheff(objectives: Real, weight: Real, ideal: Real) -> float:
 
 @njit(cache=True)
 def choose_subproblems(
-    rng: np.random.Generator, utility: Real, corners: NDArray[np.int64], size: int, tournament: int
-) -> NDArray[np.int64]:
+    rng: np.random.Generator, utility: Real, corners: Integer, size: int, tournament: int
+) -> Integer:
     """Return the subproblems (size,) to work on: the corners, then winners of tournaments by utility.
 
-    Each further one has the highest utility of `tournament` drawn from those not chosen yet; the first drawn
-    wins a tie.
+    A tournament is held among `tournament` drawn from those not chosen yet; the first drawn wins a tie.
     """
-    open_ = np.empty(utility.size, dtype=np.int64)
-    for i in range(utility.size):
-        open_[i] = i
+    open_ = np.arange(utility.size)
     chosen = np.empty(size, dtype=np.int64)
     for c in range(size):
         left = utility.size - c
@@ -121,30 +96,23 @@ def choose_subproblems(
 
 
 class MatingRange(NamedTuple):
-    """Where a subproblem finds mates and its child is put: with `probability` its neighbours, otherwise all."""
+    """Partners of a subproblem in mating and replacement: with `probability` its neighbours, otherwise all."""
 
     probability: float
 
     @register_jitable
-    def function(self, rng: np.random.Generator, i: int, neighbours: NDArray[np.int64]) -> NDArray[np.int64]:
+    def function(self, rng: np.random.Generator, i: int, neighbours: Integer) -> Integer:
         """Return the partners (T,) or (N,) of subproblem i from the neighbours of each (N, T)."""
         if rng.random() < self.probability:
             return neighbours[i]
-        everyone = np.empty(neighbours.shape[0], dtype=np.int64)
-        for j in range(everyone.size):
-            everyone[j] = j
-        return everyone
+        return np.arange(neighbours.shape[0])
 
 
 class ReplaceWorse(NamedTuple):
-    """Replacement of partners that a child betters, at most `limit` of them.
+    """Replacement of at most `limit` partners of larger violation or, both feasible, of larger g(F | lambda).
 
-    It betters one of larger violation and, where both are feasible, one of larger g(F | lambda).
-
-    References
-    ----------
-    H. Jain and K. Deb, "An evolutionary many-objective optimization algorithm using reference-point based
-    nondominated sorting approach, part II", IEEE Trans. Evol. Comput. 18(4), 2014, for the rule with constraints.
+    The rule with constraints is that of H. Jain, K. Deb, "An evolutionary many-objective optimization algorithm
+    using reference-point based nondominated sorting approach, part II", IEEE Trans. Evol. Comput. 18(4), 2014.
     """
 
     limit: int
@@ -155,18 +123,14 @@ class ReplaceWorse(NamedTuple):
         rng: np.random.Generator,
         child: Real,
         child_values: Real,
-        partners: NDArray[np.int64],
+        partners: Integer,
         designs: Real,
         values: Real,
         weights: Real,
         ideal: Real,
     ) -> None:
-        """Put a child (d,) with its values (m + c,) in the place of partners; everything in place.
-
-        The ideal point takes the child's objectives in before the first comparison. To replace the first `limit`
-        of partners visited in random order is to replace as many, drawn from all that the child betters: whether
-        it betters one does not depend on the others.
-        """
+        """Replace partners by a child (d,) of values (m + c,), in place, after an update of the ideal point."""
+        # Partners are judged one by one: the first `limit` bettered ones of a random order equal as many drawn.
         lower_ideal(ideal, child_values, values)
         violation = violation_of(child_values, ideal.size)
         bettered = np.empty_like(partners)
@@ -191,7 +155,7 @@ class ReplaceWorse(NamedTuple):
 
 @register_jitable
 def lower_ideal(ideal: Real, child: Real, values: Real) -> None:
-    """Take the values (m + c,) of a child into the ideal point (m,), in place, as `ideal_with` does."""
+    """Update the ideal point (m,) with a child's values (m + c,), in place, as `ideal_with` does."""
     feasible, found, i = violation_of(child, ideal.size) == 0.0, False, 0
     while not found and i < values.shape[0]:
         found = violation_of(values[i], ideal.size) == 0.0
@@ -207,11 +171,10 @@ def lower_ideal(ideal: Real, child: Real, values: Real) -> None:
 def updated_utility(
     utility: Real, before: Real, values: Real, weights: Real, ideal: Real, threshold: float
 ) -> Real:
-    """Return the utilities (N,) after progress from `before` (N, m + c) to `values` (N, m + c).
+    """Return the utilities (N,) after the values (N, m + c) followed those of `before`: 1 above the threshold.
 
-    Progress is the relative decrease of g, old and new value both taken at the present ideal point, or of the
-    violation where a subproblem had an infeasible design: above the threshold a utility is 1, below it sinks, by
-    5 % where there was none.
+    Progress is the relative decrease of g, both taken at the present ideal point, or of an infeasible design's
+    violation; without progress a utility sinks by 5 %.
     """
     updated = np.ones_like(utility)
     for i in range(utility.size):

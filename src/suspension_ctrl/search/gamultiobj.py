@@ -5,12 +5,11 @@ Reference"): a controlled elitist NSGA-II; tournaments of two; a fraction 0.8 of
 crossover, the others from adaptive-feasible mutation; at most a fraction 0.35 of the population from the first
 front as long as others exist; crowding distance in objective space.
 
-Our reading, where nothing is documented: one child per pair of parents; beyond the first front survivors are
-taken rank by rank, less crowded ones first; a mutant goes in a uniformly random direction, turned away from bounds
-on which it lies, as far as drawn uniformly up to a step and the bounds; "adaptive with respect to the last
-successful or unsuccessful generation" is Rechenberg's rule: the step doubles where more than a fifth of the
-mutants survived, and halves otherwise; room left by the first front is for feasible designs, as long as there are
-any.
+Our reading of the rest: one child per pair of parents; survivors beyond the first front by rank, less crowded ones
+first, feasible ones before all others; a mutant's direction is uniformly random, turned away from bounds on which
+it lies, its length uniform up to a step and the bounds; "adaptive with respect to the last successful or
+unsuccessful generation" is Rechenberg's rule: the step doubles if more than a fifth of the mutants survived, and
+halves otherwise.
 """
 
 from collections.abc import Iterator
@@ -23,6 +22,7 @@ from deap.base import Toolbox
 from numpy.typing import NDArray
 
 from .. import checks
+from ..quantities import Integer, Real
 from .constraints import any_feasible, constrained, ideal_with, violations
 from .operators import sample_uniform
 from .population import State
@@ -104,29 +104,21 @@ class Gamultiobj:
             yield State.of(designs, values, ideal, evaluations)
 
 
-def ranked_tournament(
-    rng: np.random.Generator, rank: NDArray[np.int32], crowding: NDArray[np.float64], size: int
-) -> NDArray[np.int64]:
-    """Return `size` parents, winners of tournaments of two drawn from all (n,): lower rank, then less crowded."""
+def ranked_tournament(rng: np.random.Generator, rank: NDArray[np.int32], crowding: Real, size: int) -> Integer:
+    """Return `size` parents, winners of tournaments of two from all (n,): lower rank, then less crowded."""
     a, b = (rng.random((2, size)) * rank.size).astype(np.int64)
     b_wins = (rank[b] < rank[a]) | ((rank[b] == rank[a]) & (crowding[b] > crowding[a]))
     return np.where(b_wins, b, a)
 
 
-def intermediate_crossover(rng: np.random.Generator, parents: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return one child (n, d) for each two consecutive parents (2 n, d), anywhere in the box between them."""
+def intermediate_crossover(rng: np.random.Generator, parents: Real) -> Real:
+    """Return children (n, d), uniform in the boxes between each two consecutive parents (2 n, d)."""
     first, second = parents[::2], parents[1::2]
     return first + rng.random(first.shape) * (second - first)
 
 
-def feasible_steps(
-    rng: np.random.Generator,
-    designs: NDArray[np.float64],
-    step: float,
-    lower: NDArray[np.float64],
-    upper: NDArray[np.float64],
-) -> NDArray[np.float64]:
-    """Return mutants (n, d): a step in a random direction, up to `step` widths of the box long and inside it."""
+def feasible_steps(rng: np.random.Generator, designs: Real, step: float, lower: Real, upper: Real) -> Real:
+    """Return mutants (n, d): steps in random directions, up to `step` widths of the box and inside it."""
     direction = rng.normal(size=designs.shape)
     direction *= (upper - lower) / np.linalg.norm(direction, axis=1, keepdims=True)
     blocked = ((direction > 0) & (designs >= upper)) | ((direction < 0) & (designs <= lower))
@@ -137,34 +129,20 @@ def feasible_steps(
     return np.clip(moved, lower, upper)
 
 
-def contenders(values: NDArray[np.float64], m: int, size: int) -> NDArray[np.int64]:
-    """Return who of a population may survive, in ascending order: all feasible ones, at least `size` in any case.
-
-    From values (n, m + c). Where fewer are feasible, those of the least violation come with them.
-    """
+def contenders(values: Real, m: int, size: int) -> Integer:
+    """Return the indices, ascending, of the feasible of values (n, m + c), filled to `size` by least violation."""
     violation = violations(values, m)
     count = max(size, np.count_nonzero(violation == 0))
     return np.sort(np.argsort(violation, kind="stable")[:count])
 
 
 def select_controlled(
-    objectives: NDArray[np.float64], size: int, pareto_fraction: float
-) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float64]]:
-    """Keep `size` individuals of (n, m), no more than a fraction of them from the first front while others exist.
+    objectives: Real, size: int, pareto_fraction: float
+) -> tuple[Integer, NDArray[np.int32], Real]:
+    """Return indices, ascending, of `size` survivors of objectives (n, m), their fronts and crowding distances.
 
-    Returns
-    -------
-    index : (size,) ndarray
-        Survivors in ascending order.
-    rank : (size,) ndarray
-        Their fronts, from 0.
-    crowding : (size,) ndarray
-        Their crowding distances [-] in whole fronts.
-
-    References
-    ----------
-    K. Deb and T. Goel, "Controlled elitist non-dominated sorting genetic algorithms for better convergence",
-    EMO 2001, for the idea of leaving room for later fronts.
+    At most a fraction is from the first front while others exist, after K. Deb, T. Goel, "Controlled elitist
+    non-dominated sorting genetic algorithms for better convergence", EMO 2001.
     """
     rank = front_ranks(objectives)
     crowding = crowding_distances(objectives, rank)

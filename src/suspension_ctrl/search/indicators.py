@@ -1,36 +1,35 @@
 """Quality of a set of objectives against a reference front, by moocore, in objectives scaled to that front."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import inf
+from typing import Any
 
 import moocore
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
-from ..quantities import Real, Record, frozen_array
+from ..quantities import Bool, Integer, Real, Record, frozen_array
 from .decomposition import farthest_first
 
 
-def non_dominated(objectives: ArrayLike) -> NDArray[np.bool_]:
-    """Return which of the objectives (n, m), all to be minimised, no other one dominates; shape (n,)."""
+def non_dominated(objectives: ArrayLike) -> Bool:
+    """Return which of the objectives (n, m), to be minimised, are dominated by no other; shape (n,)."""
     return moocore.is_nondominated(objectives, keep_weakly=True)
 
 
 def best_of(objectives: Real) -> Real:
-    """Return those of the objectives (n, m) that no other one dominates."""
+    """Return the non-dominated ones (k, m) of the objectives (n, m)."""
     return objectives[non_dominated(objectives)]
 
 
-def evenly_spread(objectives: Real, size: int) -> NDArray[np.int64]:
-    """Return which `size` of the objectives (n, m) to keep so that they cover the set evenly, in ascending order.
+def evenly_spread(objectives: Real, size: int) -> Integer:
+    """Return the indices, ascending, of at most `size` objectives (n, m) that cover the set evenly.
 
-    The ones with the least of each objective, then each time the one farthest from all kept, each objective
-    divided by its range in the set; all of them where n is no more than `size`.
-
-    References
-    ----------
-    H. K. Singh, K. S. Bhattacharjee, T. Ray, "Distance-based subset selection for benchmarking in evolutionary
-    multi/many-objective optimization", IEEE Trans. Evol. Comput. 23(5), 2019.
+    The ends come first, then always the farthest from all kept, each objective divided by its range (H. K. Singh,
+    K. S. Bhattacharjee, T. Ray, "Distance-based subset selection for benchmarking in evolutionary
+    multi/many-objective optimization", IEEE Trans. Evol. Comput. 23(5), 2019).
     """
     if len(objectives) <= size:
         return np.arange(len(objectives))
@@ -43,14 +42,12 @@ def evenly_spread(objectives: Real, size: int) -> NDArray[np.int64]:
 class ReferenceFront(Record):
     """A front to measure others by; its ideal point becomes 0 and its nadir 1 in every objective.
 
-    An empty set, as of a search that found no feasible design, has hypervolume 0 and is infinitely far in IGD+ and
-    epsilon: it ranks below every other.
+    An empty set (no feasible design) ranks last: hypervolume 0, IGD+ and epsilon infinite.
 
     Parameters
     ----------
     objectives : (n, m) ndarray
-        Points of the front to which distances are taken: all of a small one, of a fine one as many as
-        `SAMPLE`, spread as evenly as can be.
+        Points of the front for distances, at most `SAMPLE`, evenly spread.
     ideal, nadir : (m,) ndarray
         Least and largest of each objective on the whole front.
     volume : float
@@ -63,10 +60,10 @@ class ReferenceFront(Record):
     volume: float
 
     HYPERVOLUME_REFERENCE = 1.1
-    """Corner of the hypervolume in every scaled objective: a tenth beyond the nadir, so that ends count."""
+    """Corner of the hypervolume in scaled objectives: a tenth beyond the nadir, since ends count too."""
 
     SAMPLE = 2000
-    """Points of a fine front to which distances are taken."""
+    """Points of a fine front for distances."""
 
     def __post_init__(self) -> None:
         self._keep(**{name: frozen_array(getattr(self, name)) for name in ("objectives", "ideal", "nadir")})
@@ -101,21 +98,20 @@ class ReferenceFront(Record):
 
     def igd_plus(self, objectives: ArrayLike) -> float:
         """Return the modified inverted generational distance IGD+ of objectives (n, m) in scaled ones [-]."""
-        if len(np.asarray(objectives)) == 0:
-            return float("inf")
-        return float(moocore.igd_plus(self.scaled(objectives), ref=self.scaled(self.objectives)))
+        return self._distance(moocore.igd_plus, objectives)
 
     def epsilon(self, objectives: ArrayLike) -> float:
         """Return the least shift by which objectives (n, m) weakly dominate this front, in scaled ones [-]."""
-        if len(np.asarray(objectives)) == 0:
-            return float("inf")
-        return float(moocore.epsilon_additive(self.scaled(objectives), ref=self.scaled(self.objectives)))
+        return self._distance(moocore.epsilon_additive, objectives)
+
+    def _distance(self, measure: Callable[..., Any], objectives: ArrayLike) -> float:
+        scaled = self.scaled(objectives)
+        return float(measure(scaled, ref=self.scaled(self.objectives))) if len(scaled) else inf
 
     def spread(self, objectives: ArrayLike) -> float:
         """Return the generalised spread of objectives (n, m) in scaled ones [-]; NaN of fewer than two points.
 
-        It is 0 where nearest neighbours are equally far apart throughout and the ends, which have the least of
-        an objective on this front, belong to the set.
+        It is 0 for equal distances of nearest neighbours and a set that contains the ends of this front.
 
         References
         ----------
@@ -126,8 +122,6 @@ class ReferenceFront(Record):
         if len(points) < 2:
             return float("nan")
         tree = cKDTree(points)
-        distances, _ = tree.query(points, k=[2])  # the nearest is the point itself
-        gaps = np.ravel(distances)
-        to_ends, _ = tree.query(self.scaled(self.objectives[self.objectives.argmin(axis=0)]))
-        ends = np.sum(to_ends)
+        gaps = np.ravel(tree.query(points, k=[2])[0])  # the nearest is the point itself
+        ends = np.sum(tree.query(self.scaled(self.objectives[self.objectives.argmin(axis=0)]))[0])
         return float((ends + np.abs(gaps - gaps.mean()).sum()) / (ends + gaps.sum()))

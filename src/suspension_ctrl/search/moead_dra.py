@@ -7,9 +7,9 @@ from typing import ClassVar
 
 import numpy as np
 from deap.base import Toolbox
-from numpy.typing import NDArray
 
 from .. import checks
+from ..quantities import Real
 from . import decomposition, operators
 from .compiled import call_compiled
 from .constraints import ideal_with
@@ -29,11 +29,11 @@ class MoeadDra:
     population : int
         Number of subproblems N, at least five times the number of objectives.
     neighbourhood : float
-        Size T of a neighbourhood as a fraction of N; at least 2 subproblems.
+        Size T of a neighbourhood as a fraction of N, at least 2 subproblems.
     neighbour_probability : float
         Probability delta that mates come from the neighbourhood.
     replacement_limit : float
-        Number n_r of partners that a child may replace as a fraction of N; at least 1.
+        Largest number n_r of partners that a child replaces as a fraction of N, at least 1.
     scale_factor : float
         Factor F of differential evolution.
     mutation_probability : float, optional
@@ -41,20 +41,20 @@ class MoeadDra:
     mutation_eta : float
         Distribution index of polynomial mutation.
     tournament : int
-        Number of subproblems of which the one with the highest utility is worked on.
+        Number of subproblems that compete by utility.
     utility_period : int
         Iterations from one update of the utilities to the next.
     utility_threshold : float
         Relative progress above which a subproblem's utility is 1.
     normalise : bool
-        Divide each objective by its span, from the ideal point to the worst in the population at the start of
-        the iteration (of feasible designs, where there are any); False is equation (14) to the letter.
+        Divide each objective by its span, from the ideal point to the worst in the population (feasible designs
+        if any) at the start of the iteration; False is equation (14) to the letter.
     objective_scales : (m,) sequence of float, optional
-        Only without normalisation: what each objective is divided by in its place, 1 if not given. On the ride
-        problem ``(1, 1, 1e3)`` takes DTL in kN, as the paper states it.
+        Divisors of the objectives without normalisation, 1 if not given. On the ride problem ``(1, 1, 1e3)``
+        takes DTL in kN, as the paper does.
     update : {"sequential", "batch"}
-        Let each child see every replacement before it (the definition), or make all children of an iteration
-        from the population at its start and evaluate them in one call.
+        Each child sees every replacement before it (the definition), or all children of an iteration come from
+        the population at its start and one call evaluates them.
 
     Raises
     ------
@@ -76,21 +76,18 @@ class MoeadDra:
     objective_scales: tuple[float, ...] | None = None
     update: str = "sequential"
 
-    phases: ClassVar[tuple[str, ...]] = (
-        "sample", "evaluate", "choose_subproblems", "sweep", "update_utility",
-    )  # fmt: skip
+    phases: ClassVar[tuple[str, ...]] = ("sample", "evaluate", "choose_subproblems", "sweep", "update_utility")
 
     def __post_init__(self) -> None:
         checks.at_least("population", self.population, 4)
-        checks.positive("scale_factor", self.scale_factor)
-        checks.positive("mutation_eta", self.mutation_eta)
-        checks.positive("utility_threshold", self.utility_threshold)
+        for name in ("scale_factor", "mutation_eta", "utility_threshold"):
+            checks.positive(name, getattr(self, name))
         for name in ("neighbourhood", "neighbour_probability", "replacement_limit"):
             checks.within(name, getattr(self, name), 0, 1)
         if self.mutation_probability is not None:
             checks.within("mutation_probability", self.mutation_probability, 0, 1)
-        checks.at_least("tournament", self.tournament, 1)
-        checks.at_least("utility_period", self.utility_period, 1)
+        for name in ("tournament", "utility_period"):
+            checks.at_least(name, getattr(self, name), 1)
         checks.one_of("normalise", self.normalise, (True, False))
         if self.objective_scales is not None:
             for scale in np.ravel(self.objective_scales):
@@ -118,9 +115,8 @@ class MoeadDra:
         toolbox.register("sample", operators.sample_uniform, lower=lower, upper=upper)
         toolbox.register("evaluate", problem.evaluate)
         toolbox.register("choose_subproblems", decomposition.choose_subproblems, tournament=self.tournament)
-        toolbox.register(
-            "mating_range", call_compiled, decomposition.MatingRange(float(self.neighbour_probability))
-        )
+        neighbour_probability = float(self.neighbour_probability)
+        toolbox.register("mating_range", call_compiled, decomposition.MatingRange(neighbour_probability))
         toolbox.register("reproduce", call_compiled, operators.DifferentialChild(float(self.scale_factor)))
         toolbox.register("repair", call_compiled, operators.RedrawOutside(lower, upper))
         eta, p = float(self.mutation_eta), float(probability)
@@ -150,17 +146,15 @@ class MoeadDra:
             chosen = toolbox.choose_subproblems(rng, utility, corners, self.evaluations_per_iteration(m))
             toolbox.sweep(rng, chosen, population, toolbox, problem)
             if iteration % self.utility_period == 0:
-                utility = toolbox.update_utility(
-                    utility, before, population.values, population.weights, population.ideal
-                )
-                before = population.values.copy()
+                _, values, ideal, weighted, _ = population
+                utility = toolbox.update_utility(utility, before, values, weighted, ideal)
+                before = values.copy()
             evaluations += chosen.size
             yield population.state(evaluations)
 
-    def _scales(self, objectives: int) -> NDArray[np.float64]:
-        scales = (
-            np.ones(objectives) if self.objective_scales is None else np.ravel(self.objective_scales).astype(float)
-        )
+    def _scales(self, objectives: int) -> Real:
+        given = np.ones(objectives) if self.objective_scales is None else self.objective_scales
+        scales = np.ravel(given).astype(float)
         if scales.size != objectives:
             raise ValueError(
                 f"objective_scales must be {objectives} numbers, one per objective, got {self.objective_scales!r}"

@@ -39,8 +39,8 @@ class Nsga2:
     mutation_eta : float
         Distribution index of polynomial mutation.
     selection : {"array", "deap-standard", "deap-log"}
-        Survivor selection: the array form, or DEAP's ``selNSGA2`` with its sorting of order m n^2 or its
-        faster one. "array" and "deap-standard" keep the same survivors but for ties.
+        Survivor selection on arrays, or DEAP's ``selNSGA2`` with its sorting of order m n^2 or its faster one.
+        "array" and "deap-standard" keep the same survivors except for ties.
 
     Raises
     ------
@@ -79,14 +79,10 @@ class Nsga2:
         toolbox.register("sample", sample_uniform, lower=lower, upper=upper)
         toolbox.register("evaluate", problem.evaluate)
         toolbox.register("tournament", crowded_tournament)
-        toolbox.register(
-            "mate", simulated_binary_crossover,
-            lower=lower, upper=upper, eta=self.crossover_eta, probability=self.crossover_probability,
-        )  # fmt: skip
-        toolbox.register(
-            "mutate", polynomial_mutation,
-            lower=lower, upper=upper, eta=self.mutation_eta, probability=probability,
-        )  # fmt: skip
+        box = {"lower": lower, "upper": upper}
+        mates = {"eta": self.crossover_eta, "probability": self.crossover_probability}
+        toolbox.register("mate", simulated_binary_crossover, **box, **mates)
+        toolbox.register("mutate", polynomial_mutation, **box, eta=self.mutation_eta, probability=probability)
         toolbox.register("select", select, **sorting)
         return toolbox
 

@@ -5,9 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 from numba.extending import register_jitable
-from numpy.typing import NDArray
 
-from ..quantities import Real
+from ..quantities import Bool, Integer, Real
 
 
 def sample_uniform(rng: np.random.Generator, size: int, lower: Real, upper: Real) -> Real:
@@ -22,11 +21,10 @@ def draw_below(rng: np.random.Generator, count: int) -> int:
     return int(rng.random() * count)
 
 
-def crowded_tournament(rng: np.random.Generator, objectives: Real, crowding: Real, size: int) -> NDArray[np.int64]:
-    """Return `size` parents, winners of binary tournaments: dominance first, then larger crowding distance.
+def crowded_tournament(rng: np.random.Generator, objectives: Real, crowding: Real, size: int) -> Integer:
+    """Return `size` parents, winners of binary tournaments by dominance, then by larger crowding distance.
 
-    Everyone meets a rival once in each pass through the population, in an order shuffled anew for each pass
-    (Deb et al. 2002; the rule of DEAP's ``selTournamentDCD`` without its need for multiples of four).
+    Every individual has one rival in each shuffled pass (Deb et al. 2002; ``selTournamentDCD`` of DEAP, any size).
     """
     n = objectives.shape[0]
     passes = -(-size // (n // 2))
@@ -34,16 +32,8 @@ def crowded_tournament(rng: np.random.Generator, objectives: Real, crowding: Rea
 
 
 @njit(cache=True)
-def crowded_winners(
-    draws: Real,
-    coins: Real,
-    objectives: Real,
-    crowding: Real,
-) -> NDArray[np.int64]:
-    """Return the winners (k,) among n individuals that pair up in passes, each shuffled by a row of draws (p, n).
-
-    One of `coins` (k,), drawn from 0 to 1, decides where neither dominance nor crowding does.
-    """
+def crowded_winners(draws: Real, coins: Real, objectives: Real, crowding: Real) -> Integer:
+    """Return the winners (k,) of passes shuffled by draws (p, n); coins (k,) from 0 to 1 decide ties."""
     order = np.arange(objectives.shape[0])
     pairs = order.size // 2
     winners = np.empty(coins.size, dtype=np.int64)
@@ -62,30 +52,20 @@ def crowded_winners(
 
 
 @register_jitable
-def shuffle(values: NDArray[np.int64], draws: Real) -> None:
-    """Bring `values` (n,) into the order that `draws` (n,) from 0 to 1 give, in place (Fisher and Yates)."""
+def shuffle(values: Integer, draws: Real) -> None:
+    """Shuffle `values` (n,) in place by `draws` (n,) from 0 to 1 (Fisher and Yates)."""
     for i in range(values.size - 1, 0, -1):
         j = int(draws[i] * (i + 1))
         values[i], values[j] = values[j], values[i]
 
 
 def simulated_binary_crossover(
-    rng: np.random.Generator,
-    parents: Real,
-    lower: Real,
-    upper: Real,
-    eta: float,
-    probability: float,
+    rng: np.random.Generator, parents: Real, lower: Real, upper: Real, eta: float, probability: float
 ) -> Real:
-    """Return children (n, d) of consecutive pairs of parents (n, d), bounded SBX.
+    """Return children (n, d) of consecutive parents (n, d) by bounded SBX; a last one without a mate is copied.
 
-    A pair mates with `probability`; then each variable is recombined with probability 1/2. A last parent
-    without a mate is copied.
-
-    References
-    ----------
-    K. Deb and R. B. Agrawal, "Simulated binary crossover for continuous search space", Complex Systems 9,
-    1995; in the bounded form of Deb's NSGA-II code.
+    K. Deb, R. B. Agrawal, Complex Systems 9, 1995, in the bounded form of Deb's NSGA-II code: a pair mates with
+    `probability`, then each variable is recombined with probability 1/2.
     """
     pairs, variables = parents.shape[0] // 2, parents.shape[1]
     mates = rng.random(pairs) < probability
@@ -93,26 +73,16 @@ def simulated_binary_crossover(
 
 
 @njit(cache=True)
-def recombined(
-    parents: Real,
-    mates: NDArray[np.bool_],
-    draws: Real,
-    lower: Real,
-    upper: Real,
-    eta: float,
-) -> Real:
-    """Return the children (n, d) of those pairs that mate (n // 2,), from three draws (n // 2, d, 3) a variable.
-
-    The first of them decides whether the variable is recombined, the third which child gets the lower value.
-    """
+def recombined(parents: Real, mates: Bool, draws: Real, lower: Real, upper: Real, eta: float) -> Real:
+    """Return children (n, d); draws (n // 2, d, 3): whether a variable is recombined, its spread, their order."""
     children = parents.copy()
     for pair in range(mates.size):
         if not mates[pair]:
             continue
         first = 2 * pair
         for v in range(parents.shape[1]):
-            low = min(parents[first, v], parents[first + 1, v])
-            high = max(parents[first, v], parents[first + 1, v])
+            one, other = parents[first, v], parents[first + 1, v]
+            low, high = min(one, other), max(one, other)
             if draws[pair, v, 0] < 0.5 or high - low <= 1e-14 * (upper[v] - lower[v]):
                 continue
             u = draws[pair, v, 1]
@@ -135,36 +105,20 @@ def sbx_spread(u: float, room: float, eta: float) -> float:
 
 
 def polynomial_mutation(
-    rng: np.random.Generator,
-    designs: Real,
-    lower: Real,
-    upper: Real,
-    eta: float,
-    probability: float,
+    rng: np.random.Generator, designs: Real, lower: Real, upper: Real, eta: float, probability: float
 ) -> Real:
-    """Return mutants (n, d) of designs (n, d) inside the box: bounded polynomial mutation.
+    """Return mutants (n, d) of designs (n, d) in the box, each variable with `probability`: polynomial mutation.
 
-    Each variable mutates with `probability`.
-
-    References
-    ----------
-    K. Deb and M. Goyal, "A combined genetic adaptive search (GeneAS) for engineering design", 1996; in the
-    bounded form of Deb's NSGA-II code.
+    K. Deb, M. Goyal, "A combined genetic adaptive search (GeneAS) for engineering design", 1996, in the bounded
+    form of Deb's NSGA-II code.
     """
     mutates = rng.random(designs.shape) < probability
     return mutated(designs, mutates, rng.random(designs.shape), lower, upper, eta)
 
 
 @njit(cache=True)
-def mutated(
-    designs: Real,
-    mutates: NDArray[np.bool_],
-    draws: Real,
-    lower: Real,
-    upper: Real,
-    eta: float,
-) -> Real:
-    """Return designs (n, d) with those values that mutate (n, d) moved, each by its draw (n, d)."""
+def mutated(designs: Real, mutates: Bool, draws: Real, lower: Real, upper: Real, eta: float) -> Real:
+    """Return mutants (n, d) of designs (n, d), changed where `mutates` (n, d), by draws (n, d)."""
     mutants = designs.copy()
     for i in range(designs.shape[0]):
         for v in range(designs.shape[1]):
@@ -175,7 +129,7 @@ def mutated(
 
 @register_jitable
 def mutated_value(value: float, u: float, lower: float, upper: float, eta: float) -> float:
-    """Return the value that polynomial mutation of `value` in its bounds makes of the draw u."""
+    """Return the polynomial mutation of a value in its bounds for the draw u."""
     width = upper - lower
     if u < 0.5:
         rest = (1.0 - (value - lower) / width) ** (eta + 1.0)
@@ -187,7 +141,7 @@ def mutated_value(value: float, u: float, lower: float, upper: float, eta: float
 
 
 class MutateDesign(NamedTuple):
-    """Polynomial mutation of one design, each variable with `probability`, with one draw after the other."""
+    """Polynomial mutation of one design, each variable with `probability`."""
 
     lower: Real
     upper: Real
@@ -209,12 +163,10 @@ class DifferentialChild(NamedTuple):
     scale: float
 
     @register_jitable
-    def function(self, rng: np.random.Generator, designs: Real, i: int, partners: NDArray[np.int64]) -> Real:
+    def function(self, rng: np.random.Generator, designs: Real, i: int, partners: Integer) -> Real:
         """Return a child (d,) of individual i, with different r2 and r3 drawn from `partners`."""
-        first = draw_below(rng, partners.size)
-        second = draw_below(rng, partners.size - 1)
-        if second >= first:
-            second += 1
+        first, second = draw_below(rng, partners.size), draw_below(rng, partners.size - 1)
+        second += second >= first
         child = np.empty(designs.shape[1])
         for v in range(child.size):
             child[v] = designs[i, v] + self.scale * (designs[partners[first], v] - designs[partners[second], v])
@@ -222,7 +174,7 @@ class DifferentialChild(NamedTuple):
 
 
 class RedrawOutside(NamedTuple):
-    """Repair of a child: a variable outside the box is redrawn between that bound and the parent's value."""
+    """Repair of a child: a variable outside the box is drawn between that bound and the parent's value."""
 
     lower: Real
     upper: Real

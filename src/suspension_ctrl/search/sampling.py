@@ -6,22 +6,22 @@ from typing import ClassVar
 
 import numpy as np
 from deap.base import Toolbox
-from numpy.typing import NDArray
 
 from .. import checks
+from ..quantities import Real
 from .constraints import any_feasible, constrained, ideal_with
 from .indicators import non_dominated
 from .population import State
 from .problem import Minimisable, evaluate_checked
 
 
-def random_points(rng: np.random.Generator, size: int, variables: int) -> Iterator[NDArray[np.float64]]:
+def random_points(rng: np.random.Generator, size: int, variables: int) -> Iterator[Real]:
     """Yield samples (size, variables) of independent points in the unit cube, without end."""
     while True:
         yield rng.random((size, variables))
 
 
-def sobol_points(rng: np.random.Generator, size: int, variables: int) -> Iterator[NDArray[np.float64]]:
+def sobol_points(rng: np.random.Generator, size: int, variables: int) -> Iterator[Real]:
     """Yield consecutive parts (size, variables) of one scrambled Sobol sequence in the unit cube, without end."""
     from scipy.stats import qmc  # half a second: not at import of the package
 
@@ -35,18 +35,15 @@ def sobol_points(rng: np.random.Generator, size: int, variables: int) -> Iterato
         points = points[size:]
 
 
-_POINTS: dict[str, Callable[..., Iterator[NDArray[np.float64]]]] = {
-    "random": random_points,
-    "sobol": sobol_points,
-}
+_POINTS: dict[str, Callable[..., Iterator[Real]]] = {"random": random_points, "sobol": sobol_points}
 
 
 @dataclass(frozen=True, kw_only=True)
 class Sampling:
     """Settings of a sample; an iteration costs `population` evaluations, and so does the start.
 
-    Its population are the non-dominated designs of all it has evaluated, however many; while none is feasible,
-    those of the least violation.
+    Its population is the non-dominated designs of all evaluated ones; while none is feasible, those of the least
+    violation.
 
     Parameters
     ----------

@@ -8,33 +8,17 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from ..quantities import Real
+from ..quantities import Integer, Real
 
 _FEW = 24
 """Equal values in a row up to which insertion is the quicker sort."""
 
 
-def select_survivors(objectives: Real, size: int) -> tuple[NDArray[np.int64], Real]:
-    """Keep `size` individuals: whole fronts by rank, the last front by larger crowding distance.
+def select_survivors(objectives: Real, size: int) -> tuple[Integer, Real]:
+    """Return indices, ascending, of `size` survivors of objectives (n, m), and their crowding distances [-].
 
-    Parameters
-    ----------
-    objectives : (n, m) ndarray
-        Objectives to be minimised, their ranges finite.
-    size : int
-        How many to keep, from 1 to n.
-
-    Returns
-    -------
-    index : (size,) ndarray
-        Survivors in ascending order.
-    crowding : (size,) ndarray
-        Their crowding distances [-], infinite at the ends of a front.
-
-    References
-    ----------
-    K. Deb, A. Pratap, S. Agarwal, T. Meyarivan, "A fast and elitist multiobjective genetic algorithm:
-    NSGA-II", IEEE Trans. Evol. Comput. 6(2), 2002.
+    Whole fronts by rank, the last by larger crowding distance: K. Deb, A. Pratap, S. Agarwal, T. Meyarivan, "A
+    fast and elitist multiobjective genetic algorithm: NSGA-II", IEEE Trans. Evol. Comput. 6(2), 2002.
     """
     rank = front_ranks(objectives)
     last = int(np.searchsorted(np.cumsum(np.bincount(rank)), size))
@@ -51,7 +35,7 @@ def select_survivors(objectives: Real, size: int) -> tuple[NDArray[np.int64], Re
 
 
 def front_ranks(objectives: Real) -> NDArray[np.int32]:
-    """Return the front (n,), from 0, of each individual with objectives (n, m)."""
+    """Return the fronts (n,), from 0, of objectives (n, m)."""
     order = np.argsort(objectives[:, 0])  # moocore sorts by the last objective: quick where that is done already
     rank = np.empty(order.size, dtype=np.int32)
     rank[order] = moocore.pareto_rank(objectives.take(order, axis=0)[:, ::-1])
@@ -61,7 +45,7 @@ def front_ranks(objectives: Real) -> NDArray[np.int32]:
 def crowding_distances(objectives: Real, rank: NDArray[np.int32]) -> Real:
     """Return the crowding distances (n,) within whole fronts, from objectives (n, m) and ranks (n,).
 
-    The distance is the sum over the objectives of the gap between both neighbours over m times the front's range.
+    The mean over the objectives of the gap between both neighbours over the front's range; infinite at its ends.
     """
     distance = np.zeros(rank.size)
     m, fronts = objectives.shape[1], int(rank.max()) + 1
@@ -70,15 +54,15 @@ def crowding_distances(objectives: Real, rank: NDArray[np.int32]) -> Real:
     return distance
 
 
-def rising_order(values: Real) -> NDArray[np.int64]:
+def rising_order(values: Real) -> Integer:
     """Return ``np.argsort(values, kind="stable")``, in a quarter of its time where few values are equal."""
     order = np.argsort(values)
     return order if settle_ties(values, order) else np.argsort(values, kind="stable")
 
 
 @njit(cache=True)
-def settle_ties(value: Real, order: NDArray[np.int64]) -> bool:
-    """Put equal values of a rising `order` (n,) in ascending order, in place; False if they are too many."""
+def settle_ties(value: Real, order: Integer) -> bool:
+    """Sort equal values of a rising `order` (n,) by index, in place; False if they are too many."""
     begin = 0
     for k in range(1, order.size):
         if value[order[k]] != value[order[begin]]:
@@ -94,10 +78,8 @@ def settle_ties(value: Real, order: NDArray[np.int64]) -> bool:
 
 
 @njit(cache=True)
-def add_gaps(
-    value: Real, order: NDArray[np.int64], rank: NDArray[np.int32], fronts: int, m: int, distance: Real
-) -> None:
-    """Add to `distance` (n,) the share of one of m objectives, whose `value` (n,) rises in this `order` (n,)."""
+def add_gaps(value: Real, order: Integer, rank: NDArray[np.int32], fronts: int, m: int, distance: Real) -> None:
+    """Add to `distance` (n,) the share of one of m objectives, of `value` (n,) that rises in `order` (n,)."""
     low, high = np.empty((2, fronts))
     before, here = np.empty((2, fronts), dtype=np.int64)
     for r in range(fronts):
