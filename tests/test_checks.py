@@ -30,6 +30,8 @@ SENTENCES = [
     ),
     (checks.interval, ("band", 3.0, "Hz"), "band must be finite with 0 <= lower < upper [Hz], got 3.0"),
     (checks.position, ("place", "12"), "place must be two finite numbers, x and y [m], got '12'"),
+    (checks.listed, ("measures", "ACC"), "measures must be a list, got 'ACC'"),
+    (checks.listed, ("measures", 3), "measures must be a list, got 3"),
     (checks.one_of, ("road", "E", ("A", "B")), "road must be one of A, B, got 'E'"),
     (
         checks.ordered,
@@ -57,7 +59,9 @@ def test_whatever_is_allowed_passes():
     checks.at_least("seeds", np.int64(1), 1)
     checks.within("target", 1, 0, 1)
     checks.interval("band", np.array([0.0, 1.0]), "Hz")
-    checks.position("place", [0, -1.5])
+    assert checks.position("place", [0, -1.5]) == (0.0, -1.5)
+    for names in ([], ("ACC", "DTL"), {"ACC": 1}.keys(), np.array(["ACC"])):
+        checks.listed("measures", names)
     checks.ordered("lower", "upper", LOWER, UPPER)
     assert checks.designs([[1, 2]], 2).dtype == float
 

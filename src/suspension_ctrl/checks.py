@@ -1,7 +1,7 @@
 """Checks of user input: a ValueError names the parameter, the value and what is allowed."""
 
 import sys
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 
 import numpy as np
@@ -53,11 +53,18 @@ def interval(name: str, value: ArrayLike, unit: str) -> None:
         raise ValueError(f"{name} must be finite with 0 <= lower < upper [{unit}], got {value!r}")
 
 
-def position(name: str, value: object) -> None:
-    """Raise ValueError unless `value` is a pair of finite numbers."""
+def position(name: str, value: object) -> tuple[float, float]:
+    """Return `value` as a pair of floats; ValueError unless it is one of finite numbers."""
     pair = list(value) if isinstance(value, Sequence | np.ndarray) and not isinstance(value, str) else []
     if not (len(pair) == 2 and all(_is_real(x) and abs(x) <= _LARGEST for x in pair)):
         raise ValueError(f"{name} must be two finite numbers, x and y [m], got {value!r}")
+    return float(pair[0]), float(pair[1])
+
+
+def listed(name: str, value: object) -> None:
+    """Raise ValueError unless `value` is a collection other than a string."""
+    if isinstance(value, str) or not isinstance(value, Iterable):
+        raise ValueError(f"{name} must be a list, got {value!r}")
 
 
 def one_of(name: str, value: object, allowed: Collection[object]) -> None:

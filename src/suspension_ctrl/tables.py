@@ -9,6 +9,7 @@ import math
 import os
 import re
 from collections.abc import Callable, Mapping
+from os import PathLike
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING, Any
@@ -17,8 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from os import PathLike
-
     import pandas as pd
     from matplotlib.figure import Figure
 
@@ -29,7 +28,7 @@ _DEVICES = r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)"
 """Names that Windows keeps for devices, with any ending."""
 
 
-def read_table(path: "str | PathLike[str]") -> tuple[list[str], NDArray[np.float64]]:
+def read_table(path: str | PathLike[str]) -> tuple[list[str], NDArray[np.float64]]:
     """Return the names of the columns (c,) and their values (rows, c), two rows at least.
 
     Raises
@@ -46,7 +45,7 @@ def read_table(path: "str | PathLike[str]") -> tuple[list[str], NDArray[np.float
     return names, values
 
 
-def table_rows(path: "str | PathLike[str]") -> list[list[str]]:
+def table_rows(path: str | PathLike[str]) -> list[list[str]]:
     """Return the rows of a CSV file, the first the names of its columns, without comments and empty lines."""
     try:
         with Path(path).open(encoding="utf-8-sig", newline="") as file:
@@ -59,13 +58,13 @@ def table_rows(path: "str | PathLike[str]") -> list[list[str]]:
     return rows
 
 
-def _numbers(path: "str | PathLike[str]", number: int, names: list[str], row: list[str]) -> list[float]:
+def _numbers(path: str | PathLike[str], number: int, names: list[str], row: list[str]) -> list[float]:
     if len(row) != len(names):
         raise ValueError(f"{path}: row {number} must have {len(names)} cells as {names}, got {len(row)}")
     return [_number(path, number, name, cell) for name, cell in zip(names, row, strict=True)]
 
 
-def _number(path: "str | PathLike[str]", number: int, name: str, cell: str) -> float:
+def _number(path: str | PathLike[str], number: int, name: str, cell: str) -> float:
     try:
         value = float(cell)
     except ValueError:

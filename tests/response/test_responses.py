@@ -116,7 +116,7 @@ def test_a_plant_whose_body_follows_the_road_has_no_displacement_from_zero_hertz
     ("changes", "message"),
     [
         ({"band": (1.0, 0.5)}, "band must be finite with 0 <= lower < upper [Hz], got (1.0, 0.5)"),
-        ({"measures": "ACC"}, "measures must be a list of measures, got 'ACC'"),
+        ({"measures": "ACC"}, "measures must be a list, got 'ACC'"),
         ({"measures": ["SWS front"]}, "SWS must be of one of all wheels, got 'front'"),
         ({"speed": 0.0}, "speed must be finite and > 0 m/s, got 0.0"),
         (

@@ -272,6 +272,12 @@ def test_measures_that_need_masses_are_refused(text):
         problem(measured(CAR, LINES), constraints=(f"{text.removeprefix('- ')} <= 1",))
 
 
+def test_a_plant_has_no_modes():
+    for plant in (Plant(CAR.plant(), contacts(CAR)), measured(CAR, LINES)):
+        with pytest.raises(ValueError, match=r"^vehicle must be one of masses and links for .*, got a Plant$"):
+            plant.modes(SETTING)
+
+
 def test_a_seat_cannot_be_put_on_a_plant():
     with pytest.raises(ValueError, match=r"^vehicle must be one of masses and links .*$"):
         Seat(mass=60.0, spring=8e3, damper=500.0).on(measured(CAR, LINES))
@@ -335,8 +341,8 @@ DIRECT = control.ss([[-1]], [[1, 1]], [[1]], [[0, 2]], inputs=["road", "strut"],
         ((3,), "system must be a control.StateSpace or FrequencyResponseData, got int"),
         ((control.tf([1], [1, 1]),),
          "system must be a control.StateSpace or FrequencyResponseData, got TransferFunction"),
-        ((SYSTEM, {1: (0, 0)}), "contacts must be a mapping of wheels to points, got 1"),
-        ((SYSTEM, {"": (0, 0)}, "front"), "struts must be a list of names, got 'front'"),
+        ((SYSTEM, {1: (0, 0)}), "contacts must be a mapping of wheels to points, got {1: (0, 0)}"),
+        ((SYSTEM, {"": (0, 0)}, "front"), "struts must be a list, got 'front'"),
         ((DISCRETE,), "system must be in continuous time, got a time step of 0.01"),
         ((SYSTEM, {}), "contacts must be a mapping of wheels to points, got {}"),
         ((SYSTEM, [(0, 0)]), "contacts must be a mapping of wheels to points, got [(0, 0)]"),

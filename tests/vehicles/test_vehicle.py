@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from garage import BENDING, DAMPED_HALF, DRIVER, FULL, HALF, QUARTER, VEHICLES, struts_of
-from suspension_ctrl import Payload, QuarterCar, RollGeometry, load_vehicle
+from suspension_ctrl import Payload, Plant, QuarterCar, RollGeometry, load_vehicle
 from suspension_ctrl.vehicles.vehicle import AssembledVehicle
 
 PAIRS = {"front": (2e4, 1500.0), "rear": (2.2e4, 1600.0)}
@@ -38,6 +38,23 @@ def test_responses_are_asked_for_beside_the_setting():
     names = ["rear_tyre_load", ("acceleration", 0.5, 0.0)]
     closed = HALF.closed(front=(2e4, 1500.0), rear=(2.2e4, 1600.0), responses=names)
     assert closed.output_labels == ["rear_tyre_load", "acceleration_at_500_0_mm"]
+
+
+@pytest.mark.parametrize(
+    ("responses", "message"),
+    [
+        ("rear_tyre_load", "responses must be a list, got 'rear_tyre_load'"),
+        (3, "responses must be a list, got 3"),
+        (("acceleration", 0.5, 0.0), f"response must be one of {', '.join(HALF.responses)}, got 'acceleration'"),
+        ([0.5], f"response must be one of {', '.join(HALF.responses)}, got "),
+        ([("velocity", 0.5, 0.0)], f"response must be one of {', '.join(HALF.responses)}, got "),
+    ],
+)
+@pytest.mark.parametrize("car", [HALF, Plant(HALF.plant(), HALF.contacts)])
+def test_responses_are_a_list_of_known_ones(car, responses, message):
+    for call in (car.plant, lambda responses: car.closed(PAIRS, responses=responses)):
+        with pytest.raises(ValueError, match="^" + re.escape(message)):
+            call(responses)
 
 
 def test_modes_take_a_setting_in_every_form():

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from .. import checks
 from ..quantities import FrozenMapping
-from ..vehicles.vehicle import Setting, Vehicle
+from ..vehicles.vehicle import Struts, Vehicle
 
 
 def checked_bounds(
@@ -12,7 +12,7 @@ def checked_bounds(
     bounds: Mapping[str, tuple[float, float]] | None,
     lower: Sequence[float],
     upper: Sequence[float],
-    fixed: Setting,
+    fixed: Struts,
 ) -> FrozenMapping[str, tuple[float, float]]:
     """Return the bounds by name, with `lower` and `upper` (d,) in place of theirs where given."""
     known = {parameter.name: parameter for parameter in vehicle.parameters}

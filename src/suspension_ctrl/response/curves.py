@@ -6,7 +6,6 @@ import numpy as np
 import pandas as pd
 
 from ..quantities import Real, signal_unit
-from ..vehicles.vehicle import assembled
 from . import weightings
 from .figures import DesignCurves, weighted_name
 from .problem import RideProblem
@@ -73,7 +72,7 @@ def curve_table(curves: DesignCurves) -> pd.DataFrame:
 
 def oscillations(problem: RideProblem, label: str, design: Sequence[float]) -> pd.DataFrame:
     """Return design, mode, natural frequency [Hz] and damping ratio of the oscillating modes of a design."""
-    modes = assembled(problem.cases[0].vehicle).modes(setting_of(problem, design))
+    modes = problem.cases[0].vehicle.modes(setting_of(problem, design))
     found = modes[modes["damping ratio [-]"] < 1].assign(design=label)
     names = {"design": "design", "name": "mode", "frequency [Hz]": "natural frequency [Hz]"}
     return found[[*names, "damping ratio [-]"]].rename(columns=names)

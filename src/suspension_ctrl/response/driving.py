@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from .. import checks
 from ..quantities import Real, signal_unit
 from ..roads.profiles import Profile
-from ..vehicles.vehicle import Pair, Setting, Vehicle
+from ..vehicles.vehicle import Setting, Vehicle
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -20,7 +20,7 @@ _SAME_TRACK = 1e-3  # m
 
 @overload
 def simulate(
-    closed: Vehicle, setting: Setting | Pair, profile: Profile, speed: float, *, periodic: bool = False
+    closed: Vehicle, setting: Setting, profile: Profile, speed: float, *, periodic: bool = False
 ) -> "pd.DataFrame": ...
 
 
@@ -84,7 +84,7 @@ def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
 
 
 def _drive_vehicle(
-    vehicle: Vehicle, setting: Setting | Pair, profile: Profile, speed: float, *, periodic: bool = False
+    vehicle: Vehicle, setting: Setting, profile: Profile, speed: float, *, periodic: bool = False
 ) -> "pd.DataFrame":
     return _drive(vehicle.closed(setting), profile, speed, vehicle.contact_points, periodic=periodic)
 

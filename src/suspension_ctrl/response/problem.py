@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from .. import checks
 from ..quantities import FrozenMapping, Real, Record
-from ..vehicles.vehicle import Setting, Vehicle
+from ..vehicles.vehicle import Struts, Vehicle
 from .bounds import checked_bounds
 from .load_case import LoadCase, Road, load_cases
 from .measures import Measure, case_limit, case_measure, name_of
@@ -75,7 +75,7 @@ class RideProblem(Record):
 
     cases: tuple[LoadCase, ...]
     bounds: Mapping[str, tuple[float, float]]
-    struts: Setting
+    struts: Struts
     weighting: Weighting | None
     band: tuple[float, float]
     measures: tuple[str | Measure, ...]
@@ -94,7 +94,7 @@ class RideProblem(Record):
         lower: Sequence[float] = (),
         upper: Sequence[float] = (),
         bounds: Mapping[str, tuple[float, float]] | None = None,
-        struts: Setting | None = None,
+        struts: Struts | None = None,
         measures: Sequence[str | Measure] = ("ACC", "SWS", "DTL"),
         constraints: Sequence[str] = (),
         cases: Sequence[LoadCase] = (),
@@ -102,9 +102,8 @@ class RideProblem(Record):
         nodes: int | None = None,
     ) -> None:
         checks.interval("band", band, "Hz")
-        for name, texts in (("measures", measures), ("constraints", constraints)):
-            if isinstance(texts, str):
-                raise ValueError(f"{name} must be a list, got {texts!r}")
+        checks.listed("measures", measures)
+        checks.listed("constraints", constraints)
         fixed: dict[str, Any] = {
             name: tuple(value) if isinstance(value, Sequence | np.ndarray) else value
             for name, value in (struts or {}).items()

@@ -9,7 +9,7 @@ import numpy as np
 from .. import checks
 from ..quantities import Complex, Real, signal_unit
 from ..vehicles.assembly import ResponseName
-from ..vehicles.vehicle import Pair, Setting, Vehicle
+from ..vehicles.vehicle import Setting, Vehicle
 from .load_case import LoadCase, Road
 from .measures import CaseMeasure, Measure, Term, case_measure
 from .scores import NODES, RESOLVED, Score, Scores
@@ -24,7 +24,7 @@ _LOWEST = np.array([1e-3, 2e-3])
 
 def ride(
     vehicle: Vehicle,
-    setting: Setting | Pair,
+    setting: Setting,
     road: Road,
     speed: float,
     *,
@@ -61,8 +61,7 @@ def ride(
     import pandas as pd
 
     checks.interval("band", band, "Hz")
-    if isinstance(measures, str):
-        raise ValueError(f"measures must be a list of measures, got {measures!r}")
+    checks.listed("measures", measures)
     case = LoadCase(vehicle=vehicle, road=road, speed=speed)
     known = checked(weighting)
     judged = [case_measure(one, case, known) for one in measures]

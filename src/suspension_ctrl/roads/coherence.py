@@ -1,7 +1,4 @@
-"""Coherence of parallel tracks: their cross-spectrum over their common spectrum, by wavenumber and distance.
-
-`scipy.signal.coherence` returns its square.
-"""
+"""Coherence of parallel tracks: cross-spectrum over common spectrum; `scipy.signal.coherence` is its square."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -13,8 +10,7 @@ from numpy.typing import ArrayLike
 from .. import checks
 from ..quantities import Checked, Real, Record, unit
 
-_ROUNDING = 1e-9
-"""Largest magnitude of a negative eigenvalue of a matrix of coherences by rounding, by number of tracks."""
+_ROUNDING = 1e-9  # magnitude of negative eigenvalues of a matrix of coherences by rounding, per track
 
 
 class Coherence(Protocol):
@@ -28,13 +24,13 @@ class Coherence(Protocol):
 class Isotropic(Record):
     """Surface whose profiles have the same spectrum in every direction [1]_, [2]_.
 
-    The road's own spectrum then determines the coherence: in closed form for a power law, by an integral for two
-    slopes. The integral needs the spectrum of all shorter waves: a measured spectrum takes an `exponent` instead.
+    The road's own spectrum then determines the coherence: in closed form for a power law, by an integral over all
+    shorter waves for two slopes. A measured spectrum ends and takes an `exponent` instead.
 
     Parameters
     ----------
     exponent : float, optional
-        Coherence as on a road of this exponent, whatever the road's spectrum is.
+        Exponent of the power law for the coherence, in place of the road's own spectrum [-].
 
     Raises
     ------
@@ -117,16 +113,13 @@ class Constant(Checked):
 class Tabulated(Checked):
     """Measured coherence of two tracks, linear over wavenumber between the rows of a table.
 
-    Below the first row it rises to 1 at wavenumber 0, beyond the last it stays. Tracks at another distance d than
-    the measured one D have at n the coherence of n d/D: on an isotropic power-law road it depends on the product
-    alone.
+    Below the first row it rises to 1 at wavenumber 0, beyond the last it is constant. Tracks at a distance d have
+    at n the coherence of the measured distance D at n d/D, as on an isotropic power-law road.
 
     Parameters
     ----------
-    wavenumber : (k,) sequence of float
-        Ascending, above zero [cycle/m].
-    coherence : (k,) sequence of float
-        From 0 to 1 [-].
+    wavenumber, coherence : (k,) sequence of float
+        Wavenumbers, ascending and above zero [cycle/m], and coherences from 0 to 1 [-].
     distance : float
         Distance of the measured tracks [m].
 
@@ -157,18 +150,13 @@ class Tabulated(Checked):
 
 
 def coherence_matrix(between: Callable[[Real, float], Real], n: Real, y: Real) -> Real:
-    """Return the coherence (n, r, r) of tracks at `y` (r,) [m] across the road at wavenumbers (n,) [cycle/m].
-
-    It is symmetric, positive semi-definite and one on the diagonal; equal `y` are one track. ValueError if
-    `between` does not return values (n,) from 0 to 1, or no road has the matrix.
-    """
+    """Return the coherence (n, r, r), positive semi-definite, of tracks at `y` (r,) [m] at wavenumbers (n,)."""
     distances, which = np.unique(np.abs(y[:, None] - y), return_inverse=True)
     values = np.array([_checked(between(n, d), n) if d else np.ones(n.shape) for d in distances.tolist()])
     matrix = np.moveaxis(values[which.reshape(y.size, y.size)], 2, 0)
     if y.size > 2 and not np.linalg.eigvalsh(matrix).min(initial=0.0) >= -_ROUNDING * y.size:
-        raise ValueError(
-            f"coherence must make a positive semi-definite matrix, got none for tracks at {y.tolist()} m"
-        )
+        got = f"none for tracks at {y.tolist()} m"
+        raise ValueError(f"coherence must make a positive semi-definite matrix, got {got}")
     return matrix
 
 
@@ -177,18 +165,17 @@ def _checked(values: ArrayLike, n: Real) -> Real:
     real = values.dtype.kind in "fiu"
     if not (values.shape == n.shape and real and ((values >= 0) & (values <= 1)).all()):
         got = f"{values.min()} to {values.max()}" if real and values.size else f"{values.dtype}"
-        raise ValueError(
-            f"coherence must be real, from 0 to 1 and of shape {n.shape}, got {got} of shape {values.shape}"
-        )
+        got = f"{got} of shape {values.shape}"
+        raise ValueError(f"coherence must be real, from 0 to 1 and of shape {n.shape}, got {got}")
     return values
 
 
 def power_law_coherence(n: ArrayLike, distance: float, exponent: float) -> Real:
-    """Return the coherence (n,) of tracks `distance` [m] apart on an isotropic surface of a power-law spectrum.
+    """Return the coherence (n,) of tracks `distance` d [m] apart on an isotropic surface of a power-law spectrum.
 
-    Of a surface with the spectrum Phi(k) ~ k^-(w + 1) over the wave vector, a track has the integral of Phi across
-    the track, ~ n^-w, and two tracks the integral with cos(2 pi m d). By Basset's integral (DLMF 10.32.11) their
-    ratio is ``2^(1 - v)/Gamma(v) z^v K_v(z)`` with ``v = w/2`` and ``z = 2 pi n d``.
+    The surface's spectrum Phi(k) ~ k^-(w + 1), integrated across the track, gives a track's, ~ n^-w, and with
+    cos(2 pi m d) that of two tracks. By Basset's integral (DLMF 10.32.11) their ratio is
+    ``2^(1 - v)/Gamma(v) z^v K_v(z)`` with ``v = w/2`` and ``z = 2 pi n d``.
     """
     from scipy.special import gammaln, kv
 
@@ -202,15 +189,12 @@ def power_law_coherence(n: ArrayLike, distance: float, exponent: float) -> Real:
 def two_slope_coherence(n: Real, distance: float, lower: float, upper: float, corner: float) -> Real:
     """Return the coherence (n,) on an isotropic surface whose spectrum has another exponent above a corner.
 
-    Abel's inversion of the track's spectrum G gives the cross-spectrum as the integral of
-    ``-G'(s) J_0(2 pi d sqrt(s^2 - n^2))`` over s from n on: waves longer than 1/n have no part in it. Above the
-    corner the upper power law holds. Below it holds the lower one, and the difference of the two is integrated
-    from the corner on along the imaginary direction, where the Hankel function in place of J_0 decays.
+    By Abel's inversion of the track's spectrum G, the cross-spectrum is the integral of
+    ``-G'(s) J_0(2 pi d sqrt(s^2 - n^2))`` over s > n: above the corner that of the upper power law, below it
+    that of the lower one and a correction for the waves beyond the corner.
     """
-    coherence = np.where(
-        n < corner, power_law_coherence(n, distance, lower), power_law_coherence(n, distance, upper)
-    )
     below = n < corner
+    coherence = np.where(below, *(power_law_coherence(n, distance, exponent) for exponent in (lower, upper)))
     if lower != upper and below.any():
         coherence[below] += _beyond_corner(n[below] / corner, 2 * np.pi * distance * corner, lower, upper)
     return np.clip(coherence, 0.0, 1.0)
@@ -219,14 +203,13 @@ def two_slope_coherence(n: Real, distance: float, lower: float, upper: float, co
 def _beyond_corner(n: Real, d: float, lower: float, upper: float) -> Real:
     """Integral of (G_lower' - G_upper') J_0 from the corner on, over G(n); n < 1 and d in units of the corner.
 
-    With t = exp(x) the integrand is analytic for |Im x| < pi/2 and the trapezoidal rule converges as
-    exp(-pi^2/h), to 1e-11 or better for a step of h = 0.3. It is negligible below t = exp(-36) and beyond a decay
-    by exp(-40).
+    Along s = 1 + i t the Hankel function in place of J_0 decays. With t = exp(x) the integrand is analytic for
+    |Im x| < pi/2: the trapezoidal rule converges as exp(-pi^2/h), to 1e-11 or better for a step of h = 0.3. The
+    integrand is negligible below t = exp(-36) and beyond a decay by exp(-40).
     """
     from scipy.special import hankel1
 
-    x = np.arange(-36.0, np.log(40 / d) + 0.3, 0.3)
-    t = np.exp(x)
+    t = np.exp(np.arange(-36.0, np.log(40 / d) + 0.3, 0.3))
     s = 1 + 1j * t
     slope = upper * s ** (-upper - 1) - lower * s ** (-lower - 1)
     kernel = hankel1(0, d * np.sqrt(s**2 - n[:, None] ** 2))

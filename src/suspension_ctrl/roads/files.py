@@ -46,9 +46,7 @@ def load_road(source: str | PathLike[str]) -> Road:
     Raises
     ------
     ValueError
-        If it is none of these, or naming the file and the key or column if the file does not hold a road.
-    OSError
-        If the file cannot be read.
+        If it is none of these, or about a key or column of the file; OSError if it cannot be read.
     """
     path = Path(source)
     if named := _CLASS.fullmatch(str(source)):
@@ -56,10 +54,8 @@ def load_road(source: str | PathLike[str]) -> Road:
     if path.suffix == ".csv":
         return MeasuredRoad.from_csv(path)
     if path.suffix != ".toml":
-        raise ValueError(
-            "road must be a class of ISO 8608 such as C, C-lower or C-upper, or the path of a .csv or .toml file, "
-            f"got {str(source)!r}"
-        )
+        known = "a class of ISO 8608 such as C, C-lower or C-upper, or the path of a .csv or .toml file"
+        raise ValueError(f"road must be {known}, got {str(source)!r}")
     with naming(path):
         return _road(read_toml(path), path.parent)
 

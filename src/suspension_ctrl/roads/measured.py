@@ -5,46 +5,35 @@ that start with ``#`` name the source.
 """
 
 from dataclasses import KW_ONLY, dataclass, field
-from typing import TYPE_CHECKING
+from os import PathLike
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .. import checks
 from ..documents import naming
-from ..quantities import Complex, Real, frozen_array, unit
+from ..quantities import Complex, Integer, Real, frozen_array, unit
 from ..tables import read_table, table_rows
 from .coherence import Coherence, Isotropic, Tabulated
 from .profiles import DISTANCE, Profile, read_profile
 from .road import Road
 
-if TYPE_CHECKING:
-    from os import PathLike
-
-
 WAVENUMBER, PSD, COHERENCE = "wavenumber [cycle/m]", "psd [m^3]", "coherence [-]"
-SEGMENTS = 8
-"""Lengths of a profile whose segments are not given."""
-_LOWEST = 4
-"""Waves in a segment at the lowest usable wavenumber: the leakage of longer waves is some percent there."""
-_POINTS = 4
-"""Points in a wave at the highest usable wavenumber: aliasing is a ninth there, with an exponent of 2."""
-_LEAST = 32
-"""Points of the shortest segment, which has waves 4 to 8."""
+SEGMENTS = 8  # default lengths of a segment in a profile
+_LOWEST = 4  # waves in a segment at the lowest usable wavenumber: leakage of longer waves is some percent there
+_POINTS = 4  # points in a wave at the highest usable wavenumber: aliasing is a ninth there, exponent 2
+_LEAST = 32  # points of the shortest segment, with waves 4 to 8
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MeasuredRoad(Road):
     """Road of a measured spectrum, a power law between each two of its wavenumbers and nothing beyond them.
 
-    `from_profile`, `from_csv` make one; `band` is where it holds.
+    `from_profile` and `from_csv` make one; `band` is its range of wavenumbers.
 
     Parameters
     ----------
-    wavenumber : (k,) array_like
-        Ascending and above zero [cycle/m].
-    density : (k,) array_like
-        One-sided spectral density of elevation [m^3], above zero.
+    wavenumber, density : (k,) array_like
+        Wavenumbers, ascending and above zero [cycle/m], and one-sided spectral density of elevation, > 0 [m^3].
     coherence : Coherence
         Model of the coherence of parallel tracks. `Isotropic` needs an exponent here, as the spectrum ends.
     source : str
@@ -65,15 +54,13 @@ class MeasuredRoad(Road):
         super().__post_init__()
         n, density = frozen_array(self.wavenumber), frozen_array(self.density)
         if n.ndim != 1 or n.shape != density.shape or n.size < 2:
-            raise ValueError(
-                f"wavenumber and density must be of one length >= 2, got {n.shape} and {density.shape}"
-            )
+            got = f"{n.shape} and {density.shape}"
+            raise ValueError(f"wavenumber and density must be of one length >= 2, got {got}")
         if not (np.isfinite(n).all() and (np.diff(n, prepend=0.0) > 0).all()):
             raise ValueError("wavenumber must be finite, above zero and ascend")
         if not (np.isfinite(density) & (density > 0)).all():
-            raise ValueError(
-                f"density must be finite and > 0 m^3 throughout, got a least value of {density.min()}"
-            )
+            got = f"a least value of {density.min()}"
+            raise ValueError(f"density must be finite and > 0 m^3 throughout, got {got}")
         self._keep(wavenumber=n, density=density)
 
     @classmethod
@@ -85,23 +72,22 @@ class MeasuredRoad(Road):
         coherence: Coherence | None = None,
         source: str = "a profile",
     ) -> "MeasuredRoad":
-        """Estimate spectrum and coherence of a profile.
+        """Estimate spectrum and coherence of a profile by Welch's method.
 
-        Welch's method: segments that overlap by half, detrended and weighted with Hann's window; means over
-        segments and tracks, then over third-octave bands. Usable are wavenumbers from four waves in a segment to
-        four points in a wave. Uneven steps count as their mean.
+        Segments overlap by half, are detrended and weighted with Hann's window. Means are over segments and
+        tracks, then over third-octave bands, from four waves in a segment to four points in a wave. Uneven steps
+        count as their mean.
 
         Parameters
         ----------
         profile : Profile
-            The profile.
         segment : float, optional
             Length of a segment [m]; an eighth of the profile if not given. A longer one reaches longer waves, a
             shorter one has a smaller scatter.
         coherence : Coherence, optional
-            Model of the coherence of parallel tracks. If not given, the profile's own if it has two different
-            tracks: the root of the squared coherence over the same bands, of uncorrelated tracks about the root of
-            one over the number of estimates in a band. With one track, or more than two, `Isotropic`.
+            Model of the coherence of parallel tracks. Default with two different tracks: the root of the squared
+            coherence over the same bands, of uncorrelated tracks about the root of one over the number of
+            estimates in a band. With one track, or more than two: `Isotropic`.
         source : str
             Origin of the profile, for `describe`.
 
@@ -121,35 +107,31 @@ class MeasuredRoad(Road):
         if coherence is None and len(set(profile.tracks)) == len(profile.tracks) == 2:
             gamma = np.minimum(np.abs(smooth[0, 1]) / np.sqrt(own[0]) / np.sqrt(own[1]), 1.0)
             coherence = Tabulated(tuple(middle), tuple(gamma), abs(profile.tracks[0] - profile.tracks[1]))
-        density = own.mean(axis=0)
-        return cls(middle, density, coherence=coherence or Isotropic(), source=source)
+        return cls(middle, own.mean(axis=0), coherence=coherence or Isotropic(), source=source)
 
     @classmethod
     def from_csv(
         cls,
-        path: "str | PathLike[str]",
+        path: str | PathLike[str],
         *,
         track_width: float | None = None,
         segment: float | None = None,
         coherence: Coherence | None = None,
     ) -> "MeasuredRoad":
-        """Read a profile or a spectrum, as the columns say; see `profiles` and `from_profile`.
+        """Read a profile or a spectrum, by the names of the columns; see `profiles` and `from_profile`.
 
         Raises
         ------
         ValueError
-            Naming the file, as `read_profile`, `read_curve`, `from_profile` and the road itself raise, or for a
-            `track_width` or `segment` beside a spectrum.
-        OSError
-            If the file cannot be read.
+            Naming the file: if its table is neither, the road is not as above, or a spectrum comes with a
+            `track_width` or `segment`; OSError if it cannot be read.
         """
         if table_rows(path)[0][0] == DISTANCE:
             profile = read_profile(path, track_width)
-        else:
-            profile, (n, density) = None, read_curve(path, PSD)
-        with naming(path):
-            if profile is not None:
+            with naming(path):
                 return cls.from_profile(profile, segment=segment, coherence=coherence, source=str(path))
+        n, density = read_curve(path, PSD)
+        with naming(path):
             if track_width is not None or segment is not None:
                 raise ValueError("a spectrum takes neither track_width nor segment")
             return cls(n, density, coherence=coherence or Isotropic(), source=str(path))
@@ -171,41 +153,37 @@ class MeasuredRoad(Road):
 
     def isotropic_coherence(self, _n: Real, _distance: float) -> Real:
         """Raise ValueError: the coherence of an isotropic surface depends on the spectrum of all shorter waves."""
-        raise ValueError(
-            "coherence of a measured spectrum must be a model of its own, such as Isotropic(exponent=2.0), "
-            "got Isotropic(), which needs the spectrum of all shorter waves"
+        needed, got = (
+            "such as Isotropic(exponent=2.0)",
+            "Isotropic(), which needs the spectrum of all shorter waves",
         )
+        raise ValueError(f"coherence of a measured spectrum must be a model of its own, {needed}, got {got}")
 
     def _psd(self, f: Real, speed: float) -> Real:
         n, (low, high) = f / speed, self.band
         outside = ~((n >= low * (1 - 1e-9)) & (n <= high * (1 + 1e-9)))  # f = V n may round
         if outside.any():
-            raise ValueError(
-                f"f must lie from {low * speed:.5g} to {high * speed:.5g} Hz at {speed:g} m/s, as the road is "
-                f"known from {low:.5g} to {high:.5g} cycle/m, got {f[outside].flat[0]:.5g} Hz"
-            )
+            allowed = f"from {low * speed:.5g} to {high * speed:.5g} Hz at {speed:g} m/s"
+            known, got = f"known from {low:.5g} to {high:.5g} cycle/m", f"{f[outside].flat[0]:.5g} Hz"
+            raise ValueError(f"f must lie {allowed}, as the road is {known}, got {got}")
         return np.exp(np.interp(np.log(n), np.log(self.wavenumber), np.log(self.density))) / speed
 
 
-def read_curve(path: "str | PathLike[str]", quantity: str) -> tuple[Real, Real]:
-    """Read wavenumbers (k,), ascending and above zero [cycle/m], and a `quantity` (k,), `PSD` or `COHERENCE`.
-
-    ValueError names the file, if it is no such table; OSError if it cannot be read.
-    """
+def read_curve(path: str | PathLike[str], quantity: str) -> tuple[Real, Real]:
+    """Read wavenumbers (k,), ascending and above zero [cycle/m], and a `quantity` (k,), `PSD` or `COHERENCE`."""
     names, values = read_table(path)
     if names != [WAVENUMBER, quantity]:
         raise ValueError(f"{path}: columns must be {WAVENUMBER!r} and {quantity!r}, got {names}")
-    n = values[:, 0]
-    wrong = np.flatnonzero(~(np.diff(n, prepend=0.0) > 0))
-    if wrong.size:
-        raise ValueError(
-            f"{path}: {WAVENUMBER} must be above zero and ascend, got {n[wrong[0]]} in row {wrong[0] + 1}"
-        )
-    return n, values[:, 1]
+    n, curve = values.T
+    ascends = np.diff(n, prepend=0.0) > 0
+    if not ascends.all():
+        got = f"{n[ascends.argmin()]} in row {ascends.argmin() + 1}"
+        raise ValueError(f"{path}: {WAVENUMBER} must be above zero and ascend, got {got}")
+    return n, curve
 
 
 def _segment_points(profile: Profile, segment: float | None) -> int:
-    """Points in a segment [m], of an eighth of the profile if not given."""
+    """Points in a segment [m]; in an eighth of the profile if not given."""
     whole = profile.distance.size
     if segment is not None:
         checks.positive("segment", segment, "m")
@@ -224,23 +202,19 @@ def _welch(profile: Profile, points: int) -> tuple[Real, Complex]:
     from scipy import signal
 
     tracks = profile.height.T
-    n, spectra = signal.csd(
-        tracks[:, None], tracks[None, :], fs=1 / profile.step, nperseg=points, detrend=signal.detrend
-    )
-    return n, spectra
+    return signal.csd(tracks[:, None], tracks[None, :], 1 / profile.step, nperseg=points, detrend=signal.detrend)
 
 
-def _third_octaves(n: Real, highest: float) -> NDArray[np.int64]:
-    """First indices of third-octave bands in the usable part of wavenumbers k/segment, and the end of the last.
+def _third_octaves(n: Real, highest: float) -> Integer:
+    """First indices of third-octave bands of wavenumbers k/segment up to the highest, and the end of the last.
 
-    The first band is about the lowest usable wavenumber. None is empty: each is wide by 0.23 of its middle.
+    The lowest usable wavenumber is in the middle of the first band. Widths of 0.23 of the middle leave none empty.
     """
     end = int(np.searchsorted(n, highest * (1 + 1e-9), side="right"))
     band = np.round(3 * np.log2(np.arange(_LOWEST, end) / _LOWEST))
     return np.append(_LOWEST + np.flatnonzero(np.diff(band, prepend=-1)), end)
 
 
-def _means(values: Complex, edges: NDArray[np.int64]) -> Complex:
+def _means(values: Complex, edges: Integer) -> Complex:
     """Means of values (..., k) over the bands between the edges (b + 1,), shape (..., b)."""
-    sums: Complex = np.add.reduceat(values[..., : edges[-1]], edges[:-1], axis=-1)
-    return sums / np.diff(edges)
+    return np.asarray(np.add.reduceat(values[..., : edges[-1]], edges[:-1], axis=-1) / np.diff(edges))

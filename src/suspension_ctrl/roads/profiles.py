@@ -7,8 +7,8 @@ for tracks anywhere such as ``height at y = 0.75 m [m]``. Lines that start with 
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,14 +18,9 @@ from ..documents import naming
 from ..quantities import Real, Record, frozen_array, unit
 from ..tables import read_table, write_csv
 
-if TYPE_CHECKING:
-    from os import PathLike
-
-UNEVEN = 0.01
-"""Largest deviation of a step from the mean step, relative."""
+UNEVEN = 0.01  # largest deviation of a step from the mean step, relative
 DISTANCE, HEIGHT, LEFT, RIGHT = "distance [m]", "height [m]", "left [m]", "right [m]"
-_CLOSEST = 1e-6
-"""Least mean distance between two points [m]."""
+_CLOSEST = 1e-6  # m, least mean distance between two points
 _TRACK = re.compile(r"height at y = (-?\d+(?:\.\d+)?(?:e-?\d+)?) m \[m\]", re.ASCII)
 _TRACK_COLUMN = "height at y = {} m [m]"
 
@@ -57,10 +52,8 @@ class Profile(Record):
         distance, height = frozen_array(self.distance), frozen_array(self.height)
         tracks = np.array(self.tracks, dtype=float)
         if distance.ndim != 1 or tracks.ndim != 1 or height.shape != (distance.size, tracks.size):
-            raise ValueError(
-                f"height must have the shape (distances, tracks), got {height.shape} for {distance.shape} "
-                f"and {tracks.shape}"
-            )
+            got = f"{height.shape} for {distance.shape} and {tracks.shape}"
+            raise ValueError(f"height must have the shape (distances, tracks), got {got}")
         if distance.size < 2 or tracks.size < 1:
             raise ValueError(f"a profile must have two points and a track, got shape {height.shape}")
         for name, values in (("distance", distance), ("height", height), ("tracks", tracks)):
@@ -75,13 +68,7 @@ class Profile(Record):
         return float(self.distance[-1] - self.distance[0]) / (self.distance.size - 1)
 
     def at(self, distance: ArrayLike) -> Real:
-        """Return the elevation (k, tracks) [m] at any distances (k,) of the profile [m], by linear interpolation.
-
-        Raises
-        ------
-        ValueError
-            If a distance lies outside the profile.
-        """
+        """Return the elevation (k, tracks) [m] at distances (k,) inside the profile [m], linear between points."""
         where = np.atleast_1d(np.asarray(distance, dtype=float))
         first, last = self.distance[[0, -1]].tolist()
         outside = ~((where >= first) & (where <= last))
@@ -99,30 +86,15 @@ def _check_even(distance: Real) -> None:
         raise ValueError(f"distance must have steps of {_CLOSEST:g} m at least, got {mean:g} m")
     worst = int(np.abs(steps - mean).argmax())
     if not abs(steps[worst] - mean) <= UNEVEN * mean:
-        raise ValueError(
-            f"distance must be even, each step within {UNEVEN:.0%} of the mean {mean:g} m, "
-            f"got {steps[worst]:g} m after {distance[worst]:g} m"
+        needed, got = (
+            f"within {UNEVEN:.0%} of the mean {mean:g} m",
+            f"{steps[worst]:g} m after {distance[worst]:g} m",
         )
+        raise ValueError(f"distance must be even, each step {needed}, got {got}")
 
 
-def read_profile(path: "str | PathLike[str]", track_width: float | None = None) -> Profile:
-    """Read a profile from a CSV file, its tracks in the order of the columns.
-
-    Parameters
-    ----------
-    path : path-like
-        The file.
-    track_width : float, optional
-        Distance of the tracks in columns ``left [m]`` and ``right [m]``, required by these [m].
-
-    Raises
-    ------
-    ValueError
-        Naming the file, if columns are missing, unknown or of another unit, a cell is no finite number, the
-        distances do not ascend evenly (see `Profile`) or the width does not fit.
-    OSError
-        If the file cannot be read.
-    """
+def read_profile(path: str | PathLike[str], track_width: float | None = None) -> Profile:
+    """Read a profile from a CSV file; columns ``left [m]`` and ``right [m]`` need the track width [m]."""
     names, values = read_table(path)
     if names[:1] != [DISTANCE] or len(names) < 2:
         raise ValueError(f"{path}: first column must be {DISTANCE!r} and then heights, got {names}")
@@ -130,7 +102,7 @@ def read_profile(path: "str | PathLike[str]", track_width: float | None = None) 
         return Profile(values[:, 0], values[:, 1:], _tracks(names[1:], track_width))
 
 
-def write_profile(path: "str | PathLike[str]", profile: Profile) -> None:
+def write_profile(path: str | PathLike[str], profile: Profile) -> None:
     """Write a profile for `read_profile`, to the last bit; on an error no file is written."""
     import pandas as pd
 
@@ -150,11 +122,8 @@ def _tracks(names: Sequence[str], width: float | None) -> tuple[float, ...]:
         raise ValueError(f"a track width goes with {LEFT!r} and {RIGHT!r} only, got {list(names)}")
     if names == [HEIGHT]:
         return (0.0,)
-    found = [_TRACK.fullmatch(name) for name in names]
-    for name, match in zip(names, found, strict=True):
-        if match is None:
-            raise ValueError(
-                f"columns after {DISTANCE!r} must be {HEIGHT!r}, or {LEFT!r} and {RIGHT!r}, or all like "
-                f"{_TRACK_COLUMN.format(0.75)!r}, got {name!r}"
-            )
-    return tuple(float(match[1]) for match in found if match)
+    for name in names:
+        if not _TRACK.fullmatch(name):
+            known = f"{HEIGHT!r}, or {LEFT!r} and {RIGHT!r}, or all like {_TRACK_COLUMN.format(0.75)!r}"
+            raise ValueError(f"columns after {DISTANCE!r} must be {known}, got {name!r}")
+    return tuple(float(y) for name in names for y in _TRACK.findall(name))

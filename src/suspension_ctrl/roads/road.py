@@ -15,7 +15,7 @@ from .profiles import Profile
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Road(Checked, ABC):
-    """A road by the spectrum of its elevation and the coherence of parallel tracks; subclasses are roads.
+    """The spectrum of a road's elevation and the coherence of parallel tracks.
 
     At speed V a vehicle meets wavenumber n [cycle/m] at the frequency f = V n.
 
@@ -61,16 +61,13 @@ class Road(Checked, ABC):
     def cross_spectrum(self, f: ArrayLike, speed: float, contact_points: ArrayLike) -> Complex:
         """Return the cross-spectra of the elevations under several wheels.
 
-        A wheel follows its track with its lead, z_i(t) = h(V t + x_i, y_i): S_ij, the expectation of Z_i times
-        the conjugate of Z_j, is the road's spectrum times the coherence of the tracks times
-        ``exp(2j pi f (x_i - x_j) / V)``.
+        Wheel i meets its track as z_i(t) = h(V t + x_i, y_i): S_ij = E[Z_i conj(Z_j)] is the road's spectrum times
+        the coherence of the tracks times ``exp(2j pi f (x_i - x_j) / V)``.
 
         Parameters
         ----------
-        f : (n,) array_like
-            Frequencies above zero [Hz].
-        speed : float
-            Vehicle speed V [m/s].
+        f, speed
+            As of `psd`, one-dimensional.
         contact_points : (r, 2) array_like
             Where the tyres meet the road, x forward and y to the left [m].
 
@@ -82,16 +79,15 @@ class Road(Checked, ABC):
         Raises
         ------
         ValueError
-            If speed, frequencies or points are not as above, or the coherence is none; see `coherence_matrix`.
+            If a parameter is not as above, or the coherence is not from 0 to 1 or its matrix not semi-definite.
         """
         spectrum = self.psd(f, speed)
         frequency, points = np.asarray(f, dtype=float), np.asarray(contact_points, dtype=float)
         if frequency.ndim != 1:
             raise ValueError(f"f must be one-dimensional, got shape {frequency.shape}")
         if points.ndim != 2 or points.shape[1] != 2 or not (len(points) and np.isfinite(points).all()):
-            raise ValueError(
-                f"contact_points must be finite and of shape (r, 2), r > 0 [m], got {points.tolist()}"
-            )
+            got = points.tolist()
+            raise ValueError(f"contact_points must be finite and of shape (r, 2), r > 0 [m], got {got}")
         x, y = points.T
         lead = np.exp(2j * np.pi / speed * frequency[:, None, None] * (x[:, None] - x))
         return spectrum[:, None, None] * lead * coherence_matrix(self._between(), frequency / speed, y)
@@ -101,18 +97,14 @@ class Road(Checked, ABC):
     ) -> Profile:
         """Return a Gaussian profile with the road's spectrum and, between tracks, its coherence.
 
-        A sum of waves of the wavenumbers k/length below 1/(2 step), k = 1, 2, ..., with random amplitudes: the
-        expectation of the periodogram at each is the road's spectrum. The profile has the period `length` and no
-        mean.
+        Waves of the wavenumbers k/length below 1/(2 step), k = 1, 2, ..., have random amplitudes: the expectation
+        of the periodogram is the road's spectrum. The profile has the period `length` and zero mean.
 
         Parameters
         ----------
-        length : float
-            Length of the road, a whole number of steps, at least four [m].
-        step : float
-            Distance between two points [m].
+        length, step : float
+            Length of the road, a whole number of steps, at least four, and distance between two points [m].
         seed : int or numpy.random.Generator
-            Origin of the random numbers.
         tracks : (t,) sequence of float
             Place of each track across the road, positive to the left [m].
 

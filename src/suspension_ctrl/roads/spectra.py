@@ -2,6 +2,7 @@
 
 from dataclasses import KW_ONLY, dataclass, field
 from functools import lru_cache
+from typing import ClassVar
 
 import numpy as np
 
@@ -13,9 +14,7 @@ from .road import Road
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class PowerLawRoad(Road):
-    """Road whose elevation spectrum is a single power of frequency (Yuen and Ramli 2010, Table 1).
-
-    Over wavenumber n [cycle/m] the spectrum is ``roughness / n**exponent``.
+    """Road of the spectrum ``roughness / n**exponent`` over wavenumber n [cycle/m] (Yuen and Ramli 2010, Table 1).
 
     Parameters
     ----------
@@ -53,10 +52,8 @@ class TwoSlopeRoad(Road):
 
     Parameters
     ----------
-    roughness : float
-        One-sided spectral density at the reference wavenumber, Gd(n0) [m^3].
-    reference : float
-        Reference wavenumber n0 [cycle/m], on either side of the corner.
+    roughness, reference : float
+        One-sided spectral density Gd(n0) [m^3] at a wavenumber n0 [cycle/m], on either side of the corner.
     lower_exponent, upper_exponent : float
         Waviness below and above the corner [-].
     corner : float
@@ -78,10 +75,8 @@ class TwoSlopeRoad(Road):
 
     def describe(self) -> str:
         """Return a line that identifies the road."""
-        return (
-            f"two slopes: Gd({self.reference:g} cycle/m) = {self.roughness:g} m^3, exponent "
-            f"{self.lower_exponent:g} below and {self.upper_exponent:g} above {self.corner:g} cycle/m"
-        )
+        exponents = f"{self.lower_exponent:g} below and {self.upper_exponent:g} above {self.corner:g} cycle/m"
+        return f"two slopes: Gd({self.reference:g} cycle/m) = {self.roughness:g} m^3, exponent {exponents}"
 
     def breakpoints(self, speed: float, /) -> tuple[float, ...]:
         """Frequency of the corner at `speed` [m/s], the only kink of the spectrum [Hz]."""
@@ -108,7 +103,7 @@ class Iso8608Road(Road):
     Parameters
     ----------
     road_class : str
-        ``"A"`` (smoothest) to ``"H"``.
+        ``"A"``, the smoothest, to ``"H"``.
     level : str
         ``"geometric mean"`` of the class, or its ``"lower"`` or ``"upper"`` limit. A has no lower, H no upper one.
     waviness : float
@@ -122,6 +117,7 @@ class Iso8608Road(Road):
         If there is no such class or level, or the waviness is not finite and above zero.
     """
 
+    reference: ClassVar[float] = 0.1  # n0 [cycle/m]
     road_class: str = field(metadata={"key": "class"})
     _: KW_ONLY
     level: str = "geometric mean"
@@ -137,17 +133,10 @@ class Iso8608Road(Road):
         """Spectral density at the reference wavenumber, Gd(n0) [m^3]."""
         return _classes()[self.road_class][self.level]
 
-    @property
-    def reference(self) -> float:
-        """Reference wavenumber n0 [cycle/m]."""
-        return 0.1
-
     def describe(self) -> str:
         """Return a line that identifies the road."""
-        return (
-            f"ISO 8608 class {self.road_class}, {self.level}: Gd({self.reference:g} cycle/m) = "
-            f"{1e6 * self.roughness:g}e-6 m^3, waviness {self.waviness:g}"
-        )
+        density = f"Gd({self.reference:g} cycle/m) = {1e6 * self.roughness:g}e-6 m^3"
+        return f"ISO 8608 class {self.road_class}, {self.level}: {density}, waviness {self.waviness:g}"
 
     def isotropic_coherence(self, n: Real, distance: float) -> Real:
         """Return the coherence of an isotropic surface, see `power_law_coherence`."""

@@ -15,29 +15,27 @@ import numpy as np
 from .. import checks
 from ..quantities import FrozenMapping, Real, Record, frozen_array, unit
 
-Position = tuple[float, float]
-"""A point (x, y) of the body [m]."""
-
+Position = tuple[float, float]  # a point (x, y) of the body [m]
 ResponseName = str | tuple[str, float, float]
 """One of a vehicle's named responses, or ``("acceleration", x, y)``, vertical, at a point of the body."""
-
 End = str | Position | None
-"""Where a link ends: a coordinate or a road by name, a point of the body, or the inertial frame."""
-
-GRAVITY = 9.80665
-"""Standard acceleration of gravity [m/s^2]."""
-
-_RESERVED = ("responses", "road", "speed")
-"""Keywords of functions that take struts by name."""
+"""End of a link: a coordinate or a road by name, a point of the body, or the inertial frame."""
+GRAVITY = 9.80665  # m/s^2, standard acceleration
+_RESERVED = ("responses", "road", "speed")  # keywords of functions that take struts by name
 _SAME_PLACE = 1e-3  # m
 _NONE: FrozenMapping[Any, Any] = FrozenMapping({})
 
 
 def label(response: ResponseName) -> str:
     """Return the name of a response as a signal of python-control, without dots."""
-    if isinstance(response, str):
-        return response
-    return "acceleration_at_{}_{}_mm".format(*(round(1e3 * x) for x in response[1:]))
+    point = _point_of(response)
+    return str(response) if point is None else "acceleration_at_{}_{}_mm".format(*(round(1e3 * x) for x in point))
+
+
+def _point_of(response: ResponseName) -> Position | None:
+    if isinstance(response, tuple) and len(response) == 3 and response[0] == "acceleration":
+        return float(response[1]), float(response[2])
+    return None
 
 
 def joined(*parts: str) -> str:
@@ -53,13 +51,13 @@ def check_strut_names(parameter: str, names: Iterable[str]) -> None:
 
 
 class Link(NamedTuple):
-    """A spring [N/m] and a damper [N s/m] in parallel between two ends; of a strut only the ends count."""
+    """A spring and a damper in parallel between two ends; a strut has its ends alone."""
 
     name: str
     lower: End
     upper: End
-    stiffness: float = 0.0
-    damping: float = 0.0
+    stiffness: float = 0.0  # N/m
+    damping: float = 0.0  # N s/m
 
 
 class Response(NamedTuple):
@@ -71,62 +69,36 @@ class Response(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StrutParameter(Record):
-    """A coefficient of the struts; required if it has no default.
-
-    The gain (q, q) is the tension of each strut by deflection of each (`order` 0), its rate (1) or its second
-    derivative (2, inerters and masses), at a coefficient of 1.
-    """
+    """A coefficient of the struts; required if it has no default, and above zero unless its default is 0."""
 
     name: str
     unit: str
-    gain: Real
-    order: int
+    gain: Real  # (q, q), tension of each strut by a derivative of each deflection, at a coefficient of 1
+    order: int  # of the derivative: 0 springs, 1 dampers, 2 inerters and masses
     default: float | None = None
 
     def __post_init__(self) -> None:
         self._keep(gain=frozen_array(self.gain))
 
+    def check(self, name: str, value: float) -> None:
+        """Raise ValueError about `name` unless this coefficient may have the value."""
+        (checks.not_negative if self.default == 0 else checks.positive)(name, value, self.unit)
+
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Assembly(Record):
-    """The masses and links of a vehicle.
+    """The masses and links of a vehicle; coordinates and wheels by name."""
 
-    Parameters
-    ----------
-    masses : mapping of str to float
-        Coordinates that move vertically, and their masses [kg]; ``body`` is the body's centre of gravity.
-    inertias : mapping of str to float
-        The others: ``pitch`` and ``roll`` [kg m^2] and elastic modes, of modal mass 1 [-].
-    contacts : mapping of str to Position
-        By tyre, the point where it touches its road, ``<tyre>_road``.
-    tyres, struts : sequence of Link
-        A tyre from its road to a wheel, in the order of `contacts`.
-    parameters : sequence of StrutParameter
-    responses : mapping of str to Response
-    supports : sequence of Link
-        Further springs and dampers that no design changes.
-    bending : mapping of Position to mapping of str to float
-        By point of the body, the share of each elastic mode in its displacement [kg^-1/2]; empty if rigid.
-    payload : sequence of (float, Position)
-        Masses fixed to points of the body [kg].
-
-    Raises
-    ------
-    ValueError
-        If tyres and contacts differ, a strut has the name of a keyword, or mode shapes at a strut or a payload
-        are unknown.
-    """
-
-    masses: Mapping[str, float] = field(metadata=unit("kg"))
-    inertias: Mapping[str, float] = _NONE
-    contacts: Mapping[str, Position] = field(metadata=unit("m"))
-    tyres: tuple[Link, ...]
+    masses: Mapping[str, float] = field(metadata=unit("kg"))  # that move vertically, ``body`` at its centre
+    inertias: Mapping[str, float] = _NONE  # ``pitch``, ``roll`` [kg m^2] and elastic modes, of modal mass 1 [-]
+    contacts: Mapping[str, Position] = field(metadata=unit("m"))  # where each tyre touches ``<tyre>_road``
+    tyres: tuple[Link, ...]  # each from its road to a wheel, in the order of `contacts`
     struts: tuple[Link, ...]
     parameters: tuple[StrutParameter, ...]
     responses: Mapping[str, Response]
-    supports: tuple[Link, ...] = ()
-    bending: Mapping[Position, Mapping[str, float]] = _NONE
-    payload: tuple[tuple[float, Position], ...] = ()
+    supports: tuple[Link, ...] = ()  # further springs and dampers, the same for every design
+    bending: Mapping[Position, Mapping[str, float]] = _NONE  # by point, its share of each mode [kg^-1/2]
+    payload: tuple[tuple[float, Position], ...] = ()  # masses [kg] fixed to points of the body
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
@@ -195,11 +167,10 @@ class Assembly(Record):
     def plant(self, responses: Sequence[ResponseName]) -> control.StateSpace:
         """Return the vehicle without its struts; `Vehicle.plant` names the inputs and outputs.
 
-        With coordinates z and roads x, links of stiffness k and damping c that are E z + R x longer, and struts
-        under tensions F that are P z longer, the masses M move by
-        ``M z'' = -E^T (k (E z + R x) + c (E z' + R x')) - P^T F``.
-        ValueError if a response is unknown, or given twice.
+        With coordinates z, roads x and tensions F of struts, links extend by E z + R x and struts by P z. The
+        masses M move by ``M z'' = -E^T (k (E z + R x) + c (E z' + R x')) - P^T F``.
         """
+        checks.listed("responses", responses)
         n, r, q = len(self.coordinates), len(self.roads), len(self.struts)
         motion, tension = self._motion()
         rows = {label(name): self._row(name, motion, tension) for name in responses}
@@ -211,21 +182,12 @@ class Assembly(Record):
         damped = tension[: len(self.tyres), 2 * n + r : 2 * n + 2 * r].any()
         kept = np.delete(np.arange(2 * n, 2 * n + 2 * r + q), [] if damped else slice(r, 2 * r))
         states = np.arange(2 * n).reshape(2, n).T.ravel()  # a coordinate and its rate beside each other
-        names = [strut.name for strut in self.struts]
-        return control.ss(
-            moved[np.ix_(states, states)],
-            moved[np.ix_(states, kept)],
-            read[:, states],
-            read[:, kept],
-            states=[f"{z}_{what}" for z in self.coordinates for what in ("displacement", "velocity")],
-            inputs=[
-                *self.roads,
-                *(f"{road}_rate" for road in self.roads if damped),
-                *(joined(strut, "strut") for strut in names),
-            ],
-            outputs=[*rows, *(joined(name, end) for end in ("deflection", "deflection_rate") for name in names)],
-            name="plant",
-        )
+        matrices = moved[np.ix_(states, states)], moved[np.ix_(states, kept)], read[:, states], read[:, kept]
+        labels = [f"{name}_{what}" for name in self.coordinates for what in ("displacement", "velocity")]
+        rates = [f"{road}_rate" for road in self.roads if damped]
+        inputs = [*self.roads, *rates, *(joined(strut.name, "strut") for strut in self.struts)]
+        ports = [joined(strut.name, end) for end in ("deflection", "deflection_rate") for strut in self.struts]
+        return control.ss(*matrices, states=labels, inputs=inputs, outputs=[*rows, *ports], name="plant")
 
     def _motion(self) -> tuple[Real, Real]:
         """Accelerations (n, c) and tensions of tyres and supports (l, c) by z, z', x, x' and F, c in all."""
@@ -239,8 +201,8 @@ class Assembly(Record):
 
     def _row(self, name: ResponseName, motion: Real, tension: Real) -> Real:
         """Return a response (c,) by the columns of `_motion`; ValueError if the vehicle does not have it."""
-        if isinstance(name, tuple) and len(name) == 3 and name[0] == "acceleration":
-            return np.asarray(self.shape((float(name[1]), float(name[2]))) @ motion)
+        if point := _point_of(name):
+            return np.asarray(self.shape(point) @ motion)
         checks.one_of("response", name, self.responses)
         kind, where = self.responses[str(name)]
         if kind == "acceleration":

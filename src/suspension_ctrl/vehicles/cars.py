@@ -5,10 +5,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-import control
-
 from ..quantities import Checked, unit
 from .assembly import Assembly, Link, Position, Response, StrutParameter
+from .feedback import System
 from .vehicle import AssembledVehicle, anti_roll_bar, spring_and_damper
 
 
@@ -57,11 +56,8 @@ class QuarterCar(Checked, AssembledVehicle):
 
     def closed(
         self, setting: Any = None, damper: Any = None, /, *, responses: Any = None, **struts: Any
-    ) -> control.StateSpace:
-        """Return the vehicle with its strut: ``closed(spring, damper)``, or as `Vehicle.closed`.
-
-        The spring stiffness K_s is in N/m, the damping coefficient C_s in N s/m.
-        """
+    ) -> System:
+        """Return the vehicle with its strut: ``closed(K_s, C_s)`` [N/m, N s/m], or as `Vehicle.closed`."""
         setting = setting if damper is None else (setting, damper)
         return super().closed(setting, responses=responses, **struts)
 
@@ -84,16 +80,12 @@ class _TwoAxleCar(Checked, AssembledVehicle):
     def _assembly(
         self, corners: Mapping[str, Position], inertias: Mapping[str, float], parameters: list[StrutParameter]
     ) -> Assembly:
-        """Return the body on a wheel under each of its corners, whose names begin with the axle's."""
-
-        def of_axle(corner: str, what: str) -> float:
-            return float(getattr(self, f"{corner.split('_')[0]}_{what}"))
-
-        def tyre(corner: str) -> Link:
-            properties = of_axle(corner, "tyre_stiffness"), of_axle(corner, "tyre_damping")
-            return Link(corner, f"{corner}_road", f"{corner}_wheel", *properties)
-
-        wheels = {f"{corner}_wheel": of_axle(corner, "wheel_mass") for corner in corners}
+        """Return the body on a wheel under each of its corners, named by axle and side."""
+        mass, stiffness, damping = (
+            {corner: float(getattr(self, f"{corner.split('_')[0]}_{what}")) for corner in corners}
+            for what in ("wheel_mass", "tyre_stiffness", "tyre_damping")
+        )
+        wheels = {f"{corner}_wheel": mass[corner] for corner in corners}
         accelerations = {f"{name}_acceleration": Response("acceleration", name) for name in ("body", *inertias)}
         travels = {f"{corner}_suspension_travel": Response("travel", corner) for corner in corners}
         loads = {f"{corner}_tyre_load": Response("load", corner) for corner in corners}
@@ -101,7 +93,7 @@ class _TwoAxleCar(Checked, AssembledVehicle):
             masses={"body": self.body_mass, **wheels},
             inertias=inertias,
             contacts=corners,
-            tyres=tuple(tyre(corner) for corner in corners),
+            tyres=tuple(Link(c, f"{c}_road", f"{c}_wheel", stiffness[c], damping[c]) for c in corners),
             struts=tuple(Link(corner, f"{corner}_wheel", position) for corner, position in corners.items()),
             parameters=tuple(parameters),
             responses=accelerations | travels | loads,
@@ -112,7 +104,7 @@ class _TwoAxleCar(Checked, AssembledVehicle):
 class HalfCar(_TwoAxleCar):
     """Four-degree-of-freedom half car: heave and pitch of the body, a front and a rear wheel.
 
-    Masses and stiffnesses are those of one side of a car, or of a car whose axles count as one wheel each.
+    Masses and stiffnesses are those of one side of a car, or of a whole car with an axle as one wheel.
 
     Parameters
     ----------
@@ -145,13 +137,15 @@ class HalfCar(_TwoAxleCar):
 class FullCar(_TwoAxleCar):
     """Seven-degree-of-freedom full car: heave, pitch and roll of the body, four wheels; left and right are alike.
 
+    An anti-roll bar of stiffness k [N m/rad] on an axle of track t [m] adds the tension k (z_left - z_right)/t^2
+    of the travels z [m] to the left strut, and the opposite to the right strut.
+
     Parameters
     ----------
     body_mass, front_wheel_mass, rear_wheel_mass : float
         Masses of the body and of one wheel [kg].
     roll_inertia, pitch_inertia : float
-        Moments of inertia of the body about the longitudinal and the lateral axis through its centre of gravity
-        [kg m^2].
+        Moments of inertia of the body about its longitudinal and its lateral axis [kg m^2].
     front_tyre_stiffness, rear_tyre_stiffness, front_tyre_damping, rear_tyre_damping : float
         Vertical stiffness [N/m] and damping [N s/m] of one tyre.
     cg_to_front, cg_to_rear : float
@@ -163,11 +157,6 @@ class FullCar(_TwoAxleCar):
     ------
     ValueError
         If a parameter is not finite and above zero; a tyre's damping may be zero.
-
-    Notes
-    -----
-    An anti-roll bar of stiffness k [N m/rad] resists the difference of the travels of an axle's struts over its
-    track t, an angle: it pulls with k/t^2 times that difference on the one side and pushes on the other.
     """
 
     roll_inertia: float = field(metadata=unit("kg m^2"))
@@ -177,13 +166,10 @@ class FullCar(_TwoAxleCar):
     @cached_property
     def assembly(self) -> Assembly:
         """Its masses and links."""
-        place = {
-            "front": (self.cg_to_front, self.front_track / 2),
-            "rear": (-self.cg_to_rear, self.rear_track / 2),
-        }
-        sides = (("left", 1), ("right", -1))
+        axles = {"front": (self.cg_to_front, self.front_track), "rear": (-self.cg_to_rear, self.rear_track)}
+        sides = {"left": 0.5, "right": -0.5}
         return self._assembly(
-            {f"{axle}_{side}": (x, sign * y) for axle, (x, y) in place.items() for side, sign in sides},
+            {f"{axle}_{side}": (x, y * t) for axle, (x, t) in axles.items() for side, y in sides.items()},
             {"roll": self.roll_inertia, "pitch": self.pitch_inertia},
             [
                 *spring_and_damper("front", [1.0, 1.0, 0.0, 0.0]),

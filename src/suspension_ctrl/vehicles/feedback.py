@@ -11,9 +11,7 @@ from numpy.typing import NDArray
 from ..quantities import Complex, Real
 from .assembly import StrutParameter
 
-ORDERS = 3
-"""Orders of the derivative of a deflection in a tension: springs 0, dampers 1, inerters and masses 2."""
-
+ORDERS = 3  # of the derivative of a deflection in a tension: springs 0, dampers 1, inerters and masses 2
 System: TypeAlias = control.StateSpace | control.FrequencyResponseData
 
 
@@ -25,10 +23,8 @@ class MeasuredResponse(control.FrequencyResponseData):  # type: ignore[misc]  # 
         at = np.atleast_1d(omega).real
         found, known = (np.array([x.min(), x.max()]) / (2 * np.pi) for x in (at, self.omega))
         if not known[0] <= found[0] <= found[1] <= known[1]:
-            raise ValueError(
-                "band must lie within what was measured, {:g} to {:g} Hz, got frequencies from {:g} to {:g} "
-                "Hz".format(*known, *found)
-            )
+            got = "{:g} to {:g} Hz, got frequencies from {:g} to {:g} Hz".format(*known, *found)
+            raise ValueError(f"band must lie within what was measured, {got}")
         return control.frd(self._spline(at), at).eval(omega, squeeze=squeeze)
 
     @cached_property
@@ -59,10 +55,9 @@ def gains_by_order(parameters: Iterable[StrutParameter], values: Mapping[str, fl
 
 
 def around(plant: System, gains: Real) -> System:
-    """Return the plant with the struts of these gains (3, q, q) from its last outputs to its last inputs.
+    """Return the plant, ports included, with struts of these gains (3, q, q) from last outputs to last inputs.
 
-    All inputs and outputs stay. `control.StateSpace.lft` is the same but for its check, which refuses gains above
-    some 1e7, and for second derivatives.
+    `control.StateSpace.lft` refuses gains above some 1e7 and has no second derivatives.
     """
     q, names = gains.shape[1], {"inputs": plant.input_labels, "outputs": plant.output_labels}
     if isinstance(plant, control.StateSpace):

@@ -31,27 +31,13 @@ _SHAPE = {"position_m": "position", "shape_per_sqrt_kg": "shape"}
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class VehicleFile(Record):
-    """The content of a vehicle file.
-
-    Parameters
-    ----------
-    name, source : str
-        Name of the vehicle, and origin of its numbers.
-    vehicle : AssembledVehicle
-        With its seats and its elastic modes.
-    setting : mapping of str to float
-        Coefficients of the struts by name.
-    bounds : mapping of str to (float, float)
-        By name, the bounds of those that are to vary; empty if the file has none.
-    roll_geometry : RollGeometry or None
-        If the file has one.
-    """
+    """The content of a vehicle file; coefficients and bounds in the units of the struts' parameters."""
 
     name: str
-    source: str
-    vehicle: AssembledVehicle
-    setting: Mapping[str, float]
-    bounds: Mapping[str, tuple[float, float]]
+    source: str  # origin of the numbers
+    vehicle: AssembledVehicle  # with its seats and its elastic modes
+    setting: Mapping[str, float]  # coefficients of the struts by name
+    bounds: Mapping[str, tuple[float, float]]  # of the coefficients that vary, by name
     roll_geometry: RollGeometry | None = None
 
     def __post_init__(self) -> None:
@@ -69,7 +55,7 @@ def load_vehicle(source: str | PathLike[str]) -> VehicleFile:
     Raises
     ------
     ValueError
-        If it is neither, or naming the file and the key that is no vehicle's; OSError if it cannot be read.
+        If it is neither, or about a key of the file; OSError if it cannot be read.
     """
     path = datafiles.named("vehicle", "vehicles", source)
     with naming(path):
@@ -77,8 +63,7 @@ def load_vehicle(source: str | PathLike[str]) -> VehicleFile:
 
 
 def _read(table: Table) -> VehicleFile:
-    kind = table.choice("kind", _KINDS)
-    name, source = (table.text(key) for key in ("name", "source"))
+    kind, name, source = table.choice("kind", _KINDS), table.text("name"), table.text("source")
     vehicle = made(table, kind, beside=("kind", "name", "source", *_TABLES))
     if "flexible_body" in table.content:
         body = table.table("flexible_body")
@@ -140,10 +125,8 @@ def read_bounds(table: Table, vehicle: Vehicle) -> dict[str, tuple[float, float]
     """Return the bounds in a flat table of coefficients by name, in the vehicle's order."""
     known = _by_key(vehicle)
     table.check_keys({key: parameter.name for key, parameter in known.items()})
-    bounds = {known[key].name: table.pair(key) for key in known if key in table.content}
-    for key, parameter in known.items():
-        if parameter.name in bounds:
-            checks.interval(table.name + key, bounds[parameter.name], parameter.unit)
-            check = checks.not_negative if parameter.default == 0 else checks.positive
-            check(table.name + key, bounds[parameter.name][0], parameter.unit)
-    return bounds
+    bounds = {key: table.pair(key) for key in known if key in table.content}
+    for key, pair in bounds.items():
+        checks.interval(table.name + key, pair, known[key].unit)
+        known[key].check(table.name + key, pair[0])
+    return {known[key].name: pair for key, pair in bounds.items()}

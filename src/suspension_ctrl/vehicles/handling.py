@@ -1,9 +1,9 @@
 """Statics and roll of a vehicle on its struts: static tyre loads, roll gradient, load transfer, roll damping.
 
-In steady cornering the body leans by a moment m h a_y about the roll axis, which lies h below its centre of
-gravity, and its weight leans with it. Springs, bars and tyres carry the elastic part of that lateral load
-transfer; forces through the roll centres and at the wheels carry the rest (W. F. Milliken and D. L. Milliken,
-"Race Car Vehicle Dynamics", SAE 1995, chapter 18).
+In steady cornering the moment m h a_y about the roll axis, h below the body's centre of gravity, and the moment of
+the leaning weight roll the body. Springs, bars and tyres carry this elastic part of the lateral load transfer;
+forces through the roll centres and at the wheels carry the rest (W. F. Milliken and D. L. Milliken, "Race Car
+Vehicle Dynamics", SAE 1995, chapter 18).
 """
 
 from dataclasses import dataclass, field
@@ -14,8 +14,7 @@ import numpy as np
 from ..quantities import Checked, Real, unit
 from .assembly import GRAVITY, Assembly
 
-_TOPPLED = 180.0
-"""Roll gradient of a body that its struts and tyres do not hold upright [deg/g]."""
+_TOPPLED = 180.0  # deg/g, roll gradient of a body that its struts and tyres do not hold upright
 _AXLES = ("front", "rear")
 _SIDES = ("left", "right")
 
@@ -28,10 +27,8 @@ class RollGeometry(Checked):
     ----------
     roll_arm : float
         Height of the body's centre of gravity above the roll axis [m], also of its occupants and payload.
-    front_roll_centre, rear_roll_centre : float
-        Height of the roll centres above the ground [m].
-    wheel_centre : float
-        Height of the centres of the wheels above the ground [m].
+    front_roll_centre, rear_roll_centre, wheel_centre : float
+        Height of the roll centres, and of the centres of the wheels, above the ground [m].
 
     Raises
     ------
@@ -51,13 +48,11 @@ def check_cornering(measure: str, assembly: Assembly) -> None:
         coordinates = ", ".join(assembly.coordinates)
         raise ValueError(f"{measure} must be of a vehicle that rolls, got one with {coordinates}")
     corners = [f"{axle}_{side}" for axle in _AXLES for side in _SIDES]
-    tyres = [tyre.name for tyre in assembly.tyres]
     wheels = {f"{corner}_wheel" for corner in corners}
-    if measure != "roll_damping" and not (set(tyres) == set(corners) and wheels <= set(assembly.coordinates)):
-        raise ValueError(
-            f"{measure} must be of a vehicle with tyres {', '.join(corners)} on wheels of these names, "
-            f"got tyres {', '.join(tyres)}"
-        )
+    cornering = set(assembly.contacts) == set(corners) and wheels <= set(assembly.coordinates)
+    if measure != "roll_damping" and not cornering:
+        needed, got = f"tyres {', '.join(corners)} on wheels of these names", ", ".join(assembly.contacts)
+        raise ValueError(f"{measure} must be of a vehicle with {needed}, got tyres {got}")
 
 
 class Mechanics(NamedTuple):
@@ -72,7 +67,7 @@ class Mechanics(NamedTuple):
 
     @classmethod
     def of(cls, assembly: Assembly) -> "Mechanics":
-        """Take them from a vehicle."""
+        """Return the matrices of a vehicle."""
         links = [*assembly.tyres, *assembly.supports]
         e, _ = assembly.elongations(links)
         p, _ = assembly.elongations(assembly.struts)
@@ -82,11 +77,6 @@ class Mechanics(NamedTuple):
         )
         return cls(assembly, e.T @ (k * e), e.T @ (c * e), stiff, damp, (k * e)[: len(assembly.tyres)])
 
-    @property
-    def tyres(self) -> list[str]:
-        """Names of the tyres."""
-        return list(self.assembly.contacts)
-
     def stiffness_of(self, coefficients: Real) -> Real:
         """Return the stiffness matrices (p, n, n) of designs with these coefficients (p, v)."""
         return self.stiffness + np.tensordot(coefficients, self.by_stiffness, axes=1)
@@ -94,14 +84,10 @@ class Mechanics(NamedTuple):
     def static_loads(self, coefficients: Real) -> Real:
         """Return the load (p, t) of each tyre on level ground [N]."""
         displacement = np.linalg.solve(self.stiffness_of(coefficients), -GRAVITY * self.assembly.weights[:, None])
-        loads: Real = -(self.tyre_loads @ displacement)[..., 0]
-        return loads
+        return np.asarray(-(self.tyre_loads @ displacement)[..., 0])
 
     def roll_gradient(self, coefficients: Real, geometry: RollGeometry) -> Real:
-        """Return the roll angle (p,) per lateral acceleration [deg/g], at most 180.
-
-        A body topples, at 180, if struts and tyres do not hold its weight against leaning further.
-        """
+        """Return the roll angle (p,) per lateral acceleration [deg/g], at most 180, of a body that topples."""
         lean = np.degrees(self._lean(coefficients, geometry)[:, self.assembly.coordinates.index("roll")])
         topples = np.linalg.eigvalsh(self._leaning(coefficients, geometry))[:, 0] <= 0
         return np.where(topples, _TOPPLED, np.minimum(lean, _TOPPLED))
@@ -109,7 +95,7 @@ class Mechanics(NamedTuple):
     def front_load_transfer(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Return the share (p,) of the lateral load transfer on the front axle [-], void for one that topples."""
         loads = (self.tyre_loads @ self._lean(coefficients, geometry)[..., None])[..., 0]
-        front, rear = (loads[:, self.tyres.index(f"{axle}_left")] for axle in _AXLES)
+        front, rear = (loads[:, list(self.assembly.contacts).index(f"{axle}_left")] for axle in _AXLES)
         return front / (front + rear)
 
     def roll_damping(self, coefficients: Real) -> Real:
@@ -124,32 +110,28 @@ class Mechanics(NamedTuple):
         energy = np.diag(self.assembly.mass_matrix)[:, None] * np.abs(vectors[:, n:]) ** 2
         share = energy[:, self.assembly.coordinates.index("roll")] / energy.sum(axis=1)
         pole = np.take_along_axis(poles, share.argmax(axis=1)[:, None], axis=1)[:, 0]
-        ratio: Real = -pole.real / np.abs(pole)
-        return ratio
+        return np.asarray(-pole.real / np.abs(pole))
 
     def _lean(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Displacement of each coordinate (p, n) at 1 g to the left.
 
-        The body is turned by its weight at the roll arm; forces through the roll centres and at the wheels turn
-        the axles on their tyres.
+        The weight at the roll arm turns the body; forces at roll centres and wheels turn the axles on their tyres.
         """
         load = np.zeros((len(coefficients), len(self.assembly.coordinates)))
         load[:, self.assembly.coordinates.index("roll")] = self.assembly.sprung_mass * GRAVITY * geometry.roll_arm
-        static = self.static_loads(coefficients)
+        static, tyres = self.static_loads(coefficients), list(self.assembly.contacts)
         for axle, centre in zip(_AXLES, (geometry.front_roll_centre, geometry.rear_roll_centre), strict=True):
             corners = [f"{axle}_{side}" for side in _SIDES]
             left, right = (self.assembly.coordinates.index(f"{corner}_wheel") for corner in corners)
             wheels = 2 * self.assembly.weights[left] * GRAVITY
-            body = static[:, [self.tyres.index(corner) for corner in corners]].sum(axis=1) - wheels
+            body = static[:, [tyres.index(corner) for corner in corners]].sum(axis=1) - wheels
             (_, y), (_, other) = (self.assembly.contacts[corner] for corner in corners)
             load[:, left] = (body * centre + wheels * geometry.wheel_centre) / (y - other)
             load[:, right] = -load[:, left]
-        leaning = self._leaning(coefficients, geometry)
-        return np.asarray(np.linalg.solve(leaning, load[..., None])[..., 0], dtype=float)
+        return np.asarray(np.linalg.solve(self._leaning(coefficients, geometry), load[..., None])[..., 0])
 
     def _leaning(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Stiffness matrices (p, n, n) less the moment of the leaning weight."""
-        stiffness = self.stiffness_of(coefficients)
-        roll = self.assembly.coordinates.index("roll")
+        stiffness, roll = self.stiffness_of(coefficients), self.assembly.coordinates.index("roll")
         stiffness[:, roll, roll] -= self.assembly.sprung_mass * GRAVITY * geometry.roll_arm
         return stiffness

@@ -26,16 +26,12 @@ def modes_of(closed: control.StateSpace, assembly: Assembly) -> "pd.DataFrame":
             name = mode_name(shape, assembly.coordinates, np.diag(assembly.mass_matrix))
             damping_ratio = 1.0 if pole.imag == 0 else -pole.real / abs(pole)
             rows.append((name, abs(pole) / (2 * np.pi), damping_ratio, *shape))
-    columns = ["name", "frequency [Hz]", "damping ratio [-]", *assembly.coordinates]
-    table = pd.DataFrame(rows, columns=columns)
+    table = pd.DataFrame(rows, columns=["name", "frequency [Hz]", "damping ratio [-]", *assembly.coordinates])
     return table.sort_values("frequency [Hz]", kind="stable", ignore_index=True)
 
 
 def mode_name(shape: Complex, coordinates: Sequence[str], inertias: Real) -> str:
-    """Name a mode after the coordinate, or the two wheels of an axle, with most of its kinetic energy.
-
-    Wheels of an axle that move in phase hop, out of phase they tramp.
-    """
+    """Name a mode by the largest kinetic energy: a coordinate, or an axle's hop (in phase) or tramp (opposed)."""
     energy: dict[str, float] = {}
     parts = [re.sub("_(left|right)_wheel$", "_wheel", name) for name in coordinates]
     for part, share in zip(parts, inertias * np.abs(shape) ** 2, strict=True):

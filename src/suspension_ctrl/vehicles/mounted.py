@@ -14,7 +14,7 @@ from .vehicle import AssembledVehicle, Vehicle, assembled, spring_and_damper
 
 
 class Part(Checked, ABC):
-    """A part to put on a vehicle."""
+    """A part for a vehicle."""
 
     @abstractmethod
     def added_to(self, assembly: Assembly) -> Assembly:
@@ -51,11 +51,9 @@ class Seat(Part):
     Parameters
     ----------
     mass : float
-        Of the occupant and the moving part of the seat [kg].
-    spring : float
-        Stiffness [N/m].
-    damper : float
-        Damping coefficient [N s/m].
+        Occupant and moving part of the seat [kg].
+    spring, damper : float
+        Stiffness [N/m] and damping coefficient [N s/m].
     position : (float, float)
         Place from the body's centre of gravity, x forward and y to the left [m].
     name : str
@@ -75,7 +73,7 @@ class Seat(Part):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self._keep(position=_position(self.position))
+        self._keep(position=checks.position("position", self.position))
         if not (isinstance(self.name, str) and self.name.isidentifier()):
             raise ValueError(f"name must be of letters, digits and underscores, got {self.name!r}")
         check_strut_names("name", [self.name])
@@ -88,16 +86,14 @@ class Seat(Part):
             raise ValueError(f"name must be one that the vehicle does not have yet, got {self.name!r}")
         parameters = [replace(p, gain=np.pad(p.gain, (0, 1))) for p in assembly.parameters]
         own = spring_and_damper(self.name, [*[0.0] * len(struts), 1.0], (self.spring, self.damper))
+        kinds = {"acceleration": "acceleration", "suspension_travel": "travel"}
+        responses = {f"{self.name}_{what}": Response(kind, self.name) for what, kind in kinds.items()}
         return replace(
             assembly,
             masses={**assembly.masses, self.name: self.mass},
             struts=(*assembly.struts, Link(self.name, self.position, self.name)),
             parameters=(*parameters, *own),
-            responses={
-                **assembly.responses,
-                f"{self.name}_acceleration": Response("acceleration", self.name),
-                f"{self.name}_suspension_travel": Response("travel", self.name),
-            },
+            responses={**assembly.responses, **responses},
         )
 
 
@@ -110,8 +106,8 @@ class Payload(Part):
     mass : float
         [kg].
     position : (float, float)
-        Place from the centre of gravity of the body without it, x forward and y to the left [m]. Coordinates
-        stay those of that point.
+        Place from the centre of gravity of the unladen body, x forward and y to the left [m]; coordinates of the
+        body stay those of this point.
 
     Raises
     ------
@@ -124,7 +120,7 @@ class Payload(Part):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self._keep(position=_position(self.position))
+        self._keep(position=checks.position("position", self.position))
 
     def added_to(self, assembly: Assembly) -> Assembly:
         """Return the vehicle with this load on it."""
@@ -137,21 +133,19 @@ class FlexibleBody(Part):
 
     Parameters
     ----------
-    frequencies : (k,) sequence of float
-        Natural frequencies [Hz].
-    damping_ratios : (k,) sequence of float
-        [-].
+    frequencies, damping_ratios : (k,) sequence of float
+        Natural frequencies [Hz] and damping ratios [-].
     shapes : mapping of (float, float) to (k,) sequence of float
-        By point of the body, x forward and y to the left of its centre of gravity [m], the vertical displacement
-        in each mode at a modal mass of 1 [kg^-1/2]: at all struts, and at further seats, payloads and points of
-        acceleration. Elastic modes of a free body leave its centre of gravity and its principal axes in their
-        places, and the rigid coordinates stay those of the mean motion.
+        Vertical displacement in each mode at a modal mass of 1 [kg^-1/2], by point of the body, x forward and y
+        to the left of its centre of gravity [m]: all struts, further seats, payloads and points of acceleration.
+        Free elastic modes do not move the centre of gravity and the principal axes of the body: the rigid
+        coordinates stay those of the mean motion.
 
     Raises
     ------
     ValueError
-        If the parts do not fit together, a frequency is not above zero or a damping ratio not from 0 to 1; from
-        `on`, if the vehicle is flexible already or the mode shapes at a strut are unknown.
+        If the lengths differ, a frequency is not above zero or a damping ratio not from 0 to 1; from `on`, if
+        the vehicle is flexible already or the mode shapes at a strut are unknown.
     """
 
     frequencies: tuple[float, ...] = field(metadata=unit("Hz"))
@@ -168,7 +162,7 @@ class FlexibleBody(Part):
             checks.within("damping_ratios", ratio, 0, 1)
         if not isinstance(self.shapes, Mapping):
             raise ValueError(f"shapes must be a mapping of points to amplitudes, got {self.shapes!r}")
-        shapes = {_position(place, "shapes"): tuple(map(float, shape)) for place, shape in self.shapes.items()}
+        shapes = {checks.position("shapes", at): tuple(map(float, shape)) for at, shape in self.shapes.items()}
         for place, shape in shapes.items():
             if np.shape(shape) != modes or not np.isfinite(shape).all():
                 raise ValueError(f"shapes must be {modes[0]} finite numbers at each point, got {shape} at {place}")
@@ -191,8 +185,3 @@ class FlexibleBody(Part):
             supports=(*assembly.supports, *supports),
             bending={at: FrozenMapping(dict(zip(names, shape, strict=True))) for at, shape in self.shapes.items()},
         )
-
-
-def _position(value: Position, name: str = "position") -> Position:
-    checks.position(name, value)
-    return float(value[0]), float(value[1])

@@ -5,6 +5,7 @@ The first column is ``frequency [Hz]``; two more for each output and input are c
 """
 
 import re
+from itertools import product
 
 import control
 import numpy as np
@@ -28,13 +29,10 @@ def frequency_responses(names: list[str], values: Real) -> control.FrequencyResp
     if not parts:
         raise ValueError("there must be columns of responses, got none")
     outputs, inputs = (list(dict.fromkeys(part[i] for part in parts)) for i in (0, 1))
-    h = np.zeros((len(outputs), len(inputs), omega.size), dtype=complex)
-    for o, output in enumerate(outputs):
-        for i, given in enumerate(inputs):
-            for part, factor in (("real", 1.0), ("imag", 1j)):
-                if (output, given, part) not in parts:
-                    raise ValueError(f"columns must include {output}/{given} {part}, got none")
-                h[o, i] += factor * parts[output, given, part]
+    for output, given, part in product(outputs, inputs, ("real", "imag")):
+        if (output, given, part) not in parts:
+            raise ValueError(f"columns must include {output}/{given} {part}, got none")
+    h = [[parts[o, i, "real"] + 1j * parts[o, i, "imag"] for i in inputs] for o in outputs]
     return control.frd(h, omega, inputs=inputs, outputs=outputs)
 
 
@@ -48,10 +46,8 @@ def _part(name: str) -> tuple[str, str, str]:
     if not kind:
         raise ValueError(f"input must be like 'front_road' or 'front_strut', got {given!r}")
     if not signal_unit(output):
-        raise ValueError(
-            "output must be like 'body_acceleration', 'acceleration_at_1200_-400_mm', 'front_tyre_load' or "
-            f"'front_deflection', got {output!r}"
-        )
+        known = "'body_acceleration', 'acceleration_at_1200_-400_mm', 'front_tyre_load' or 'front_deflection'"
+        raise ValueError(f"output must be like {known}, got {output!r}")
     right = f"{signal_unit(output)}/{_INPUT_UNITS[kind[1]]}"
     if unit != right:
         raise ValueError(f"column {output}/{given} {part} must be in {right}, got {unit!r}")

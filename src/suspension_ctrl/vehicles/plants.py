@@ -19,10 +19,8 @@ from .feedback import System, numbers_of, selected, system_of
 from .plant_tables import frequency_responses
 from .vehicle import Vehicle, spring_and_damper
 
-_LEAST = 4
-"""Lines that a cubic spline needs."""
-_CLOSEST = 1e-6
-"""Least distance of lines [Hz]: its powers in a spline are finite."""
+_LEAST = 4  # lines of a cubic spline
+_CLOSEST = 1e-6  # Hz, least distance of lines: its powers in a spline are finite
 _POINT = re.compile(r"acceleration_at_(-?\d{1,6})_(-?\d{1,6})_mm", re.ASCII)
 _OUTPUT = re.compile(r"(?:(\w+)_)?(acceleration|tyre_load|suspension_travel)", re.ASCII)
 _KINDS = {"acceleration": "acceleration", "tyre_load": "load", "suspension_travel": "travel"}
@@ -40,18 +38,18 @@ def _brief(system: System) -> str:
 class Plant(Record, Vehicle):
     """A vehicle without its struts as a python-control system: imported from a multibody program, or measured.
 
-    Inputs of the system are ``<wheel>_road`` [m], of a damped tyre ``<wheel>_road_rate`` [m/s] beside it, and the
-    tensions ``<strut>_strut`` [N]; outputs are the responses, ``<strut>_deflection`` [m] and, if known,
-    ``<strut>_deflection_rate`` [m/s]. With one wheel nothing stands before the underscore. Responses are known to
-    the measures by names such as ``body_acceleration``, ``acceleration_at_1200_-400_mm`` (point of the body) and
+    Inputs are ``<wheel>_road`` [m], of a damped tyre ``<wheel>_road_rate`` [m/s] too, and the tensions
+    ``<strut>_strut`` [N]; outputs are the responses, ``<strut>_deflection`` [m] and, if known,
+    ``<strut>_deflection_rate`` [m/s]. Names of a quarter car have nothing before the underscore. Measures know
+    responses by names: ``body_acceleration``, ``acceleration_at_1200_-400_mm`` (point of the body),
     ``front_tyre_load``. The travel of a strut is its deflection.
 
-    Each strut has the coefficients ``<strut>.spring`` and ``<strut>.damper``. Masses are unknown, and with them
-    static loads, roll and modes; a seat cannot be put on.
+    Each strut has the coefficients ``<strut>.spring`` and ``<strut>.damper``. Masses, static loads, roll and modes
+    are unknown; a plant takes no seat.
 
     Between the lines of a frequency response real and imaginary parts are cubic splines over frequency; beyond
-    them it is unknown. At a resonance of half width b the spline errs by up to (h/b)^4/3 of the peak, with lines
-    h apart: a plant without struts has little damping, and needs close lines.
+    them it is unknown. At a resonance of half width b, with lines h apart, the spline errs by up to (h/b)^4/3 of
+    the peak: a plant without struts has little damping and needs close lines.
 
     Parameters
     ----------
@@ -77,16 +75,14 @@ class Plant(Record, Vehicle):
     def __post_init__(self) -> None:
         system = self.system
         if not isinstance(system, control.StateSpace | control.FrequencyResponseData):
-            raise ValueError(
-                f"system must be a control.StateSpace or FrequencyResponseData, got {type(system).__name__}"
-            )
+            got = type(system).__name__
+            raise ValueError(f"system must be a control.StateSpace or FrequencyResponseData, got {got}")
         if system.isdtime(strict=True):
             raise ValueError(f"system must be in continuous time, got a time step of {system.dt}")
         if isinstance(system, control.FrequencyResponseData):
             _check_lines(system)
         tensions = [name for name in system.input_labels if re.fullmatch("(.*_)?strut", name)]
-        if isinstance(self.struts, str):
-            raise ValueError(f"struts must be a list of names, got {self.struts!r}")
+        checks.listed("struts", self.struts)
         struts = tuple(self.struts) or tuple(name[: -len("_strut")] for name in tensions)
         check_strut_names("struts", struts)
         contacts = _checked_contacts(self.contacts)
@@ -95,10 +91,7 @@ class Plant(Record, Vehicle):
 
     @classmethod
     def from_csv(
-        cls,
-        path: str | PathLike[str],
-        contacts: Mapping[str, Position] = _ONE_WHEEL,
-        struts: Sequence[str] = (),
+        cls, path: str | PathLike[str], contacts: Mapping[str, Position] = _ONE_WHEEL, struts: Sequence[str] = ()
     ) -> "Plant":
         """Read a table of frequency responses, see `plant_tables`; errors name the file."""
         names, values = read_table(path)
@@ -118,7 +111,9 @@ class Plant(Record, Vehicle):
 
     def plant(self, responses: Sequence[ResponseName] | None = None) -> System:
         """Return the vehicle without its struts, see `Vehicle.plant`; points of the body to the millimetre."""
-        names = [label(response) for response in (self.responses if responses is None else responses)]
+        responses = self.responses if responses is None else responses
+        checks.listed("responses", responses)
+        names = [label(response) for response in responses]
         for name in names:
             checks.one_of("response", name, self.responses)
         ports = self.system.output_labels[-2 * len(self.struts) :]
@@ -149,23 +144,19 @@ def _check_lines(system: control.FrequencyResponseData) -> None:
 
 
 def _checked_contacts(contacts: Mapping[str, Position]) -> FrozenMapping[str, Position]:
-    if not (isinstance(contacts, Mapping) and contacts):
+    if not (isinstance(contacts, Mapping) and contacts and all(isinstance(wheel, str) for wheel in contacts)):
         raise ValueError(f"contacts must be a mapping of wheels to points, got {contacts!r}")
-    for wheel, position in contacts.items():
-        if not isinstance(wheel, str):
-            raise ValueError(f"contacts must be a mapping of wheels to points, got {wheel!r}")
-        checks.position(f"contact of {wheel or 'the wheel'}", position)
-    return FrozenMapping({wheel: (float(x), float(y)) for wheel, (x, y) in contacts.items()})
+    return FrozenMapping({w: checks.position(f"contact of {w or 'the wheel'}", contacts[w]) for w in contacts})
 
 
 def _check_signals(system: System, roads: Sequence[str], struts: Sequence[str], tensions: Sequence[str]) -> None:
     """Raise ValueError unless the system has these roads and struts, no other inputs, and finite values."""
     if not struts:
         raise ValueError(f"system must have an input like 'front_strut', got {', '.join(system.input_labels)}")
-    for kind, needed, labels in (
-        ("input", [*roads, *(joined(strut, "strut") for strut in struts)], system.input_labels),
-        ("output", [joined(strut, "deflection") for strut in struts], system.output_labels),
-    ):
+    inputs, outputs = system.input_labels, system.output_labels
+    ports = [*roads, *(joined(strut, "strut") for strut in struts)]
+    deflections = [joined(strut, "deflection") for strut in struts]
+    for kind, needed, labels in (("input", ports, inputs), ("output", deflections, outputs)):
         for name in needed:
             if name not in labels:
                 raise ValueError(f"system must have the {kind} {name!r}, got {', '.join(labels)}")
@@ -205,13 +196,10 @@ def _extended(system: System, deflections: Sequence[str], travels: Sequence[str]
     for rate, direct in zip(rates, d[row], strict=True):
         if direct.any():
             given = system.input_labels[int(np.flatnonzero(direct)[0])]
-            raise ValueError(
-                f"system must have the output {rate!r} where an input acts on {rates[rate]}, got {given}"
-            )
-    states = system.state_labels
-    return control.ss(
-        a, b, np.vstack([c, c[same], c[row] @ a]), np.vstack([d, d[same], c[row] @ b]), states=states, **names
-    )
+            needed = f"the output {rate!r} where an input acts on {rates[rate]}"
+            raise ValueError(f"system must have {needed}, got {given}")
+    c, d = np.vstack([c, c[same], c[row] @ a]), np.vstack([d, d[same], c[row] @ b])
+    return control.ss(a, b, c, d, states=system.state_labels, **names)
 
 
 def _meaning(name: str) -> Response:

@@ -21,11 +21,10 @@ from .modes import modes_of
 if TYPE_CHECKING:
     import pandas as pd
 
-Pair = tuple[float, float]
-"""Spring [N/m] and damper [N s/m] of a strut."""
-
-Setting = Mapping[str, float | Pair]
+Pair = tuple[float, float]  # spring [N/m] and damper [N s/m] of a strut
+Struts = Mapping[str, float | Pair]
 """Coefficients by name, ``{"front.spring": 2e4, ...}``, or in pairs, ``{"front": (2e4, 1500.0)}``."""
+Setting = Struts | Pair  # the pair of the one strut of a quarter car
 
 
 class Vehicle(ABC):
@@ -65,7 +64,12 @@ class Vehicle(ABC):
         control.StateSpace or control.FrequencyResponseData
             Inputs ``<wheel>_road`` [m], for a damped tyre ``<wheel>_road_rate`` [m/s], and ``<strut>_strut``
             (tension [N]); outputs the responses, then ``<strut>_deflection`` [m] and
-            ``<strut>_deflection_rate`` [m/s]. The names of a quarter car have nothing before the underscore.
+            ``<strut>_deflection_rate`` [m/s]. Names of a quarter car have nothing before the underscore.
+
+        Raises
+        ------
+        ValueError
+            If `responses` is no list, or one of them is unknown or given twice.
         """
 
     @property
@@ -84,25 +88,18 @@ class Vehicle(ABC):
         return frozen_array(list(self.contacts.values()))
 
     def closed(
-        self,
-        setting: Setting | Pair | None = None,
-        /,
-        *,
-        responses: Sequence[ResponseName] | None = None,
-        **struts: Any,
+        self, setting: Setting | None = None, /, *, responses: Sequence[ResponseName] | None = None, **struts: Any
     ) -> System:
         """Return the vehicle with its struts.
 
         Parameters
         ----------
-        setting : mapping of str to float or (float, float)
+        setting : mapping of str to float or (float, float), or (float, float)
             Coefficients by name, ``{"front.spring": 10e3, ...}``, or springs and dampers by strut,
-            ``{"front": (10e3, 2000.0), ...}``, of a quarter car the pair alone; each above zero, an anti-roll bar
-            from zero on.
+            ``{"front": (10e3, 2000.0), ...}``, of a quarter car the pair alone; each > 0, an anti-roll bar >= 0.
+            Keywords are a setting too: ``closed(front=(10e3, 2000.0), rear=(13e3, 2000.0))``.
         responses : sequence of str or ("acceleration", x, y), optional
             The outputs; all named responses if not given.
-        **struts
-            The setting by keywords: ``closed(front=(10e3, 2000.0), rear=(13e3, 2000.0))``.
 
         Returns
         -------
@@ -112,14 +109,14 @@ class Vehicle(ABC):
         Raises
         ------
         ValueError
-            If a coefficient is unknown, missing or out of range, or a response is unknown.
+            If a coefficient is unknown, missing or out of range; about responses as `plant`.
         """
         q = len(self.struts)
         gains = gains_by_order(self.parameters, self.coefficients(setting, **struts), q)
         closed = around(self.plant(responses), gains)
         return selected(closed, closed.output_labels[: -2 * q], closed.input_labels[:-q], "vehicle")
 
-    def coefficients(self, setting: Setting | Pair | None = None, /, **struts: Any) -> dict[str, float]:
+    def coefficients(self, setting: Setting | None = None, /, **struts: Any) -> dict[str, float]:
         """Return every coefficient by its name, defaults included; arguments and errors as of `closed`."""
         given = _by_name(setting, struts)
         known = {parameter.name: parameter for parameter in self.parameters}
@@ -129,9 +126,21 @@ class Vehicle(ABC):
         if missing:
             raise ValueError(f"setting must have {', '.join(known)}, got none for {', '.join(missing)}")
         for name, value in given.items():
-            check = checks.not_negative if known[name].default == 0 else checks.positive
-            check(name, value, known[name].unit)
+            known[name].check(name, value)
         return {name: given.get(name, p.default or 0.0) for name, p in known.items()}
+
+    def modes(self, setting: Setting | None = None, /, **struts: Any) -> "pd.DataFrame":
+        """Return the modes with struts, by rising frequency; arguments and errors as of `closed`, masses needed.
+
+        Returns
+        -------
+        DataFrame
+            ``name``, after the coordinate with most of the mode's kinetic energy, ``frequency [Hz]`` (undamped),
+            ``damping ratio [-]``, and by coordinate the complex amplitude, the largest being 1 (metres, and
+            radians for pitch and roll). A real pole, of an overdamped motion, is a row with damping ratio 1.
+        """
+        vehicle = assembled(self)
+        return modes_of(vehicle.closed(setting, **struts), vehicle.assembly)
 
 
 class AssembledVehicle(Vehicle):
@@ -171,27 +180,12 @@ class AssembledVehicle(Vehicle):
         """Return the vehicle without its struts, see `Vehicle.plant`."""
         return self.assembly.plant(self.responses if responses is None else responses)
 
-    def modes(self, setting: Setting | Pair | None = None, /, **struts: Any) -> "pd.DataFrame":
-        """Return the modes of the vehicle with its struts, by rising frequency; arguments as of `closed`.
-
-        Returns
-        -------
-        DataFrame
-            ``name``, ``frequency [Hz]`` (undamped), ``damping ratio [-]``, and by coordinate the complex amplitude
-            in the mode, the largest being 1 (metres, and radians for pitch and roll). A real pole, of an
-            overdamped motion, is a row with damping ratio 1. A mode is named after the coordinate with most of
-            its kinetic energy.
-        """
-        return modes_of(self.closed(setting, **struts), self.assembly)
-
 
 def assembled(vehicle: Vehicle) -> AssembledVehicle:
     """Return the vehicle; ValueError unless it is one of masses and links."""
     if not isinstance(vehicle, AssembledVehicle):
-        raise ValueError(
-            "vehicle must be one of masses and links for static loads, roll, modes and seats, "
-            f"got a {type(vehicle).__name__}"
-        )
+        needed = "one of masses and links for static loads, roll, modes and seats"
+        raise ValueError(f"vehicle must be {needed}, got a {type(vehicle).__name__}")
     return vehicle
 
 
@@ -200,10 +194,8 @@ def spring_and_damper(
 ) -> list[StrutParameter]:
     """Return the coefficients `name` of those struts whose `share` (q,) is 1."""
     gain, prefix = np.diag(share), f"{name}." if name else ""
-    return [
-        StrutParameter(f"{prefix}spring", "N/m", gain, 0, defaults[0]),
-        StrutParameter(f"{prefix}damper", "N s/m", gain, 1, defaults[1]),
-    ]
+    spring = StrutParameter(f"{prefix}spring", "N/m", gain, 0, defaults[0])
+    return [spring, StrutParameter(f"{prefix}damper", "N s/m", gain, 1, defaults[1])]
 
 
 def anti_roll_bar(name: str, difference: Sequence[float], track: float) -> StrutParameter:
@@ -211,7 +203,7 @@ def anti_roll_bar(name: str, difference: Sequence[float], track: float) -> Strut
     return StrutParameter(name, "N m/rad", np.outer(difference, difference) / track**2, 0, 0.0)
 
 
-def _by_name(setting: Setting | Pair | None, struts: Mapping[str, Any]) -> dict[str, float]:
+def _by_name(setting: Setting | None, struts: Mapping[str, Any]) -> dict[str, float]:
     """Return the coefficients of a setting one by one."""
     if setting is not None and struts:
         raise ValueError(f"setting must be one mapping or keywords, got both and {', '.join(struts)}")
