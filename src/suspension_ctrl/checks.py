@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 _LARGEST = sys.float_info.max
-_SLACK = 1e-9
-"""Share of its range by which a variable may pass a bound."""
+_SLACK = 1e-9  # share of its range by which a variable may pass a bound
 
 
 @contextmanager
@@ -25,13 +24,13 @@ def installed(extra: str) -> Iterator[None]:
 def positive(name: str, value: float, unit: str = "") -> None:
     """Raise ValueError unless `value` is a finite number above zero."""
     if not (_is_real(value) and 0 < value <= _LARGEST):
-        raise ValueError(f"{name} must be finite and > 0{' ' * bool(unit)}{unit}, got {value!r}")
+        raise ValueError(f"{name} must be finite and > 0{f' {unit}'.rstrip()}, got {value!r}")
 
 
 def not_negative(name: str, value: float, unit: str = "") -> None:
     """Raise ValueError unless `value` is a finite number of zero or more."""
     if not (_is_real(value) and 0 <= value <= _LARGEST):
-        raise ValueError(f"{name} must be finite and >= 0{' ' * bool(unit)}{unit}, got {value!r}")
+        raise ValueError(f"{name} must be finite and >= 0{f' {unit}'.rstrip()}, got {value!r}")
 
 
 def at_least(name: str, value: int, minimum: int) -> None:
@@ -77,18 +76,15 @@ def ordered(lower_name: str, upper_name: str, lower: ArrayLike, upper: ArrayLike
     """Raise ValueError unless both are finite, one-dimensional, of one length and lower < upper throughout."""
     low, high = np.asarray(lower, dtype=float), np.asarray(upper, dtype=float)
     if low.ndim != 1 or low.shape != high.shape or low.size == 0:
-        raise ValueError(
-            f"{lower_name} and {upper_name} must be one-dimensional and of one length, got {lower!r} and {upper!r}"
-        )
+        needed, got = "one-dimensional and of one length", f"{lower!r} and {upper!r}"
+        raise ValueError(f"{lower_name} and {upper_name} must be {needed}, got {got}")
     if not (np.isfinite(low).all() and np.isfinite(high).all() and (low < high).all()):
-        raise ValueError(
-            f"{lower_name} must be finite and below {upper_name} in every variable, "
-            f"got {low.tolist()} and {high.tolist()}"
-        )
+        needed, got = f"finite and below {upper_name} in every variable", f"{low.tolist()} and {high.tolist()}"
+        raise ValueError(f"{lower_name} must be {needed}, got {got}")
 
 
 def designs(values: ArrayLike, variables: int) -> NDArray[np.float64]:
-    """Return `values` as a float array of shape (n, variables); ValueError where that is not what they are."""
+    """Return `values` as a float array of shape (n, variables); ValueError for any other."""
     array = np.ascontiguousarray(values, dtype=float)
     if array.ndim != 2 or array.shape[1] != variables:
         raise ValueError(f"designs must have shape (n, {variables}), got {array.shape}")

@@ -4,9 +4,8 @@ import csv
 from os import PathLike
 from pathlib import Path
 
-_FOLDERS = (Path(__file__).parent / "data", Path(__file__).parents[2] / "data")
+_FOLDERS = (Path(__file__).parent / "data", Path(__file__).parents[2] / "data")  # in a wheel, in a checkout
 DATA = next(filter(Path.is_dir, _FOLDERS))
-"""The top-level folder ``data``: a wheel carries it inside the package, in a checkout it lies beside ``src``."""
 
 
 def path(name: str) -> Path:
@@ -22,9 +21,8 @@ def named(kind: str, folder: str, source: str | PathLike[str]) -> Path:
         return Path(source)
     known = stems(folder)
     if str(source) not in known:
-        raise ValueError(
-            f"{kind} must be one of {', '.join(known)} or the path of a .toml file, got {str(source)!r}"
-        )
+        allowed = f"one of {', '.join(known)} or the path of a .toml file"
+        raise ValueError(f"{kind} must be {allowed}, got {str(source)!r}")
     return path(f"{folder}/{source}.toml")
 
 

@@ -18,8 +18,8 @@ from .quantities import key_of
 
 T = TypeVar("T")
 
-_SMALLEST, _LARGEST = 1e-12, 1e12
-"""Beyond any vehicle; squares, products and quotients of such are still numbers."""
+_SMALLEST, _LARGEST = 1e-12, 1e12  # beyond any vehicle; their squares, products and quotients are finite
+_NUMBER = f"a number from {_SMALLEST:g} to {_LARGEST:g} in size or 0"
 
 
 @contextmanager
@@ -33,11 +33,7 @@ def naming(path: str | PathLike[str]) -> Iterator[None]:
 
 @contextmanager
 def keyed(prefix: str, names: Mapping[str, str]) -> Iterator[None]:
-    """Name the file's key in a ValueError about a parameter.
-
-    Inside ``keyed("seats[1].", {"mass_kg": "mass"})`` the message "mass must be > 0 kg" becomes
-    "seats[1].mass_kg must be > 0 kg".
-    """
+    """Name the file's key in a ValueError: "mass must be > 0 kg" becomes "seats[1].mass_kg must be > 0 kg"."""
     try:
         yield
     except ValueError as error:
@@ -56,7 +52,7 @@ def under(key: str) -> Iterator[None]:
 
 
 def read_toml(path: Path) -> "Table":
-    """Read a file; ValueError if it is no TOML in UTF-8, OSError if it cannot be read."""
+    """Read a TOML file in UTF-8; ValueError if it is none."""
     try:
         return Table("", tomllib.loads(path.read_bytes().decode("utf-8-sig")))
     except ValueError as error:
@@ -65,13 +61,13 @@ def read_toml(path: Path) -> "Table":
 
 @dataclass(frozen=True)
 class Table:
-    """A table of a file: in errors its `name` stands before its keys, such as ``"struts.front."``."""
+    """A table of a file."""
 
-    name: str
+    name: str  # before its keys in errors: "struts.front."
     content: Mapping[str, object]
 
     def check_keys(self, allowed: Mapping[str, str], needed: Collection[str] = ()) -> None:
-        """Raise ValueError unless all `needed` keys are present, and all keys `allowed`, names by key."""
+        """Raise ValueError unless all `needed` keys are present and all keys are `allowed` (names by key)."""
         for key, value in self.content.items():
             if key not in allowed:
                 raise ValueError(f"{self.name}{key} must be {_meant(key, allowed)}, got {reprlib.repr(value)}")
@@ -80,7 +76,7 @@ class Table:
                 raise ValueError(f"{self.name}{key} must be given, got none: keys are {', '.join(allowed)}")
 
     def value(self, key: str, fits: Callable[[Any], bool], words: str, default: object = None) -> Any:
-        """Return the value of a key; ValueError unless it `fits`, whose meaning is told in `words`."""
+        """Return the value of a key; ValueError with the allowed `words` unless it `fits`."""
         value = self.content.get(key, default)
         if not fits(value):
             raise ValueError(f"{self.name}{key} must be {words}, got {reprlib.repr(value)}")
@@ -88,8 +84,7 @@ class Table:
 
     def text(self, key: str) -> str:
         """Return a text that is not empty."""
-        text: str = self.value(key, lambda value: isinstance(value, str) and bool(value.strip()), "a text")
-        return text
+        return str(self.value(key, lambda value: isinstance(value, str) and bool(value.strip()), "a text"))
 
     def choice(self, key: str, choices: Mapping[str, T]) -> T:
         """Return the choice that the key names."""
@@ -126,41 +121,28 @@ class Table:
         return [numbered.table(one) for one in numbered.content]
 
     def flat(self) -> "Table":
-        """Return the table with those in it spread out under dotted keys."""
+        """Return the table with the values of its tables under dotted keys."""
         flat: dict[str, object] = {}
         for key, value in self.content.items():
-            if isinstance(value, dict) and value:
-                flat |= {f"{key}.{inner}": one for inner, one in value.items()}
-            else:
-                flat[key] = value
+            nested = isinstance(value, dict) and value
+            flat |= {f"{key}.{inner}": one for inner, one in nested.items()} if nested else {key: value}
         return Table(self.name, flat)
 
 
 def made(table: Table, kind: type[T], beside: Collection[str] = (), **given: object) -> T:
-    """Return a dataclass by a table whose keys are names and units of its fields, and others `beside` them.
+    """Return a dataclass by a table of its numbers and texts; other keys may be `beside` them.
 
-    Fields of numbers and texts are read; the metadata ``key`` of a field stands for its name and unit.
+    A key is a field's metadata ``key``, or its name and unit.
     """
-    read: dict[Any, Callable[[str], object]] = {
-        float: table.number,
-        float | None: table.number,
-        str: table.text,
-        tuple[float, float]: table.pair,
-        tuple[float, ...]: table.numbers,
-    }
-    own = {
-        one.metadata.get("key", key_of(one.name, one.metadata.get("unit", ""))): one
-        for one in fields(kind)  # type: ignore[arg-type]
-        if one.type in read and one.name not in given
-    }
+    read: dict[Any, Callable[[str], object]] = dict.fromkeys([float, float | None], table.number)
+    read |= {str: table.text, tuple[float, float]: table.pair, tuple[float, ...]: table.numbers}
+    found = [one for one in fields(kind) if one.type in read and one.name not in given]  # type: ignore[arg-type]
+    own = {one.metadata.get("key", key_of(one.name, one.metadata.get("unit", ""))): one for one in found}
     names = {key: one.name for key, one in own.items()}
     needed = [key for key, one in own.items() if one.default is MISSING]
     table.check_keys(names | {key: key for key in beside}, needed)
     with keyed(table.name, names):
         return kind(**given, **{one.name: read[one.type](key) for key, one in own.items() if key in table.content})
-
-
-_NUMBER = f"a number from {_SMALLEST:g} to {_LARGEST:g} in size or 0"
 
 
 def _is_number(value: Any) -> bool:

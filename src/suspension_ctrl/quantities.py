@@ -17,8 +17,7 @@ Integer = NDArray[np.int64]
 K = TypeVar("K")
 V = TypeVar("V", covariant=True)
 
-_WIDTH, _LINES = 88, 6
-"""Columns and lines that the repr of a record may take."""
+_WIDTH, _LINES = 88, 6  # most columns and lines of a record's repr
 
 
 def unit(text: str, *limits: float) -> dict[str, Any]:
@@ -34,7 +33,7 @@ def frozen_array(values: ArrayLike, dtype: type = float) -> NDArray[Any]:
 
 
 class FrozenMapping(Mapping[K, V]):
-    """A mapping that does not change: a copy, hashable where its values are, and fit for pickling."""
+    """An immutable copy of a mapping, hashable with its values, and fit for pickling."""
 
     def __init__(self, items: Mapping[K, V]) -> None:
         self._items = dict(items)
@@ -56,11 +55,10 @@ class FrozenMapping(Mapping[K, V]):
 
 
 class Record:
-    """A frozen dataclass without its own ``==`` and ``repr`` (``eq=False, repr=False``), which come from here.
+    """Equality, hash, repr and pickling of a frozen dataclass (``eq=False, repr=False``) by its fields.
 
-    Two records are equal if they are of one class and all fields are, arrays element by element. A record is
-    pickled by its fields, without what a cached property holds; arrays stay read-only. The metadata of a field
-    may name its ``unit`` and a function ``show`` from the value to the text in `repr`.
+    Cached properties are not pickled; arrays stay read-only. The metadata of a field may have its ``unit`` and a
+    function ``show`` from the value to the text in `repr`.
     """
 
     def __eq__(self, other: object) -> bool:
@@ -83,9 +81,7 @@ class Record:
     def __repr__(self) -> str:
         shown = (f for f in self._fields() if f.repr and not _is_default(f, getattr(self, f.name)))
         text = f"{type(self).__name__}({', '.join(f'{f.name}={_shown(getattr(self, f.name), f)}' for f in shown)})"
-        return "\n".join(
-            textwrap.wrap(text, _WIDTH, subsequent_indent="    ", max_lines=_LINES, placeholder=" ...")
-        )
+        return textwrap.fill(text, _WIDTH, subsequent_indent="    ", max_lines=_LINES, placeholder=" ...")
 
     def _keep(self, **values: object) -> None:
         """Set fields of this frozen record, in ``__post_init__``."""
@@ -100,10 +96,7 @@ class Record:
 
 
 class Checked(Record):
-    """A record whose numbers with units are checked at birth: within the limits of their field, or above zero.
-
-    A number may be zero if that is its default.
-    """
+    """A record of numbers within the limits of their fields, or above zero; zero is allowed if it is a default."""
 
     def __post_init__(self) -> None:
         for one in self._fields():

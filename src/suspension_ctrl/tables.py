@@ -15,29 +15,19 @@ from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+
+from .quantities import Real
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-_LARGEST = 1e9
-"""Beyond what roads and vehicles have; its square is still a number."""
-
-_DEVICES = r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)"
-"""Names that Windows keeps for devices, with any ending."""
+_LARGEST = 1e9  # beyond roads and vehicles; its square is finite
+_DEVICES = r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)"  # reserved names of Windows, with any ending
 
 
-def read_table(path: str | PathLike[str]) -> tuple[list[str], NDArray[np.float64]]:
-    """Return the names of the columns (c,) and their values (rows, c), two rows at least.
-
-    Raises
-    ------
-    ValueError
-        Naming the file, if it is no such table or a cell is no finite number.
-    OSError
-        If the file cannot be read.
-    """
+def read_table(path: str | PathLike[str]) -> tuple[list[str], Real]:
+    """Return names of columns (c,) and finite values (rows, c) of two rows or more; ValueError otherwise."""
     names, *rows = table_rows(path)
     if len(rows) < 2:
         raise ValueError(f"{path}: there must be two rows of numbers at least, got {len(rows)}")
@@ -52,7 +42,7 @@ def table_rows(path: str | PathLike[str]) -> list[list[str]]:
             lines = (line for line in file if line.strip() and not line.startswith("#"))
             rows = [[cell.strip() for cell in row] for row in csv.reader(lines, strict=True)]
     except (UnicodeDecodeError, csv.Error) as error:
-        raise ValueError(f"{path}: must be a CSV file in UTF-8, got {_one_line(error)}") from None
+        raise ValueError(f"{path}: must be a CSV file in UTF-8, got {' '.join(str(error).split())}") from None
     if not rows:
         raise ValueError(f"{path}: must begin with the names of its columns, got nothing")
     return rows
@@ -74,10 +64,6 @@ def _number(path: str | PathLike[str], number: int, name: str, cell: str) -> flo
     return value
 
 
-def _one_line(error: Exception) -> str:
-    return " ".join(str(error).split())
-
-
 def file_name(text: str) -> str:
     """Return the text as a file's name: letters, digits and ``._+-`` as they are, ``_`` for all else."""
     name = re.sub(r"[^\w.+-]", "_", text).strip(".") or "_"
@@ -85,10 +71,7 @@ def file_name(text: str) -> str:
 
 
 def write_whole(path: Path, write: Callable[[Path], object]) -> None:
-    """Let `write` fill a temporary file beside `path`, then put it in place in one step.
-
-    The temporary file has the ending of `path` and is gone again if `write` fails.
-    """
+    """Let `write` fill a temporary file beside `path`, of the same ending, then put it in place in one step."""
     with NamedTemporaryFile(dir=path.parent, prefix=".", suffix=path.suffix, delete=False) as file:
         temporary = Path(file.name)
     try:
