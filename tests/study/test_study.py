@@ -244,6 +244,4 @@ def test_a_run_without_a_feasible_design_has_no_hypervolume(tmp_path):
 
 def test_without_a_feasible_design_there_is_no_reference():
     found = Study(problems={"p": NOWHERE}, algorithms={"a": Nsga2(population=20)}, seeds=[1], budgets=[40]).run()
-    assert found.error.tolist() == [
-        "ValueError: references must hold 'p', of which the runs from seed 1 found no feasible design, got []"
-    ]
+    assert found.error.tolist() == ["ValueError: constraints must leave a feasible design, got none in any run"]

@@ -108,7 +108,7 @@ def test_nothing_is_compiled_in_a_timed_run():
 
 
 def test_fronts_are_non_dominated_and_named_with_units(problem, comparison, plan, store):
-    frame = experiments.front(comparison.problem, store[plan[0].name].final)
+    frame = experiments.front(comparison.problem, store[plan[0].name])
     assert list(frame.columns) == ["spring [N/m]", "damper [N s/m]", "ACC [m/s^2]", "SWS [m]", "DTL [N]"]
     np.testing.assert_array_equal(problem.evaluate(frame.iloc[:, :2]), frame.iloc[:, 2:])
     populations = experiments.final_populations(comparison, store)
@@ -129,7 +129,7 @@ def test_final_populations_tell_violations_where_there_are_constraints():
     feasible = (values[:, 2:] <= 0).all(axis=1)
     np.testing.assert_array_equal(final.violation == 0, feasible)
     assert 0 < feasible.sum() < 20
-    front = experiments.front(problem, final)
+    front = experiments.front(problem, store[planned.name])
     assert 0 < len(front) <= feasible.sum()
     assert front.violation.eq(0).all()
     reference = ReferenceFront.of(grid_front(problem, 40))
@@ -154,4 +154,4 @@ def test_runs_without_a_feasible_design_have_rows_too():
     table = experiments.tidy(comparison, store, front)
     assert table.hypervolume.eq(0).all()
     assert np.isposinf(table.igd_plus).all()
-    assert experiments.front(problem, store[planned[0].name].final).empty
+    assert experiments.front(problem, store[planned[0].name]).empty

@@ -34,7 +34,7 @@ def write(request: "Request", store: Store, timed: pd.DataFrame) -> None:
         write_table(folder / name, table)
     (folder / "fronts").mkdir(exist_ok=True)
     for run in request.campaign.comparison.timed_runs():
-        front = timing.front(request.problem, store[run.name].final)
+        front = timing.front(request.problem, store[run.name])
         write_csv(folder / "fronts" / f"{run.name}.csv", front)
     with terminal.waiting("drawing"):
         _write_figure5(request, timing.final_populations(request.campaign.comparison, store))
@@ -61,10 +61,9 @@ def say(request: "Request", store: Store, timed: pd.DataFrame, origin: str) -> N
             f"In up to {period} iterations MOEA/D-DRA has not allocated resources yet: its utilities first change "
             f"after iteration {period}."
         )
-    finals = [store[run.name].final for run in runs]
-    barren = sum(timing.feasible_rows(problem, final).empty for final in finals)
+    barren = sum(store[run.name].feasible.empty for run in runs)
     if barren:
-        terminal.note(f"{barren} of {len(finals)} timed runs found no design within the limits.")
+        terminal.note(f"{barren} of {len(runs)} timed runs found no design within the limits.")
 
 
 def _write_figure5(request: "Request", populations: pd.DataFrame) -> None:

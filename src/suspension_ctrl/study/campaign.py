@@ -43,10 +43,10 @@ class Campaign:
         """Make the timed runs one after the other on one thread, after a warm-up, and return them."""
         made_on = {"processor": machine.processor_name(), "python": platform.python_version()}
         store = self._store("timed", "repeats", **made_on)
-        runs = self.comparison.timed_runs()
+        runs = len(self.comparison.timed_runs())
         with machine.single_thread(), warnings.catch_warnings():
             warnings.simplefilter("ignore", InfeasibleWarning)  # their table shows runs without a feasible design
-            for _ in self.watch(self._timed(store), len(runs), "timed runs"):
+            for _ in self.watch(self._timed(store), runs, "timed runs"):
                 pass
         return store
 
@@ -58,11 +58,11 @@ class Campaign:
         """Return the front of a grid, kept in the folder, or of the best timed runs, and its origin in words."""
         problem = self.comparison.problem
         if grid:
-            found = reference.kept(self.folder / "reference.npz", problem, self.tolerance)
-            return found.front, found.describe(len(problem.variables))
-        finals = (store[run.name].final for run in self.comparison.timed_runs())
-        fronts = [timing.objectives_of(problem, timing.feasible_rows(problem, final)) for final in finals]
-        return reference.best_known(fronts), "the non-dominated designs of all these runs"
+            grid_front = reference.kept(self.folder / "reference.npz", problem, self.tolerance)
+            return grid_front.front, grid_front.describe(len(problem.variables))
+        runs = (store[run.name] for run in self.comparison.timed_runs())
+        found = [timing.feasible_objectives(problem, run) for run in runs]
+        return reference.best_known(found), "the non-dominated designs of all these runs"
 
     def judge(self, front: ReferenceFront, client: "Client | None" = None) -> tuple[pd.DataFrame, FolderStore]:
         """Make the runs over many seeds, here or on a cluster; return a row per run, budget and set, and them."""
@@ -76,9 +76,7 @@ class Campaign:
 
     def _store(self, name: str, *also: str, **plan: Any) -> FolderStore:
         """Return the finished runs in a subfolder that belongs to these settings, values and versions."""
-        settings = {key: getattr(self.comparison, key) for key in (*_SETTINGS, *also)}
-        settings["problem"] = reference.key(self.comparison.problem, self.tolerance)
-        return FolderStore(self.folder / name, plan | settings | machine.provenance())
-
-
-_SETTINGS = ("populations", "iterations", "algorithms", "seed")
+        keys = ("populations", "iterations", "algorithms", "seed", *also)
+        plan |= {key: getattr(self.comparison, key) for key in keys}
+        plan["problem"] = reference.key(self.comparison.problem, self.tolerance)
+        return FolderStore(self.folder / name, plan | machine.provenance())

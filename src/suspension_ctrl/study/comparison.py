@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import product
 
 from .. import checks
 from ..quantities import Record
@@ -49,7 +50,7 @@ class Comparison(Record):
     repeats, seeds : int
         Timed runs of each algorithm at each configuration, and judged runs at each population.
     seed : int
-        Seed of the first of each; the next run has the next.
+        Seed of the first run; later runs count up from it.
     """
 
     problem: Described
@@ -70,12 +71,8 @@ class Comparison(Record):
 
     def cost(self) -> dict[tuple[str, int], int]:
         """Return the evaluations of an iteration by algorithm and population."""
-        m = len(self.problem.objectives)
-        return {
-            (name, n): optimiser(name, n).evaluations_per_iteration(m)
-            for name in self.algorithms
-            for n in self.populations
-        }
+        m, pairs = len(self.problem.objectives), product(self.algorithms, self.populations)
+        return {(name, n): optimiser(name, n).evaluations_per_iteration(m) for name, n in pairs}
 
     def timed_runs(self) -> list[PlannedRun]:
         """Return the timed runs in their order, algorithms taking turns.
@@ -83,15 +80,15 @@ class Comparison(Record):
         An algorithm that spends fewer evaluations than another in equal iterations runs once more with equal
         evaluations, up to a part of an iteration.
         """
+        repeats = range(1, self.repeats + 1)
         return [
             self._timed(name, population, count, repeat, budget, evaluations)
-            for population in self.populations
-            for count in self.iterations
-            for repeat in range(1, self.repeats + 1)
+            for population, count, repeat in product(self.populations, self.iterations, repeats)
             for name, budget, evaluations in self._budgets_of(population, count)
         ]
 
     def _budgets_of(self, population: int, count: int) -> Iterator[tuple[str, str, int]]:
+        """Yield algorithm, what is equal, and evaluations of the runs of so many iterations."""
         cost = {name: each for (name, n), each in self.cost().items() if n == population}
         most = population + count * max(cost.values())
         for name, each in cost.items():
@@ -100,29 +97,22 @@ class Comparison(Record):
             if population + count * each < most:
                 yield name, EQUAL_EVALUATIONS, population + (most - population) // each * each
 
-    def _timed(
-        self, name: str, population: int, count: int, repeat: int, budget: str, evaluations: int
-    ) -> PlannedRun:
+    def _timed(self, name: str, size: int, count: int, repeat: int, budget: str, evaluations: int) -> PlannedRun:
         suffix = "_equal-evaluations" if budget == EQUAL_EVALUATIONS else ""
+        file = f"{name}_n{size}_i{count}_r{repeat}{suffix}"
         seed = self.seed + repeat - 1
-        key = {"algorithm": name, "population": population, "iterations": count, "budget": budget}
-        return PlannedRun(
-            f"{name}_n{population}_i{count}_r{repeat}{suffix}",
-            optimiser(name, population),
-            seed,
-            evaluations,
-            {**key, "repeat": repeat, "seed": seed},
-        )
+        key = {"algorithm": name, "population": size, "iterations": count, "budget": budget}
+        return PlannedRun(file, optimiser(name, size), seed, evaluations, key | {"repeat": repeat, "seed": seed})
 
     def budgets(self, population: int) -> list[int]:
-        """Return the evaluations at which runs are judged: steps of N/5 up to 5 N, of N beyond, all compared."""
+        """Return the evaluations at which runs are judged: steps of N/5 to 5 N, then of N, and timed totals."""
         spent = {n for count in self.iterations for _, _, n in self._budgets_of(population, count)}
         fine = {population + k * (population // 5) for k in range(21)}
         coarse = set(range(population, max(spent), population))
         return sorted(budget for budget in fine | coarse | spent if budget <= max(spent))
 
     def studies(self, reference: ReferenceFront | None = None) -> dict[int, Study]:
-        """Return by population the study over all seeds, against a reference front if given."""
+        """Return the study over all seeds by population, against a reference front if given."""
         return {
             n: Study(
                 problems={"ride": self.problem},

@@ -13,27 +13,24 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from ..quantities import Real
+from ..search.indicators import best_of
 
 LABELS = {
-    "relative_hypervolume": "hypervolume / reference [-]",
-    "igd_plus": "IGD+ [-]",
-    "epsilon": "additive epsilon [-]",
-    "spread": "generalised spread [-]",
-    "evaluations": "evaluations [-]",
+    "relative_hypervolume": "hypervolume / reference [-]", "igd_plus": "IGD+ [-]",
+    "epsilon": "additive epsilon [-]", "spread": "generalised spread [-]", "evaluations": "evaluations [-]",
     "seconds": "time [s]",
-}
-# Okabe and Ito, and grey: told apart by colour-blind readers.
+}  # fmt: skip
+# The palette of Okabe and Ito, and grey: colour-blind readers can distinguish them.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#666666")
 STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (1, 1)), (0, (3, 1, 1, 1)))
 
 
-def anytime(
-    ax: Axes, quality: pd.DataFrame, over: str = "evaluations", value: str = "relative_hypervolume"
-) -> None:
-    """Draw the median of an indicator with its interquartile band, a line per algorithm.
+def anytime(ax: Axes, quality: pd.DataFrame, over: str = "evaluations") -> None:
+    """Draw the median relative hypervolume with its interquartile band, a line per algorithm.
 
     `quality` holds rows of one population and set, from `lenses.with_seconds`; `over` is evaluations or seconds.
     """
+    value = "relative_hypervolume"
     by_algorithm = quality.groupby("algorithm", sort=False)
     for colour, style, (algorithm, part) in zip(COLOURS, STYLES, by_algorithm, strict=False):
         low, middle, high = (part.groupby(over)[value].quantile(q) for q in (0.25, 0.5, 0.75))
@@ -78,14 +75,10 @@ def attainment_panels(
 
 def boxes(ax: Axes, runs: pd.DataFrame, value: str) -> None:
     """Draw a box plot per algorithm of a value over the runs; runs without a feasible design are left out."""
-    groups = list(runs.groupby("algorithm", sort=False))
-    box = ax.boxplot(
-        [part[value][np.isfinite(part[value])] for _, part in groups],
-        tick_labels=[str(name) for name, _ in groups],
-        patch_artist=True,
-        medianprops={"color": "black"},
-        flierprops={"markersize": 3},
-    )
+    groups = {str(name): part[value] for name, part in runs.groupby("algorithm", sort=False)}
+    style: dict[str, Any] = {"medianprops": {"color": "black"}, "flierprops": {"markersize": 3}}
+    finite = [values[np.isfinite(values)] for values in groups.values()]
+    box = ax.boxplot(finite, tick_labels=list(groups), patch_artist=True, **style)
     for colour, patch in zip(COLOURS, box["boxes"], strict=False):
         patch.set(facecolor=colour, alpha=0.5)
     ax.set_ylabel(LABELS[value])
@@ -96,39 +89,34 @@ def boxes(ax: Axes, runs: pd.DataFrame, value: str) -> None:
 def attainment_differences(
     ax: Axes, first: pd.DataFrame, second: pd.DataFrame, objectives: tuple[str, str]
 ) -> Any:
-    """Draw the share of runs of one algorithm that attain a place less that of another, in two objectives.
+    """Draw the difference of two algorithms in the share of runs attaining a point of two objectives.
 
-    `first` and `second` hold the feasible designs of final populations with a column ``seed``; seeds of both are
-    shown. Returned are the coloured patches, for a colour bar.
+    `first` and `second` hold the feasible designs of final populations with a column ``seed``; common seeds are
+    shown. Returns the coloured patches, for a colour bar.
 
-    References
-    ----------
     V. Grunert da Fonseca, C. M. Fonseca, A. O. Hall, "Inferential performance assessment of stochastic optimisers
     and the attainment function", EMO 2001; computed by moocore.
     """
-    seeds = sorted(set(first.seed) & set(second.seed))  # moocore takes both sides to have as many runs
+    seeds = sorted(set(first.seed) & set(second.seed))  # moocore expects as many runs on both sides
     sides = [_fronts(side, seeds, objectives) for side in (first, second)]
     found = moocore.eafdiff(*sides, rectangles=True)
     every = np.concatenate(sides)[:, :2]
     low, high = every.min(axis=0), every.max(axis=0)
     x0, y0, x1, y1 = (np.clip(found[:, c], low[c % 2], high[c % 2]) for c in range(4))
     corners = np.stack([np.stack(pair, axis=-1) for pair in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))], axis=1)
-    patches = PolyCollection(
-        list(corners), array=found[:, 4] / len(seeds), cmap="PuOr", clim=(-1, 1), lw=0, rasterized=True
-    )
+    style: dict[str, Any] = {"cmap": "PuOr", "clim": (-1, 1), "lw": 0, "rasterized": True}
+    patches = PolyCollection(list(corners), array=found[:, 4] / len(seeds), **style)
     ax.add_collection(patches)
-    margin = 0.02 * (high - low)
-    ax.set(xlim=(low[0] - margin[0], high[0] + margin[0]), ylim=(low[1] - margin[1], high[1] + margin[1]))
-    ax.set(xlabel=objectives[0], ylabel=objectives[1])
+    xlim, ylim = np.transpose([low - 0.02 * (high - low), high + 0.02 * (high - low)])
+    ax.set(xlim=xlim, ylim=ylim, xlabel=objectives[0], ylabel=objectives[1])
     return patches
 
 
 def _fronts(populations: pd.DataFrame, seeds: list[int], objectives: tuple[str, str]) -> Real:
-    """Non-dominated pairs of objectives of each run, and its number from 1, (n, 3)."""
+    """Return the non-dominated pairs of objectives of each run, and its number from 1, (n, 3)."""
     fronts = []
     for run, seed in enumerate(seeds, start=1):
-        points = populations.loc[populations.seed == seed, list(objectives)].to_numpy(dtype=float)
-        best = points[moocore.is_nondominated(points)]
+        best = best_of(populations.loc[populations.seed == seed, list(objectives)].to_numpy(dtype=float))
         fronts.append(np.column_stack([best, np.full(len(best), float(run))]))
     return np.concatenate(fronts)
 
@@ -146,10 +134,7 @@ def panels(count: int, columns: int = 3, width: float = 4.2, height: float = 3.4
 def final_populations(
     populations: pd.DataFrame, across: str = "SWS [m]", up: Sequence[str] = ("ACC [m/s^2]", "DTL [N]")
 ) -> Figure:
-    """Draw Figure 5: populations of `timing.final_populations` by their objectives, a panel per configuration.
-
-    `across` is the column on the horizontal axis, `up` those on vertical axes, one above another.
-    """
+    """Draw Figure 5 of `timing.final_populations`, columns `up` over column `across` for each configuration."""
     panels = list(populations.groupby(["population", "iterations"]))
     columns = min(2, len(panels))
     rows = -(-len(panels) // columns)
@@ -168,23 +153,18 @@ def final_populations(
 
 def final_population_panel(ax: Axes, populations: pd.DataFrame, across: str, up: str) -> None:
     """Draw one objective over another for the populations of one or two algorithms."""
-    # Rings first, then small marks over them, so that neither population hides the other.
-    marks: list[dict[str, Any]] = [
-        {"marker": "o", "s": 22, "facecolors": "none", "linewidths": 0.5},
-        {"marker": "o", "s": 4, "linewidths": 0},
-    ]
+    # Small marks over rings: both populations stay visible.
+    ring: dict[str, Any] = {"s": 22, "facecolors": "none", "edgecolors": COLOURS[0], "linewidths": 0.5}
+    mark: dict[str, Any] = {"s": 4, "color": COLOURS[1], "linewidths": 0}
     groups = list(populations.groupby("algorithm", sort=False))
-    if len(groups) > len(marks):
+    if len(groups) > 2:
         raise ValueError(f"populations must be of one or two algorithms, got {[name for name, _ in groups]}")
     (_, width), (label, height) = _shown(across), _shown(up)
-    for colour, mark, (algorithm, part) in zip(COLOURS, marks, groups, strict=False):
-        style: dict[str, Any] = {"edgecolors": colour} if "facecolors" in mark else {"color": colour}
-        ax.scatter(part[across] * width, part[up] * height, label=algorithm, **mark, **style)
+    for style, (algorithm, part) in zip((ring, mark), groups, strict=False):
+        ax.scatter(part[across] * width, part[up] * height, label=algorithm, marker="o", **style)
     ax.set_ylabel(label)
 
 
 def _shown(header: str) -> tuple[str, float]:
-    """Return the label of an axis by the header of a column, and the factor of its values."""
-    if header.endswith("[N]"):
-        return header.replace("[N]", "[kN]"), 1e-3
-    return header.replace("^2", "²"), 1.0
+    """Return the label of an axis and the factor of its values, by the header of a column."""
+    return (header.replace("[N]", "[kN]"), 1e-3) if header.endswith("[N]") else (header.replace("^2", "²"), 1.0)

@@ -1,4 +1,4 @@
-"""Findings of a comparison over many seeds: medians at what is held equal, differences, the target, a verdict."""
+"""Findings of a comparison over many seeds: medians, differences, effort to a target, a verdict."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -16,7 +16,7 @@ SETS = {"final population": POPULATION, "archive cut to N": CUT_ARCHIVE}
 class Findings(NamedTuple):
     """Tables of the runs that ended, and the verdict on the first two algorithms, a paragraph per set."""
 
-    course: pd.DataFrame  # a row per run, budget and set, with the seconds that its evaluations take when timed
+    course: pd.DataFrame  # a row per run, budget and set, from `lenses.with_seconds`
     equal: pd.DataFrame  # those at equal iterations, evaluations and time, from `lenses.at_equal`
     medians: pd.DataFrame  # a row per configuration, lens, set and algorithm
     differences: pd.DataFrame  # of every two algorithms, from `inference.pairwise`
@@ -38,14 +38,10 @@ def findings(comparison: Comparison, table: pd.DataFrame, clock: pd.DataFrame, t
     by = [*CONFIGURATION, "set", "algorithm"]
     spent = equal.groupby(by, sort=False)[["evaluations", "seconds"]].median().reset_index()
     differences = inference.pairwise(equal, [*CONFIGURATION, "set"], INDICATORS, comparison.algorithms)
-    return Findings(
-        course,
-        equal,
-        spent.merge(inference.quartiles(equal, by, INDICATORS), on=by),
-        differences,
-        lenses.reached_by(lenses.to_reach(course, target)),
-        _verdict(differences, comparison.algorithms[:2]),
-    )
+    medians = spent.merge(inference.quartiles(equal, by, INDICATORS), on=by)
+    reached = lenses.reached_by(lenses.to_reach(course, target))
+    verdict = _verdict(differences, comparison.algorithms[:2])
+    return Findings(course, equal, medians, differences, reached, verdict)
 
 
 def _verdict(differences: pd.DataFrame, algorithms: Sequence[str]) -> list[str]:
@@ -60,7 +56,7 @@ def _verdict(differences: pd.DataFrame, algorithms: Sequence[str]) -> list[str]:
 
 
 def last_rows(table: pd.DataFrame) -> pd.DataFrame:
-    """Return one row per run, as in the table of timed runs: its population at the end, or its error."""
+    """Return one row per run, its final population or its error, in the form of the table of timed runs."""
     ends = table[table.error.ne("") | table.set.eq(POPULATION)]
     last = ends.groupby(["population", "algorithm", "seed"], sort=False).tail(1)
     return last.drop(columns=["set", "members", "budget"]).assign(timing=False)

@@ -1,6 +1,6 @@
 """Rank tests, effect sizes and bootstrap intervals over repeated runs, and their verdict in words."""
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Sequence
 from itertools import combinations, product
 from typing import Any
 
@@ -11,22 +11,17 @@ from numpy.typing import ArrayLike
 from ..checks import installed
 from ..quantities import Real
 
-SIGNIFICANCE = 0.05
-CONFIDENCE = 0.95
-RESAMPLES = 9999
+SIGNIFICANCE, CONFIDENCE, RESAMPLES = 0.05, 0.95, 9999
 
 
 def quartiles(table: pd.DataFrame, by: Sequence[str], values: Sequence[str]) -> pd.DataFrame:
-    """Return by group the number of runs, and of each value the median, ``<value> q1`` and ``<value> q3``.
-
-    `table` has a row per run; groups are in order of appearance.
-    """
+    """Return the number of runs (rows) and median, ``<value> q1`` and ``<value> q3`` of each value by group."""
     groups = table.groupby(list(by), sort=False)
     columns: dict[str, Any] = {"runs": groups.size()}
     for value in values:
         columns[value] = groups[value].median()
         for name, q in (("q1", 0.25), ("q3", 0.75)):
-            higher = groups[value].quantile(q, interpolation="higher")  # between two infinite ones nothing else
+            higher = groups[value].quantile(q, interpolation="higher")  # inf - inf has no mean
             columns[f"{value} {name}"] = groups[value].quantile(q).where(np.isfinite(higher), higher)
     return pd.DataFrame(columns).reset_index()
 
@@ -34,24 +29,21 @@ def quartiles(table: pd.DataFrame, by: Sequence[str], values: Sequence[str]) -> 
 def a12(first: ArrayLike, second: ArrayLike) -> float:
     """Return the chance that a value of the first sample exceeds one of the second, ties counting half [-].
 
-    References
-    ----------
     A. Vargha and H. D. Delaney, "A critique and improvement of the CL common language effect size statistics of
     McGraw and Wong", Journal of Educational and Behavioral Statistics 25(2), 2000.
     """
     from scipy import stats
 
     first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
-    return float(stats.mannwhitneyu(first, second, method="asymptotic").statistic / (first.size * second.size))
+    u = stats.mannwhitneyu(first, second, method="asymptotic").statistic
+    return float(u / (first.size * second.size))
 
 
 def size_in_words(effect: float) -> str:
     """Return Vargha and Delaney's word for an A12: negligible, small (0.56), medium (0.64), large (0.71)."""
-    distance = abs(effect - 0.5)
-    for word, least in (("large", 0.21), ("medium", 0.14), ("small", 0.06)):
-        if distance >= least - 1e-12:  # 0.71 - 0.5 is a little less than 0.21 in binary
-            return word
-    return "negligible"
+    distance = abs(effect - 0.5) + 1e-12  # 0.71 - 0.5 is a little less than 0.21 in binary
+    words = {"large": 0.21, "medium": 0.14, "small": 0.06}
+    return next((word for word, least in words.items() if distance >= least), "negligible")
 
 
 def holm(p_values: ArrayLike) -> Real:
@@ -70,40 +62,34 @@ def holm(p_values: ArrayLike) -> Real:
 def ratio_of_medians(first: ArrayLike, second: ArrayLike, seed: int = 0) -> tuple[float, float, float]:
     """Return the ratio of the first sample's median to the second's and its 95 % bootstrap interval.
 
-    All are NaN if a value of the second is not positive or one of either is infinite, the interval if a sample has
-    one value.
+    NaN if a value of the second is not positive or one of either is infinite; no interval of a single value.
     """
     from scipy import stats
 
     first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
+    if not ((second > 0).all() and np.isfinite([*first, *second]).all()):
+        return np.nan, np.nan, np.nan
 
     def ratio(x: Real, y: Real, axis: int = -1) -> Real:
         return np.median(x, axis=axis) / np.median(y, axis=axis)
 
-    if not ((second > 0).all() and np.isfinite([*first, *second]).all()):
-        return np.nan, np.nan, np.nan
     value = float(ratio(first, second))
     if min(first.size, second.size) < 2:
         return value, np.nan, np.nan
-    interval = stats.bootstrap(
-        (first, second),
-        ratio,
-        n_resamples=RESAMPLES,
-        confidence_level=CONFIDENCE,
-        method="percentile",  # quantiles have no jackknife, which other methods use
-        rng=np.random.default_rng(seed),
-    ).confidence_interval
-    return value, float(interval.low), float(interval.high)
+    settings: dict[str, Any] = {"n_resamples": RESAMPLES, "confidence_level": CONFIDENCE}
+    settings["method"] = "percentile"  # quantiles have no jackknife, which other methods use
+    made = stats.bootstrap((first, second), ratio, **settings, rng=np.random.default_rng(seed))
+    return value, float(made.confidence_interval.low), float(made.confidence_interval.high)
 
 
 def pairwise(
     table: pd.DataFrame, by: Sequence[str], values: Sequence[str], algorithms: Sequence[str]
 ) -> pd.DataFrame:
-    """Compare every two algorithms in each of the values, by group of rows, one per run.
+    """Compare every two algorithms in each value by group of runs: a row per value, group and pair.
 
-    Returned is a row per value, group and pair: value, `by`, first, second, both medians, their ratio with its
-    bootstrap interval (ratio, ratio_low, ratio_high), p of the two-sided Mann-Whitney test, p_holm adjusted for
-    all tests of the table, a12 of the first over the second and its effect in words.
+    Columns: value, `by`, first, second, both medians, their ratio with its bootstrap interval (ratio, ratio_low,
+    ratio_high), p of the two-sided Mann-Whitney test, p_holm adjusted for all tests of the table, a12 of the first
+    over the second and its effect in words.
     """
     rows: list[dict[str, Any]] = []
     for value, (key, group) in product(values, list(table.groupby(list(by), sort=False))):
@@ -121,23 +107,17 @@ def _compared(first: "pd.Series[float]", second: "pd.Series[float]") -> dict[str
 
     ratio, low, high = ratio_of_medians(first, second)
     effect = a12(first, second)
-    alike = np.unique(np.concatenate([first, second])).size == 1  # a rank test of equal values has nothing to rank
-    return {
-        "median_first": first.median(),
-        "median_second": second.median(),
-        "ratio": ratio,
-        "ratio_low": low,
-        "ratio_high": high,
-        "p": 1.0 if alike else float(stats.mannwhitneyu(first, second).pvalue),
-        "a12": effect,
-        "effect": size_in_words(effect),
-    }
+    alike = np.unique(np.concatenate([first, second])).size == 1  # the test divides by the spread of ranks
+    p = 1.0 if alike else float(stats.mannwhitneyu(first, second).pvalue)
+    medians = {"median_first": first.median(), "median_second": second.median()}
+    ratios = {"ratio": ratio, "ratio_low": low, "ratio_high": high}
+    return {**medians, **ratios, "p": p, "a12": effect, "effect": size_in_words(effect)}
 
 
 def verdict(compared: pd.DataFrame, first: str, second: str, value: str) -> str:
     """Return a paragraph on two algorithms by lens and configuration, from rows of `pairwise` in one value.
 
-    Of the value more is better; an algorithm is ahead if p_holm is below 0.05 and the effect not negligible.
+    More is better; an algorithm is ahead if p_holm is below 0.05 and the effect not negligible.
     """
     pairs = compared[(compared["first"] == first) & (compared["second"] == second)]
     if pairs.empty:
@@ -149,21 +129,17 @@ def verdict(compared: pd.DataFrame, first: str, second: str, value: str) -> str:
 def _sentence(lens: str, pairs: pd.DataFrame, first: str, second: str) -> str:
     outcomes: dict[str, list[str]] = {}
     for pair in pairs.to_dict("records"):
-        where = f"N = {pair['population']} and {pair['iterations']} iterations ({_numbers(pair)})"
-        outcomes.setdefault(_outcome(pair, first, second), []).append(where)
-    return f"At {lens} " + "; ".join(f"{who} for {_listed(where)}" for who, where in outcomes.items()) + "."
-
-
-def _outcome(pair: Mapping[Hashable, Any], first: str, second: str) -> str:
-    if pair["p_holm"] >= SIGNIFICANCE or pair["effect"] == "negligible":
-        return "there is no difference that the runs can show"
-    return f"{first if pair['a12'] > 0.5 else second} is ahead"
-
-
-def _numbers(pair: Mapping[Hashable, Any]) -> str:
-    medians = f"medians {pair['median_first']:.4f} and {pair['median_second']:.4f}"
-    p = "p < 0.001" if pair["p_holm"] < 0.001 else f"p = {pair['p_holm']:.3f}"
-    return f"{medians}, {p}, A12 = {pair['a12']:.2f}, {pair['effect']}"
+        p = "p < 0.001" if pair["p_holm"] < 0.001 else f"p = {pair['p_holm']:.3f}"
+        medians = f"medians {pair['median_first']:.4f} and {pair['median_second']:.4f}"
+        numbers = f"{medians}, {p}, A12 = {pair['a12']:.2f}, {pair['effect']}"
+        outcome = f"{first if pair['a12'] > 0.5 else second} is ahead"
+        if pair["p_holm"] >= SIGNIFICANCE or pair["effect"] == "negligible":
+            outcome = "there is no difference that the runs can show"
+        where = f"N = {pair['population']} and {pair['iterations']} iterations ({numbers})"
+        outcomes.setdefault(outcome, []).append(where)
+    return (
+        f"At {lens} " + "; ".join(f"{outcome} for {_listed(where)}" for outcome, where in outcomes.items()) + "."
+    )
 
 
 def _listed(parts: Sequence[str]) -> str:

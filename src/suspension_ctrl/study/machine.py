@@ -1,4 +1,4 @@
-"""The machine of a result: its threads held at one, and a record of processor, versions and threads."""
+"""Conditions of a timing: one thread, and a record of processor, versions and threads."""
 
 import os
 import platform
@@ -13,11 +13,10 @@ from typing import Any
 from ..checks import installed
 
 PACKAGES = ("suspension-ctrl", "control", "deap", "moocore", "numba", "numpy", "pandas", "scipy")
-"""Distributions that a result depends on."""
 
 
 def provenance() -> dict[str, str]:
-    """Return the versions that a result depends on, beside its settings."""
+    """Return the versions of the packages that determine a result."""
     return {name: version(name) for name in PACKAGES}
 
 
@@ -39,13 +38,14 @@ def single_thread() -> Iterator[None]:
 
 
 def describe(arguments: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the record that timings are judged by: date, processor, versions, threads in force and arguments."""
+    """Return the record of a timing: date, processor, versions, threads in force and arguments."""
     import numba
 
     with installed("study"):
         from threadpoolctl import threadpool_info
 
     keys = ("user_api", "internal_api", "version", "num_threads")
+    pools = [{key: pool.get(key) for key in keys} for pool in threadpool_info()]
     return {
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
         "processor": processor_name(),
@@ -53,20 +53,14 @@ def describe(arguments: Mapping[str, Any]) -> dict[str, Any]:
         "platform": platform.platform(),
         "python": sys.version.split()[0],
         "versions": provenance(),
-        "threads": {
-            "numba": numba.get_num_threads(),
-            "pools": [{key: pool.get(key) for key in keys} for pool in threadpool_info()],
-        },
+        "threads": {"numba": numba.get_num_threads(), "pools": pools},
         "arguments": dict(arguments),
     }
 
 
 def processor_name() -> str:
-    """Return the processor's name as the system tells it."""
+    """Return the name of the processor, from /proc where there is one."""
     cpuinfo = Path("/proc/cpuinfo")
-    if cpuinfo.exists():
-        lines = cpuinfo.read_text(encoding="utf-8", errors="replace").splitlines()
-        names = [line for line in lines if line.startswith("model name")]
-        if names:
-            return names[0].split(":", 1)[1].strip()
-    return platform.processor() or platform.machine()
+    text = cpuinfo.read_text(encoding="utf-8", errors="replace") if cpuinfo.exists() else ""
+    names = [line.split(":", 1)[1].strip() for line in text.splitlines() if line.startswith("model name")]
+    return names[0] if names else platform.processor() or platform.machine()

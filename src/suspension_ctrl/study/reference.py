@@ -1,4 +1,4 @@
-"""The reference front of a problem: a grid refined until its hypervolume converges, kept beside the results."""
+"""The reference front of a problem: a grid refined until its hypervolume converges, kept in a file."""
 
 import hashlib
 import json
@@ -30,7 +30,7 @@ class Refined(NamedTuple):
     front: ReferenceFront
     points: int  # per variable
     change: float  # of the hypervolume from half as many points, relative
-    second: float  # the same from a second grid, of sqrt(2) fewer points: it shares the corners alone
+    second: float  # from a second grid, of sqrt(2) fewer points: only corners are common to both
 
     def describe(self, variables: int) -> str:
         """Return the grid and its convergence in words."""
@@ -42,16 +42,16 @@ class Refined(NamedTuple):
 
 
 def refined(problem: Minimisable, tolerance: float = TOLERANCE, most: int = MOST) -> Refined:
-    """Return the front of a grid that neither half as many points nor a second grid changes.
+    """Return the converged front of a grid of at most `most` designs, for problems of few variables.
 
-    ValueError if that takes more than `most` designs: it is for problems of few variables.
+    Half as many points and a second grid change its hypervolume by up to `tolerance`.
     """
     checks.positive("tolerance", tolerance)
     variables = len(problem.lower)
     points, before = FIRST, None
     while points**variables <= most:
         objectives = grid_front(problem, points)
-        if len(objectives) and np.ptp(objectives, axis=0).all():  # otherwise there is nothing to scale by
+        if len(objectives) and np.ptp(objectives, axis=0).all():  # indicators divide by the ranges
             front = ReferenceFront.of(objectives)
             change = np.inf if before is None else 1 - front.relative_hypervolume(before)
             if abs(change) <= tolerance:
@@ -71,43 +71,43 @@ def grid_front(problem: Minimisable, points: int) -> Real:
     """Return the non-dominated objectives (n, m) of feasible designs on a grid of `points` values per variable."""
     checks.at_least("points", points, 2)
     axes = [np.linspace(a, b, points) for a, b in zip(problem.lower, problem.upper, strict=True)]
-    m = len(problem.objectives)
+    m, total = len(problem.objectives), points ** len(axes)
     front = np.empty((0, m))
-    total = points ** len(axes)
     for start in range(0, total, _CHUNK):
         places = np.unravel_index(np.arange(start, min(start + _CHUNK, total)), [points] * len(axes))
         designs = np.stack([axis[place] for axis, place in zip(axes, places, strict=True)], axis=-1)
-        merged = np.concatenate([front, best_of(feasible_objectives(problem.evaluate(designs), m))])
-        front = best_of(merged)
+        front = best_of(np.concatenate([front, best_of(feasible_objectives(problem.evaluate(designs), m))]))
     return front
 
 
 def best_known(found: Sequence[Real]) -> ReferenceFront:
     """Return the front of the best of several sets of feasible objectives (n, m)."""
-    merged = np.concatenate(found)
-    if len(merged) == 0:
+    best = best_of(np.concatenate(found))
+    if len(best) == 0:
         raise ValueError("constraints must leave a feasible design, got none in any run")
-    best = best_of(merged)
     if not np.ptp(best, axis=0).all():
-        raise ValueError(
-            f"the best designs of all runs must differ in every objective, got {len(best)} that do not"
-        )
+        message = "the best designs of all runs must differ in every objective, got {} that do not"
+        raise ValueError(message.format(len(best)))
     return ReferenceFront.of(best)
 
 
 def digest(front: ReferenceFront) -> str:
     """Return a digest of a front."""
-    return hashlib.sha256(front.objectives.tobytes() + np.float64(front.volume).tobytes()).hexdigest()[:32]
+    return _digest(front.objectives.tobytes() + np.float64(front.volume).tobytes())
+
+
+def _digest(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()[:32]
 
 
 def kept(path: Path, problem: Minimisable, tolerance: float = TOLERANCE) -> Refined:
-    """Return `refined` from a file, which is written first if it is absent, spoilt or of another `key`."""
+    """Return `refined` from a file, written anew if it is absent, spoilt or of another `key`."""
     wanted = key(problem, tolerance)
     with suppress(OSError, ValueError, KeyError, EOFError, BadZipFile):
         return _read(path, wanted)
     found = refined(problem, tolerance)
-    content = {"key": wanted, **vars(found.front), **found._asdict()}
-    del content["front"]
+    numbers = dict(zip(found._fields[1:], found[1:], strict=True))
+    content = {"key": wanted, **vars(found.front), **numbers}
     tables.write_whole(path, lambda temporary: np.savez(temporary, **content))
     return found
 
@@ -122,9 +122,9 @@ def _read(path: Path, wanted: str) -> Refined:
 
 
 def key(problem: Minimisable, tolerance: float) -> str:
-    """Return a digest of all that the front depends on: versions, bounds, tolerance, values of some designs.
+    """Return a digest of all that the front depends on: versions, bounds, tolerance, values of 64 designs.
 
-    These stand for the whole function: any parameter or line of code that changes them makes another key.
+    The values identify the function: a parameter or a line of code that changes them changes the key.
     """
     rng = np.random.default_rng(0)
     lower, upper = (np.asarray(bound, dtype=float) for bound in (problem.lower, problem.upper))
@@ -136,4 +136,4 @@ def key(problem: Minimisable, tolerance: float) -> str:
         "grid": [tolerance, FIRST, MOST],
         "front": [ReferenceFront.SAMPLE, ReferenceFront.HYPERVOLUME_REFERENCE],
     }
-    return hashlib.sha256(json.dumps(settings, sort_keys=True).encode() + probes.tobytes()).hexdigest()[:32]
+    return _digest(json.dumps(settings, sort_keys=True).encode() + probes.tobytes())

@@ -1,4 +1,4 @@
-"""Finished runs on disk: each file whole or not at all, so that what was stopped goes on where it was."""
+"""Finished runs on disk, each file whole or absent: a stopped comparison resumes."""
 
 import json
 from collections.abc import Iterator, Mapping, MutableMapping
@@ -21,6 +21,11 @@ class StoredRun(NamedTuple):
     course: "pd.DataFrame"  # a row per iteration, or per budget and set judged
     final: "pd.DataFrame"  # a row per design of its final population; `VIOLATION` where there are constraints
 
+    @property
+    def feasible(self) -> "pd.DataFrame":
+        """Rows of the final population that meet all constraints."""
+        return self.final[self.final[VIOLATION] == 0] if VIOLATION in self.final else self.final
+
 
 class FolderStore(MutableMapping[str, StoredRun]):
     """Finished runs by name, as two CSV files each in a folder that belongs to one plan.
@@ -28,7 +33,7 @@ class FolderStore(MutableMapping[str, StoredRun]):
     Parameters
     ----------
     folder : Path
-        Made if absent. A run is in the store once its file in ``runs`` is; that is written last.
+        Made if absent. A run is stored once its file in ``runs`` exists, the last one written.
     plan : mapping
         Settings and versions that the results depend on, for ``plan.json``.
 
@@ -44,13 +49,11 @@ class FolderStore(MutableMapping[str, StoredRun]):
         path = folder / "plan.json"
         if not path.exists():
             tables.write_json(path, plan)
-        there, wanted = json.loads(path.read_text(encoding="utf-8")), json.loads(json.dumps(dict(plan)))
-        for name in wanted | there:
-            if there.get(name) != wanted.get(name):
-                raise ValueError(
-                    f"{name} must be {there.get(name)!r} as in {str(path)!r} to go on there, "
-                    f"got {wanted.get(name)!r}"
-                )
+        kept, wanted = json.loads(path.read_text(encoding="utf-8")), json.loads(json.dumps(dict(plan)))
+        for name in wanted | kept:
+            there, here = kept.get(name), wanted.get(name)
+            if there != here:
+                raise ValueError(f"{name} must be {there!r} as in {str(path)!r} to go on there, got {here!r}")
         for part in (self._course, self._final):
             part.mkdir(exist_ok=True)
             for unfinished in part.glob(".*"):  # left by a process that was killed as it wrote

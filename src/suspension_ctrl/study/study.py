@@ -1,21 +1,21 @@
-"""Quality of algorithms on problems over seeds and budgets: one tidy table, of runs made in any order anywhere."""
+"""Quality of algorithms on problems over seeds and budgets, as one tidy table."""
 
 from collections.abc import Iterator, Mapping, MutableMapping, Sequence
 from dataclasses import dataclass, field
-from itertools import product
+from itertools import chain, product
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
 import pandas as pd
 
 from .. import checks
-from ..quantities import FrozenMapping, Real, Record
+from ..quantities import FrozenMapping, Record
 from ..search.driver import Optimiser
 from ..search.indicators import ReferenceFront, best_of, evenly_spread
 from ..search.problem import Minimisable
 from ..search.trace import Trace, trace
 from ..tables import file_name
+from .reference import best_known
 from .store import VIOLATION, StoredRun
 from .workers import outcome, outcomes
 
@@ -24,16 +24,13 @@ if TYPE_CHECKING:
 
 
 POPULATION, ARCHIVE, CUT_ARCHIVE = "population", "archive", "archive of N"
-"""Sets that are judged: the population, all non-dominated designs evaluated, and N of those, spread evenly.
-
-Of each the feasible designs; a set may be empty.
-"""
+"""Sets judged, of feasible designs: the population, all non-dominated evaluated, and N of those, spread evenly."""
 
 INDICATORS = ("relative_hypervolume", "igd_plus", "epsilon", "spread")
 
 
 def span(numbers: Sequence[int]) -> str:
-    """Return numbers in short, as in ``31 from 0 to 30``."""
+    """Return a summary such as ``31 from 0 to 30``."""
     return f"{len(numbers)} from {min(numbers)} to {max(numbers)}"
 
 
@@ -62,14 +59,13 @@ class Study(Record):
     budgets : sequence of int
         Evaluations at which a run is judged, by its state after the last iteration within the budget.
     references : mapping of str to ReferenceFront, optional
-        By name of a problem. Without one, the non-dominated feasible designs of the first seed's runs of all
-        algorithms are the reference, for which these runs are made once more, here.
+        By name of a problem; if absent, of the first seed's runs of all algorithms, made once more for it.
 
     Raises
     ------
     ValueError
-        If a part of it is empty, seeds or file names of runs repeat, a budget does not cover the start, or a name
-        of a reference is not one of a problem.
+        If a part is empty, seeds or file names repeat, a budget is below a population, or a reference has no
+        problem.
     """
 
     problems: Mapping[str, Minimisable] = field(metadata={"show": list})
@@ -81,9 +77,8 @@ class Study(Record):
     )
 
     def __post_init__(self) -> None:
-        self._keep(
-            **{name: FrozenMapping(getattr(self, name)) for name in ("problems", "algorithms", "references")}
-        )
+        for name in ("problems", "algorithms", "references"):
+            self._keep(**{name: FrozenMapping(getattr(self, name))})
         self._keep(seeds=tuple(self.seeds), budgets=tuple(self.budgets))
         for name in ("problems", "algorithms", "seeds", "budgets"):
             if len(getattr(self, name)) == 0:
@@ -102,18 +97,13 @@ class Study(Record):
 
     def runs(self) -> list[PlannedRun]:
         """Return the runs, algorithms taking turns within a seed."""
-        return [
-            PlannedRun(
-                file_name(f"{problem}_{algorithm}_n{optimiser.population}_s{seed}"),
-                optimiser,
-                seed,
-                max(self.budgets),
-                {"problem": problem, "algorithm": algorithm, "population": optimiser.population, "seed": seed},
-            )
-            for problem, seed, (algorithm, optimiser) in product(
-                self.problems, self.seeds, self.algorithms.items()
-            )
-        ]
+        found, most = [], max(self.budgets)
+        for problem, seed, (name, optimiser) in product(self.problems, self.seeds, self.algorithms.items()):
+            size = optimiser.population
+            key = {"problem": problem, "algorithm": name, "population": size, "seed": seed}
+            file = file_name(f"{problem}_{name}_n{size}_s{seed}")
+            found.append(PlannedRun(file, optimiser, seed, most, key))
+        return found
 
     def run(self, client: "Client | None" = None) -> pd.DataFrame:
         """Make all runs, here or on the workers of a Dask client, and return `table`."""
@@ -124,19 +114,20 @@ class Study(Record):
     def carry_out(
         self, store: MutableMapping[str, StoredRun], client: "Client | None" = None
     ) -> Iterator[tuple[PlannedRun, str]]:
-        """Make the runs that `store` does not hold, store each when done, and yield it with its error or ``""``.
+        """Make the runs absent from `store`, store each when done, and yield it with its error or ``""``.
 
-        With a client the runs come in the order in which they end; their results do not depend on it.
+        On a client the runs come in the order in which they end, with the same results.
         """
         missing = {run.name: run for run in self.runs() if run.name not in store}
+        problems = dict.fromkeys(run.key["problem"] for run in missing.values())
+        references = {name: outcome(self.reference, (name,)) for name in problems}
         work: dict[str, tuple[Any, ...]] = {}
-        for problem in {run.key["problem"] for run in missing.values()}:
-            runs = [run for run in missing.values() if run.key["problem"] == problem]
-            reference, error = outcome(self.reference, (problem,))
+        for run in missing.values():
+            problem = run.key["problem"]
+            reference, error = references[problem]
             if reference is None:
-                yield from ((run, error) for run in runs)
-                continue
-            for run in runs:
+                yield run, error
+            else:
                 work[run.name] = (self.problems[problem], run.optimiser, self.budgets, run.seed, reference)
         for name, finished, error in outcomes(judged_run, work, client):
             if finished is not None:
@@ -144,27 +135,19 @@ class Study(Record):
             yield missing[name], error
 
     def reference(self, problem: str) -> ReferenceFront:
-        """Return the front that measures the runs on a problem, made of the first seed's runs if none is given."""
+        """Return the reference front of a problem, of the first seed's runs if none is given."""
         if problem in self.references:
             return self.references[problem]
-        seen = [
-            trace(self.problems[problem], optimiser, [max(self.budgets)], self.seeds[0])
-            for optimiser in self.algorithms.values()
-        ]
-        best = best_of(np.concatenate([one.objectives[one.feasible] for one in seen]))
-        if len(best) == 0:
-            raise ValueError(
-                f"references must hold {problem!r}, of which the runs from seed {self.seeds[0]} found no feasible "
-                f"design, got {list(self.references)}"
-            )
-        return ReferenceFront.of(best)
+        most, seed = max(self.budgets), self.seeds[0]
+        seen = [trace(self.problems[problem], each, [most], seed) for each in self.algorithms.values()]
+        return best_known([one.objectives[one.feasible] for one in seen])
 
     def table(self, store: Mapping[str, StoredRun], errors: Mapping[str, str] | None = None) -> pd.DataFrame:
         """Return one row per run, budget and set; a run that raised has one row, with its error.
 
         Columns: problem, algorithm, population, seed, budget, evaluations, set (`POPULATION`, `ARCHIVE` or
         `CUT_ARCHIVE`), members of the set, relative_hypervolume, igd_plus, epsilon, spread, seconds (of the whole
-        run, untimed: it shared the machine), error.
+        run on a shared machine), error.
         """
         parts = []
         for run in self.runs():
@@ -176,48 +159,39 @@ class Study(Record):
         return pd.concat(parts, ignore_index=True).reindex(columns=[*columns, *INDICATORS, "seconds", "error"])
 
     def finals(self, store: Mapping[str, StoredRun]) -> pd.DataFrame:
-        """Return the feasible designs of the final populations of stored runs, stacked.
+        """Return the feasible designs of the final populations of stored runs.
 
-        Columns: problem, algorithm, population, seed, and an objective each.
+        Columns: problem, algorithm, population, seed, and one for each objective.
         """
-        parts = [store[run.name].final.assign(**run.key) for run in self.runs() if run.name in store]
-        finals = pd.concat(parts, ignore_index=True)
-        return finals[finals[VIOLATION] == 0].drop(columns=VIOLATION) if VIOLATION in finals else finals
+        parts = [store[run.name].feasible.assign(**run.key) for run in self.runs() if run.name in store]
+        return pd.concat(parts, ignore_index=True).drop(columns=VIOLATION, errors="ignore")
 
 
 def judged_run(
     problem: Minimisable, optimiser: Optimiser, budgets: Sequence[int], seed: int, reference: ReferenceFront
 ) -> StoredRun:
-    """Make one run and judge it at each budget; this is what is sent to a worker."""
+    """Make one run and judge it at each budget, here or on a worker."""
     start = perf_counter()
     seen = trace(problem, optimiser, budgets, seed)
     seconds = perf_counter() - start
-    rows = [
-        row for budget in sorted(set(budgets)) for row in _judged(seen, budget, optimiser.population, reference)
-    ]
+    judged = (_judged(seen, budget, optimiser.population, reference) for budget in sorted(set(budgets)))
     last = seen.states[max(budgets)]
     kept = evenly_spread(last.objectives, optimiser.population)
     final = pd.DataFrame(last.objectives[kept], columns=list(problem.objectives))
     if problem.constraints:
         final[VIOLATION] = last.violation[kept]
-    return StoredRun(pd.DataFrame(rows).assign(seconds=seconds), final)
+    return StoredRun(pd.DataFrame(chain.from_iterable(judged)).assign(seconds=seconds), final)
 
 
 def _judged(seen: Trace, budget: int, population: int, reference: ReferenceFront) -> Iterator[dict[str, Any]]:
+    """Yield a row per set of the state at a budget."""
     state = seen.states[budget]
-    archive = best_of(seen.objectives[: state.evaluations][seen.feasible[: state.evaluations]])
+    spent = state.evaluations
+    archive = best_of(seen.objectives[:spent][seen.feasible[:spent]])
     best = best_of(state.objectives[state.feasible])
-    sets = {POPULATION: cut(best, population), ARCHIVE: archive, CUT_ARCHIVE: cut(archive, population)}
-    for name, objectives in sets.items():
-        yield {
-            "budget": budget,
-            "evaluations": state.evaluations,
-            "set": name,
-            "members": len(objectives),
-            **{indicator: getattr(reference, indicator)(objectives) for indicator in INDICATORS},
-        }
-
-
-def cut(objectives: Real, population: int) -> Real:
-    """Return as many of the objectives (n, m) as a population holds, spread evenly."""
-    return objectives[evenly_spread(objectives, population)]
+    for name, found, size in (
+        (POPULATION, best, population), (ARCHIVE, archive, len(archive)), (CUT_ARCHIVE, archive, population)
+    ):  # fmt: skip
+        objectives = found[evenly_spread(found, size)]
+        indicators = {indicator: getattr(reference, indicator)(objectives) for indicator in INDICATORS}
+        yield {"budget": budget, "evaluations": spent, "set": name, "members": len(objectives), **indicators}

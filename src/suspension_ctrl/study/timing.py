@@ -3,65 +3,55 @@
 import warnings
 from collections.abc import Iterator, Mapping, MutableMapping
 from dataclasses import replace
-from typing import Any
 
 import pandas as pd
 
 from ..quantities import Real, column_headers
 from ..search.constraints import InfeasibleWarning
-from ..search.driver import Run, minimise
+from ..search.driver import minimise
 from ..search.indicators import ReferenceFront, evenly_spread, non_dominated
 from ..search.moead_dra import MoeadDra
-from ..search.problem import Described, Minimisable
+from ..search.problem import Described
 from .comparison import EQUAL_ITERATIONS, Comparison, optimiser
-from .store import VIOLATION, StoredRun
+from .store import StoredRun
 from .study import PlannedRun
 
 
 def warm_up(comparison: Comparison) -> None:
-    """Make a short run of each algorithm at each population, so that no timed one compiles or tabulates."""
+    """Make a short run of each algorithm at each population: timed runs then compile and tabulate nothing."""
     for algorithm, population in comparison.cost():
-        # DEAP's quadratic sort has nothing to compile and would take its time.
+        # DEAP's sort has nothing to compile and takes quadratic time.
         size = min(population, 50) if algorithm == "nsga2-standard-sort" else population
         short = optimiser(algorithm, size)
         if isinstance(short, MoeadDra):
             short = replace(short, utility_period=1)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", InfeasibleWarning)  # after one iteration it says nothing
+            warnings.simplefilter("ignore", InfeasibleWarning)  # one iteration need not find a feasible design
             minimise(comparison.problem, short, iterations=1, seed=0)
 
 
 def carry_out(comparison: Comparison, store: MutableMapping[str, StoredRun]) -> Iterator[PlannedRun]:
-    """Make the timed runs that `store` does not hold one after the other, handing out each when it is stored."""
+    """Make the timed runs absent from `store` one after the other, and yield each once it is stored.
+
+    Of a larger final population as many designs are stored as the start has, spread evenly.
+    """
     for planned in comparison.timed_runs():
         if planned.name not in store:
-            run = minimise(
-                comparison.problem, planned.optimiser, evaluations=planned.evaluations, seed=planned.seed
-            )
-            final = population(run, planned.optimiser.population)
-            store[planned.name] = StoredRun(run.history, final)
+            problem, evaluations = comparison.problem, planned.evaluations
+            run = minimise(problem, planned.optimiser, evaluations=evaluations, seed=planned.seed)
+            kept = evenly_spread(run.objectives, planned.optimiser.population)
+            store[planned.name] = StoredRun(run.history, run.to_frame().iloc[kept].reset_index(drop=True))
         yield planned
 
 
-def population(run: Run, size: int) -> pd.DataFrame:
-    """Return `size` final designs of a run, spread evenly if it has more, with objectives and any violation."""
-    return run.to_frame().iloc[evenly_spread(run.objectives, size)].reset_index(drop=True)
-
-
-def front(problem: Described, final: pd.DataFrame) -> pd.DataFrame:
+def front(problem: Described, run: StoredRun) -> pd.DataFrame:
     """Return the non-dominated rows among the feasible ones of a final population."""
-    feasible = feasible_rows(problem, final)
-    return feasible[non_dominated(objectives_of(problem, feasible))]
+    return run.feasible[non_dominated(feasible_objectives(problem, run))]
 
 
-def feasible_rows(problem: Minimisable, final: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows of a final population that meet all constraints."""
-    return final[final[VIOLATION] == 0] if problem.constraints else final
-
-
-def objectives_of(problem: Described, final: pd.DataFrame) -> Real:
-    """Return the objectives (n, m) in a table of a final population."""
-    return final[column_headers(problem.objectives, problem.units)].to_numpy()
+def feasible_objectives(problem: Described, run: StoredRun) -> Real:
+    """Return the objectives (n, m) of the feasible designs in a final population."""
+    return run.feasible[column_headers(problem.objectives, problem.units)].to_numpy()
 
 
 def tidy(comparison: Comparison, store: Mapping[str, StoredRun], reference: ReferenceFront) -> pd.DataFrame:
@@ -69,54 +59,38 @@ def tidy(comparison: Comparison, store: Mapping[str, StoredRun], reference: Refe
 
     The seconds are those of `Run.history`, the indicators those of the feasible designs of its final population.
     """
-    return pd.DataFrame(
-        [
-            planned.key | _measured(comparison.problem, store[planned.name], reference)
-            for planned in comparison.timed_runs()
-        ]
-    )
-
-
-def _measured(problem: Described, run: StoredRun, reference: ReferenceFront) -> dict[str, Any]:
-    last = run.course.iloc[-1]
-    objectives = objectives_of(problem, feasible_rows(problem, run.final))
-    return {
-        "evaluations": int(last.evaluations),
-        **{name: last[name] for name in run.course.columns if name.endswith("seconds")},
-        "hypervolume": reference.hypervolume(objectives),
-        "igd_plus": reference.igd_plus(objectives),
-    }
+    rows = []
+    for planned in comparison.timed_runs():
+        run = store[planned.name]
+        last, objectives = run.course.iloc[-1], feasible_objectives(comparison.problem, run)
+        quality = {name: getattr(reference, name)(objectives) for name in ("hypervolume", "igd_plus")}
+        seconds = {name: last[name] for name in run.course.columns if name.endswith("seconds")}
+        rows.append({**planned.key, "evaluations": int(last.evaluations), **seconds, **quality})
+    return pd.DataFrame(rows)
 
 
 def final_populations(comparison: Comparison, store: Mapping[str, StoredRun]) -> pd.DataFrame:
-    """Return the final populations of the first repeat at equal iterations, stacked, as Figure 5 shows them.
+    """Return the final populations of the first repeat at equal iterations, as Figure 5 shows them.
 
     Columns: algorithm, population, iterations, then variables and objectives with their units.
     """
-    shown = ("algorithm", "population", "iterations")
-    return pd.concat(
-        [
-            store[run.name].final.assign(**{name: run.key[name] for name in shown})
-            for run in comparison.timed_runs()
-            if run.key["repeat"] == 1 and run.key["budget"] == EQUAL_ITERATIONS
-        ],
-        ignore_index=True,
-    )
+    first = {"repeat": 1, "budget": EQUAL_ITERATIONS}
+    runs = [run for run in comparison.timed_runs() if first.items() <= run.key.items()]
+    by = ("algorithm", "population", "iterations")
+    parts = [store[run.name].final.assign(**{name: run.key[name] for name in by}) for run in runs]
+    return pd.concat(parts, ignore_index=True)
 
 
 def seconds_by_evaluations(comparison: Comparison, store: Mapping[str, StoredRun]) -> pd.DataFrame:
-    """Return the median time that each algorithm took to each number of evaluations, from its longest runs.
+    """Return each algorithm's median time to each number of evaluations, from its longest runs.
 
     Columns: algorithm, population, evaluations, seconds.
     """
     by = ["algorithm", "population"]
-    histories = pd.concat(
-        [
-            store[run.name]
-            .course[["evaluations", "seconds"]]
-            .assign(most=run.evaluations, **{name: run.key[name] for name in by})
-            for run in comparison.timed_runs()
-        ]
-    )
+    parts = []
+    for run in comparison.timed_runs():
+        course = store[run.name].course[["evaluations", "seconds"]]
+        parts.append(course.assign(most=run.evaluations, **{name: run.key[name] for name in by}))
+    histories = pd.concat(parts)
     longest = histories[histories.most == histories.groupby(by).most.transform("max")]
     return longest.groupby([*by, "evaluations"], sort=False).seconds.median().reset_index()

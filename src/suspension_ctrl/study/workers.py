@@ -19,42 +19,40 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 
-@contextmanager
-def local_cluster(jobs: int) -> Iterator["Client"]:
+def local_cluster(jobs: int) -> AbstractContextManager["Client"]:
     """Start `jobs` processes of one thread each on this machine, reachable from it alone."""
     checks.at_least("jobs", jobs, 1)
+    return _local_cluster(jobs)
+
+
+@contextmanager
+def _local_cluster(jobs: int) -> Iterator["Client"]:
     with installed("study"):
         from distributed import Client, LocalCluster  # over a second: only where it is used
 
+    settings: dict[str, Any] = {"n_workers": jobs, "threads_per_worker": 1, "memory_limit": 0}
+    # The server of dask's metrics starts in any case; without an address it listens to the network.
+    local = {"host": "127.0.0.1"} | dict.fromkeys(("dashboard_address", "worker_dashboard_address"), "127.0.0.1:0")
     with (
-        LocalCluster(
-            n_workers=jobs,
-            threads_per_worker=1,
-            host="127.0.0.1",
-            dashboard_address="127.0.0.1:0",  # its server for metrics is started in any case
-            worker_dashboard_address="127.0.0.1:0",
-            memory_limit=0,
-            silence_logs="CRITICAL",
-        ) as cluster,
-        Client(cluster, set_as_default=False) as client,
+        LocalCluster(**settings, **local, silence_logs="CRITICAL") as made,
+        Client(made, set_as_default=False) as client,
     ):
         yield client
 
 
-def check_address(address: str) -> None:
-    """Raise ValueError unless the address begins with ``tcp://`` or ``tls://``."""
+def scheduler_at(address: str, timeout: float = 10.0) -> AbstractContextManager["Client"]:
+    """Connect to a running scheduler that has a worker, within `timeout` [s].
+
+    Its address is ``tcp://host:8786``, or ``tls://host:8786`` with the certificates of Dask's configuration
+    (``distributed.comm.tls``).
+    """
     if not address.startswith(("tcp://", "tls://")):
         raise ValueError(f"scheduler must be tcp://host:port or tls://host:port, got {address!r}")
+    return _connected(address, timeout)
 
 
 @contextmanager
-def scheduler_at(address: str, timeout: float = 10.0) -> Iterator["Client"]:
-    """Connect to a running scheduler that has a worker, within `timeout` [s].
-
-    Its address is ``tcp://host:8786``, or ``tls://host:8786`` with the certificates that Dask's configuration
-    names (``distributed.comm.tls``).
-    """
-    check_address(address)
+def _connected(address: str, timeout: float) -> Iterator["Client"]:
     with installed("study"):
         from distributed import Client
 
@@ -71,25 +69,20 @@ def scheduler_at(address: str, timeout: float = 10.0) -> Iterator["Client"]:
 
 
 def cluster(jobs: int | None = None, scheduler: str | None = None) -> AbstractContextManager["Client | None"]:
-    """Return a context with a client of so many processes or of a scheduler, or with None for work done here."""
+    """Return a context with a client of `jobs` processes or of a scheduler, or with None for work done here."""
     if jobs is not None and scheduler is not None:
         raise ValueError(f"jobs must stand without scheduler, got {jobs} and {scheduler!r}")
     if jobs is not None:
-        checks.at_least("jobs", jobs, 1)
         return local_cluster(jobs)
-    if scheduler is None:
-        return nullcontext()
-    check_address(scheduler)
-    return scheduler_at(scheduler)
+    return nullcontext() if scheduler is None else scheduler_at(scheduler)
 
 
 def outcomes(
     function: Callable[..., T], arguments: Mapping[str, tuple[Any, ...]], client: "Client | None" = None
 ) -> Iterator[tuple[str, T | None, str]]:
-    """Call the function with each of the arguments and yield name, result and error of each as it ends.
+    """Call the function with each of the arguments and yield name, result and error (``""``) of each as it ends.
 
-    A call that raises has no result and its error in one line; otherwise the error is empty. On a cluster a call
-    is repeated when its worker dies, up to four times. A scheduler that is lost raises ConnectionError.
+    A cluster repeats the call of a worker that dies, up to four times; ConnectionError if the scheduler is lost.
     """
     if client is None:
         for name, values in arguments.items():
@@ -114,7 +107,7 @@ def outcomes(
 
 
 def outcome(function: Callable[..., T], arguments: tuple[Any, ...]) -> tuple[T | None, str]:
-    """Call the function and return its result, or None and what it raised in one line."""
+    """Call the function and return its result, or None and its error in one line."""
     try:
         return function(*arguments), ""
     except Exception as error:  # whatever an evaluation raises, the other runs go on
@@ -126,9 +119,9 @@ def _line(error: BaseException) -> str:
 
 
 def distributed(problem: Described, client: "Client", chunk: int = 16) -> Problem:
-    """Return a slow problem with its evaluation spread over a cluster, `chunk` designs at a time to a worker.
+    """Return a slow problem evaluated on a cluster, `chunk` designs at a time, without its kernel.
 
-    It has no kernel: MOEA/D-DRA should then make its children in batches (``update="batch"``).
+    MOEA/D-DRA should then make its children in batches (``update="batch"``).
     """
     checks.at_least("chunk", chunk, 1)
 
@@ -136,12 +129,5 @@ def distributed(problem: Described, client: "Client", chunk: int = 16) -> Proble
         parts = [designs[start : start + chunk] for start in range(0, len(designs), chunk)]
         return np.concatenate(client.gather(client.map(problem.evaluate, parts, pure=False)))
 
-    return Problem(
-        evaluate=evaluate,
-        lower=problem.lower,
-        upper=problem.upper,
-        objectives=problem.objectives,
-        constraints=problem.constraints,
-        variables=problem.variables,
-        units=problem.units,
-    )
+    names = ("lower", "upper", "objectives", "constraints", "variables", "units")
+    return Problem(evaluate=evaluate, **{name: getattr(problem, name) for name in names})
