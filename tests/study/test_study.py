@@ -245,3 +245,19 @@ def test_a_run_without_a_feasible_design_has_no_hypervolume(tmp_path):
 def test_without_a_feasible_design_there_is_no_reference():
     found = Study(problems={"p": NOWHERE}, algorithms={"a": Nsga2(population=20)}, seeds=[1], budgets=[40]).run()
     assert found.error.tolist() == ["ValueError: constraints must leave a feasible design, got none in any run"]
+
+
+def test_final_designs_of_problems_with_and_without_constraints_stand_in_one_table():
+    """All of ZDT1's and those of SRN without violation."""
+    fronts = {"zdt1": ZDT1_FRONT, "srn": ReferenceFront.of(srn().evaluate(srn_set(50))[:, :2])}
+    one = Study(
+        problems={"zdt1": zdt1(4), "srn": srn()}, algorithms={"sobol": Sampling(population=20)}, seeds=[1],
+        budgets=[20], references=fronts,
+    )  # fmt: skip
+    store = {}
+    assert all(error == "" for _, error in one.carry_out(store))
+    finals = one.finals(store)
+    feasible = int(store["srn_sobol_n20_s1"].final.violation.eq(0).sum())
+    sizes = {"zdt1": len(store["zdt1_sobol_n20_s1"].final), "srn": feasible}
+    assert finals.groupby("problem", sort=False).size().to_dict() == sizes
+    assert "violation" not in finals

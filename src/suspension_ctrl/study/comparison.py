@@ -88,7 +88,7 @@ class Comparison(Record):
         ]
 
     def _budgets_of(self, population: int, count: int) -> Iterator[tuple[str, str, int]]:
-        """Yield algorithm, what is equal, and evaluations of the runs of so many iterations."""
+        """Yield algorithm, equal effort and evaluations of the runs at `count` iterations."""
         cost = {name: each for (name, n), each in self.cost().items() if n == population}
         most = population + count * max(cost.values())
         for name, each in cost.items():

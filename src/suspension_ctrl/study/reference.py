@@ -117,8 +117,8 @@ def _read(path: Path, wanted: str) -> Refined:
         if there["key"] != wanted:
             raise ValueError("key must be that of the problem, got another")
         arrays = {name: there[name] for name in ("objectives", "ideal", "nadir")}
-        front = ReferenceFront(**arrays, volume=float(there["volume"]))
-        return Refined(front, int(there["points"]), float(there["change"]), float(there["second"]))
+        front = ReferenceFront(**arrays, volume=there["volume"].item())
+        return Refined(front, *(there[name].item() for name in Refined._fields[1:]))
 
 
 def key(problem: Minimisable, tolerance: float) -> str:
