@@ -22,10 +22,7 @@ def call(verb: Any, arguments: tuple[Any, ...]) -> Any:
 
 @type_callable(call)
 def _type_of_call(context: Any) -> Callable[..., Any]:
-    def result(verb: Any, arguments: Any) -> Any:
-        return _typed(context, verb, arguments)[2].return_type
-
-    return result
+    return lambda verb, arguments: _typed(context, verb, arguments)[2].return_type
 
 
 def _lowered_call(context: Any, builder: Any, signature: Any, values: Any) -> Any:

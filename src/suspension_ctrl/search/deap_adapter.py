@@ -1,9 +1,8 @@
-"""The one place where arrays become DEAP individuals and back.
+"""Arrays as DEAP individuals and back, for operators and selections of DEAP.
 
-A verb ``mate`` or ``mutate`` is an operator of DEAP if its function's first parameter is called ``individual`` or
-``ind1``, as throughout ``deap.tools``; operators of this package begin with ``rng``. DEAP's operators draw from
-Python's ``random``: it is seeded from the search's generator for the duration of a call, then restored. Every pair
-of parents mates; results are clipped to the bounds.
+The first parameter of an operator of DEAP is ``individual`` or ``ind1``, as throughout ``deap.tools``, that of
+ours ``rng``. DEAP draws from Python's ``random``: the search's generator seeds it for a call, then its state
+returns. Every pair of parents mates; results are clipped to the bounds.
 """
 
 import inspect
@@ -12,18 +11,18 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from copy import copy
 from functools import partial
+from types import SimpleNamespace
 from typing import Any, Literal
 
 import numpy as np
 from deap import base
-from numpy.typing import NDArray
 
-from ..quantities import Real
+from ..quantities import Integer, Real
 from .problem import Minimisable
 
 
 def with_deap_operators(toolbox: base.Toolbox, problem: Minimisable) -> base.Toolbox:
-    """Return a copy of a toolbox in which operators of DEAP take arrays."""
+    """Return a copy of a toolbox with operators of DEAP on arrays."""
     adapted = copy(toolbox)
     lower, upper = np.asarray(problem.lower, dtype=float), np.asarray(problem.upper, dtype=float)
     for name, adapter in (("mate", mate_by_deap), ("mutate", mutate_by_deap)):
@@ -50,7 +49,7 @@ def mutate_by_deap(
 def mate_by_deap(
     rng: np.random.Generator, parents: Real, operator: Callable[..., Any], lower: Real, upper: Real
 ) -> Real:
-    """Return children (n, d) of consecutive pairs of parents (n, d); a last one without a mate is copied."""
+    """Return children (n, d) of consecutive parents (n, d); a last one without a mate is copied."""
     rows = parents.tolist()
     with _drawing_from(rng):
         for pair in range(0, len(rows) - 1, 2):
@@ -70,11 +69,8 @@ def _drawing_from(rng: np.random.Generator) -> Iterator[None]:
 
 def select_with_deap(
     objectives: Real, size: int, nd: Literal["standard", "log"] = "standard"
-) -> tuple[NDArray[np.int64], Real]:
-    """Keep `size` individuals by ``deap.tools.selNSGA2``; arguments and result as in `select_survivors`.
-
-    `nd` is DEAP's non-dominated sorting: "standard", of order m n^2, or "log".
-    """
+) -> tuple[Integer, Real]:
+    """Return the survivors of ``deap.tools.selNSGA2`` as `select_survivors` does; `nd` is the kind of sorting."""
     from deap import tools  # a tenth of the package's import time, and few need it
 
     individuals = as_individuals(objectives)
@@ -83,16 +79,8 @@ def select_with_deap(
     return index, np.array([i.fitness.crowding_dist for i in survivors])
 
 
-class Individual:
-    """A row of a population: its number, and the fitness by which DEAP's selections judge it."""
-
-    def __init__(self, index: int, fitness: base.Fitness) -> None:
-        self.index = index
-        self.fitness = fitness
-
-
-def as_individuals(objectives: Real) -> list[Individual]:
-    """Return a DEAP individual for each row of `objectives` (n, m), all of them minimised."""
-    # A plain class in place of creator.create, which would make a global one.
+def as_individuals(objectives: Real) -> list[Any]:
+    """Return the rows of objectives (n, m), to be minimised, as individuals of DEAP with an `index`."""
+    # A local class: creator.create would make a global one.
     fitness = type("Minimised", (base.Fitness,), {"weights": (-1.0,) * objectives.shape[1]})
-    return [Individual(i, fitness(row)) for i, row in enumerate(objectives.tolist())]
+    return [SimpleNamespace(index=i, fitness=fitness(row)) for i, row in enumerate(objectives.tolist())]

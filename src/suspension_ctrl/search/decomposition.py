@@ -54,11 +54,6 @@ def neighbourhoods(size: int, objectives: int, neighbours: int) -> Integer:
     return frozen_array(cKDTree(weights).query(weights, k=neighbours)[1], dtype=np.int64)
 
 
-def corner_subproblems(weights: Real) -> Integer:
-    """Return the indices (m,) of the unit vectors among weights (N, m), in the order of the objectives."""
-    return np.array([np.flatnonzero(weights[:, j] == 1.0)[0] for j in range(weights.shape[1])])
-
-
 @njit(cache=True, inline="always")  # a call for each comparison would cost more than what it compares
 def tchebycheff(objectives: Real, weight: Real, ideal: Real) -> float:
     """Return g(F | lambda) = max_j lambda_j |F_j - z_j|, equation (14), of objectives (m + c,), the first m."""

@@ -1,4 +1,4 @@
-"""Run an optimiser on a problem: budget, seed, timings and history in one place."""
+"""Run of an optimiser on a problem: budget, seed, times and history."""
 
 import itertools
 import warnings
@@ -30,11 +30,11 @@ class Optimiser(Protocol):
 
     @property
     def population(self) -> int:
-        """Designs at the start, all of which are evaluated."""
+        """Designs at the start."""
 
     @property
     def phases(self) -> tuple[str, ...]:
-        """Verbs of the toolbox whose time is taken."""
+        """Timed verbs of the toolbox."""
 
     def evaluations_per_iteration(self, objectives: int) -> int:
         """Return how many designs an iteration evaluates."""
@@ -48,7 +48,7 @@ class Optimiser(Protocol):
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Run(Population):
-    """Result of `minimise`: the final population and how it came about.
+    """Result of `minimise`: the final population, its cost and history.
 
     Attributes
     ----------
@@ -59,7 +59,7 @@ class Run(Population):
     seed : int
         Seed that gives this run again.
     log : Log
-        What `history` is made of.
+        Rows and columns of `history`.
     """
 
     evaluations: int
@@ -70,20 +70,18 @@ class Run(Population):
 
     @cached_property
     def history(self) -> "pd.DataFrame":
-        """One row for the start, iteration 0, and one per iteration, everything counted from the start of the run.
+        """A row for the start, iteration 0, and per iteration; counts and times [s] from the start of the run.
 
-        Columns: ``iteration``, ``evaluations``, ``seconds``, ``cpu_seconds``, ``<phase>_seconds`` for each phase,
-        ``ideal_<objective>`` for each objective, of feasible designs as soon as one is found. In a sequential
-        MOEA/D-DRA whose sweep runs compiled, children are evaluated inside the phase ``sweep``, and ``evaluate``
-        is the start alone.
+        Columns: ``iteration``, ``evaluations``, ``seconds``, ``cpu_seconds``, ``<phase>_seconds`` of each phase,
+        ``ideal_<objective>`` of each objective, of feasible designs once there is one. A compiled sweep of
+        MOEA/D-DRA evaluates its children in the phase ``sweep``; ``evaluate`` is then the start alone.
         """
         import pandas as pd  # a third of a second: not at import of the package, nor in a run
 
         return pd.DataFrame(list(self.log.rows), columns=list(self.log.columns))
 
     def __repr__(self) -> str:
-        spent = f"    {self.evaluations} evaluations, {self.seconds:.3g} s, seed {self.seed}"
-        return f"{super().__repr__()}\n{spent}"
+        return f"{super().__repr__()}\n    {self.evaluations} evaluations, {self.seconds:.3g} s, seed {self.seed}"
 
 
 class Log(NamedTuple):
@@ -110,23 +108,21 @@ def minimise(
     Parameters
     ----------
     problem : Problem or RideProblem
-        What to minimise.
-    optimiser : Nsga2 or MoeadDra
+        Objectives and bounds.
+    optimiser : Nsga2, MoeadDra, Gamultiobj or Sampling
         The algorithm with its settings.
     iterations, evaluations : int
-        At most one of them: iterations after the start, or a number of evaluations, of which as many whole
-        iterations are made as it allows.
+        One of them: iterations after the start, or evaluations for the start and whole iterations.
     seconds : float
-        Wall-clock time after which no further iteration is begun [s]; alone or beside one of the others, the
-        first to be spent ends the search.
+        Wall-clock time [s] after which no iteration begins; alone, or beside a number as a second limit.
     seed : int, optional
         Seed of every random draw; a fresh one, kept in the result, if not given.
     toolbox : deap.base.Toolbox, optional
-        The optimiser's toolbox for this problem with some verbs exchanged, by DEAP's operators too.
+        The optimiser's toolbox for this problem with other verbs, operators of DEAP among them.
     start : (k, d) array_like, Population or DataFrame, optional
-        Designs that take the place of the first k sampled ones; of a DataFrame the columns of the variables.
+        Designs in place of the first k sampled ones; a DataFrame by its columns of the variables.
     callback : callable, optional
-        Gets the run so far after each iteration; True ends the search.
+        Function of the run so far, called after each iteration; True ends the search.
 
     Returns
     -------
@@ -136,8 +132,8 @@ def minimise(
     Raises
     ------
     ValueError
-        If no budget is given or one is too small, the seed is negative, `start` does not fit, or the problem's
-        evaluation returns a wrong shape or a value that is not finite.
+        If no budget is given or one is too small, the seed is negative, `start` does not fit, or the evaluation
+        returns a wrong shape or a value that is not finite.
 
     Warns
     -----
@@ -167,7 +163,7 @@ def minimise(
 
 
 def _timed(search: Iterator[State], clock: PhaseClock, rows: list[tuple[float, ...]]) -> Iterator[State]:
-    """Yield the states of a search, adding for each a row to those of the log."""
+    """Yield the states of a search; append a row of the log for each."""
     wall = cpu = 0.0
     for iteration in itertools.count():
         wall_start, cpu_start = perf_counter(), process_time()
@@ -182,21 +178,16 @@ def _run(
 ) -> Run:
     phases = [f"{phase}_seconds" for phase in clock.seconds]
     ideal = [f"ideal_{name}" for name in problem.objectives]
+    log = Log(("iteration", "evaluations", "seconds", "cpu_seconds", *phases, *ideal), tuple(rows))
     return Run(
-        designs=state.designs,
-        objectives=state.objectives,
-        constraints=state.constraints,
-        headers=headers_of(problem),
-        evaluations=int(state.evaluations),
-        seconds=rows[-1][2],
-        cpu_seconds=rows[-1][3],
-        seed=int(seed),
-        log=Log(("iteration", "evaluations", "seconds", "cpu_seconds", *phases, *ideal), tuple(rows)),
-    )
+        designs=state.designs, objectives=state.objectives, constraints=state.constraints,
+        headers=headers_of(problem), evaluations=int(state.evaluations), seconds=rows[-1][2],
+        cpu_seconds=rows[-1][3], seed=int(seed), log=log,
+    )  # fmt: skip
 
 
 def _start_from(toolbox: Toolbox, problem: Minimisable, size: int, start: Any) -> None:
-    """Have the toolbox sample the designs of `start` first."""
+    """Put the designs of `start` before the samples of the toolbox."""
     if isinstance(start, Population):
         start = start.designs
     elif hasattr(start, "columns"):
@@ -223,10 +214,8 @@ def _start_from(toolbox: Toolbox, problem: Minimisable, size: int, start: Any) -
 def _infeasible(names: Sequence[str], run: Run) -> str:
     least = int(run.violation.argmin())
     broken = [f"{name} {g:.3g}" for name, g in zip(names, run.constraints[least], strict=True) if g > 0]
-    return (
-        f"no feasible design among {run.evaluations} evaluated, least total violation "
-        f"{run.violation[least]:.3g}: {', '.join(broken)}"
-    )
+    violation = f"least total violation {run.violation[least]:.3g}: {', '.join(broken)}"
+    return f"no feasible design among {run.evaluations} evaluated, {violation}"
 
 
 def _iteration_count(
@@ -234,15 +223,14 @@ def _iteration_count(
 ) -> float:
     if seconds is not None:
         checks.positive("seconds", seconds, "s")
-    if iterations is not None and evaluations is None:
+    numbers = [number for number in (iterations, evaluations) if number is not None]
+    if len(numbers) > 1 or (not numbers and seconds is None):
+        found = f"{iterations!r}, {evaluations!r} and {seconds!r}"
+        raise ValueError(f"one of iterations and evaluations, or seconds, must be given, got {found}")
+    if iterations is not None:
         checks.at_least("iterations", iterations, 1)
         return iterations
-    if evaluations is not None and iterations is None:
+    if evaluations is not None:
         checks.at_least("evaluations", evaluations, start + per_iteration)
         return (evaluations - start) // per_iteration
-    if iterations is None and seconds is not None:
-        return inf
-    raise ValueError(
-        "one of iterations and evaluations, or seconds, must be given, "
-        f"got {iterations!r}, {evaluations!r} and {seconds!r}"
-    )
+    return inf

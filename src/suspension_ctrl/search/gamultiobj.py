@@ -25,7 +25,7 @@ from .. import checks
 from ..quantities import Integer, Real
 from .constraints import any_feasible, constrained, ideal_with, violations
 from .operators import sample_uniform
-from .population import State
+from .population import Generational, State
 from .problem import Minimisable, evaluate_checked
 from .selection import crowding_distances, front_ranks
 
@@ -34,7 +34,7 @@ _SUCCESS = 0.2
 
 
 @dataclass(frozen=True, kw_only=True)
-class Gamultiobj:
+class Gamultiobj(Generational):
     """Settings of the controlled NSGA-II; an iteration costs `population` evaluations, and so does the start.
 
     Parameters
@@ -62,10 +62,6 @@ class Gamultiobj:
         checks.at_least("population", self.population, 4)
         checks.within("crossover_fraction", self.crossover_fraction, 0, 1)
         checks.within("pareto_fraction", self.pareto_fraction, 0, 1)
-
-    def evaluations_per_iteration(self, objectives: int) -> int:  # noqa: ARG002
-        """Return how many designs an iteration evaluates."""
-        return self.population
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
         """Return the verbs of the algorithm, with these settings, for `problem`."""

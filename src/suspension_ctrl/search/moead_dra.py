@@ -98,12 +98,11 @@ class MoeadDra:
         checks.one_of("update", self.update, _SWEEPS)
 
     def evaluations_per_iteration(self, objectives: int) -> int:
-        """Return how many designs an iteration evaluates; ValueError if the corners alone would be more."""
+        """Return the number of evaluations in an iteration; ValueError if the corners alone are more."""
         if self.population < 5 * objectives:
-            raise ValueError(
-                f"population must be >= {5 * objectives} for {objectives} objectives, since a fifth of it "
-                f"holds every corner subproblem, got {self.population}"
-            )
+            needed = f">= {5 * objectives} for {objectives} objectives"
+            reason = "since a fifth of it holds every corner subproblem"
+            raise ValueError(f"population must be {needed}, {reason}, got {self.population}")
         return self.population // 5
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
@@ -130,7 +129,8 @@ class MoeadDra:
         """Yield the state after the start and after each iteration, without end (Figure 4 of the paper)."""
         size, m = self.population, len(problem.objectives)
         vectors = decomposition.weight_vectors(size, m)
-        corners = decomposition.corner_subproblems(vectors)
+        corners = np.arange(m)  # the unit vectors come first
+        corners = np.arange(m)  # the unit vectors come first
         weights = np.where(vectors == 0, decomposition.ZERO_WEIGHT, vectors) / self._scales(m)
         designs = np.array(toolbox.sample(rng, size), dtype=float)
         values = evaluate_checked(toolbox.evaluate, designs, problem)
@@ -156,7 +156,6 @@ class MoeadDra:
         given = np.ones(objectives) if self.objective_scales is None else self.objective_scales
         scales = np.ravel(given).astype(float)
         if scales.size != objectives:
-            raise ValueError(
-                f"objective_scales must be {objectives} numbers, one per objective, got {self.objective_scales!r}"
-            )
+            needed = f"{objectives} numbers, one per objective"
+            raise ValueError(f"objective_scales must be {needed}, got {self.objective_scales!r}")
         return scales

@@ -11,7 +11,7 @@ from .. import checks
 from .constraints import any_feasible, constrained, ideal_with
 from .deap_adapter import select_with_deap
 from .operators import crowded_tournament, polynomial_mutation, sample_uniform, simulated_binary_crossover
-from .population import State
+from .population import Generational, State
 from .problem import Minimisable, evaluate_checked
 from .selection import select_survivors
 
@@ -23,7 +23,7 @@ _SELECTIONS = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class Nsga2:
+class Nsga2(Generational):
     """Settings of NSGA-II; an iteration costs `population` evaluations, and so does the start.
 
     Parameters
@@ -65,10 +65,6 @@ class Nsga2:
             checks.within("mutation_probability", self.mutation_probability, 0, 1)
         checks.positive("mutation_eta", self.mutation_eta)
         checks.one_of("selection", self.selection, _SELECTIONS)
-
-    def evaluations_per_iteration(self, objectives: int) -> int:  # noqa: ARG002
-        """Return how many designs an iteration evaluates."""
-        return self.population
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
         """Return the verbs of the algorithm, with these settings, for `problem`."""

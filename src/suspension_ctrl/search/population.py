@@ -1,4 +1,4 @@
-"""A population: designs, their objectives and constraints; the record of states, runs and traces."""
+"""A population: designs with objectives and constraints; the base of states, runs and traces."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -36,21 +36,21 @@ class Population(Record):
     headers: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        for name in ("designs", "objectives", "constraints"):
-            object.__setattr__(self, name, frozen_array(getattr(self, name)))
+        self._keep(
+            **{name: frozen_array(getattr(self, name)) for name in ("designs", "objectives", "constraints")}
+        )
         if not self.headers:
             counted = (("x", self.designs.shape[1]), ("f", self.objectives.shape[1]))
-            headers = tuple(f"{letter}{i + 1}" for letter, count in counted for i in range(count))
-            object.__setattr__(self, "headers", headers)
+            self._keep(headers=tuple(f"{letter}{i + 1}" for letter, count in counted for i in range(count)))
 
     @cached_property
     def violation(self) -> Real:
-        """Total violation of each design (n,): the sum of max(0, g) over its constraints."""
+        """Violation of each design (n,): the sum of max(0, g) over its constraints."""
         return frozen_array(violations(self.constraints, 0))
 
     @property
     def feasible(self) -> Bool:
-        """Which designs meet all constraints (n,)."""
+        """Feasibility of each design (n,)."""
         return self.violation == 0
 
     def to_frame(self) -> "pd.DataFrame":
@@ -61,7 +61,7 @@ class Population(Record):
         return table.assign(violation=self.violation) if self.constraints.shape[1] else table
 
     def front(self) -> "pd.DataFrame":
-        """Return the rows of the feasible designs that no other feasible one dominates, without `violation`."""
+        """Return the rows of the non-dominated feasible designs, without `violation`."""
         feasible = np.flatnonzero(self.feasible)
         front = feasible[non_dominated(self.objectives[feasible])]
         return self.to_frame()[list(self.headers)].iloc[front].reset_index(drop=True)
@@ -70,16 +70,14 @@ class Population(Record):
         return self.to_frame().to_html(max_rows=20)
 
     def __repr__(self) -> str:
-        return (
-            f"{type(self).__name__}: {len(self.designs)} designs, {self.feasible.sum()} feasible\n{self._ideal()}"
-        )
+        counts = f"{len(self.designs)} designs, {self.feasible.sum()} feasible"
+        return f"{type(self).__name__}: {counts}\n{self._ideal()}"
 
     def _ideal(self) -> str:
         kept = self.objectives[self.feasible]
         if not len(kept):
             return "    no feasible design"
-        headers = self.headers[self.designs.shape[1] :]
-        named = zip(headers, kept.min(axis=0), strict=True)
+        named = zip(self.headers[self.designs.shape[1] :], kept.min(axis=0), strict=True)
         return "    least " + ", ".join(_with_unit(header, value) for header, value in named)
 
 
@@ -88,29 +86,28 @@ def _with_unit(header: str, value: float) -> str:
     return f"{name} {value:.5g} {unit.removesuffix(']')}".rstrip()
 
 
+class Generational:
+    """Settings of an algorithm with as many evaluations in an iteration as designs in its population."""
+
+    population: int
+
+    def evaluations_per_iteration(self, objectives: int) -> int:  # noqa: ARG002
+        """Return the number of evaluations in an iteration."""
+        return self.population
+
+
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class State(Population):
-    """The population of a search after an iteration.
+    """The population of a search after an iteration."""
 
-    Parameters
-    ----------
-    ideal : (m,) ndarray
-        Least value seen of each objective, among feasible designs as soon as there is one.
-    evaluations : int
-        Designs evaluated so far.
-    """
-
-    ideal: Real
-    evaluations: int
+    ideal: Real  # (m,) least value seen of each objective, of feasible designs once there is one
+    evaluations: int  # so far
 
     @classmethod
     def of(cls, designs: Real, values: Real, ideal: Real, evaluations: int) -> "State":
         """Return the state of a population with these values (n, m + c)."""
         objectives, constraints = np.split(values, [ideal.size], axis=1)
         return cls(
-            designs=designs,
-            objectives=objectives,
-            constraints=constraints,
-            ideal=frozen_array(ideal),
-            evaluations=evaluations,
-        )
+            designs=designs, objectives=objectives, constraints=constraints,
+            ideal=frozen_array(ideal), evaluations=evaluations,
+        )  # fmt: skip

@@ -1,4 +1,4 @@
-"""What the optimisers work on: objectives to be minimised over a box. They know no cars."""
+"""Problems of the optimisers: objectives to be minimised over a box, of vehicles or of anything else."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -12,14 +12,11 @@ from .. import checks
 from ..quantities import FrozenMapping, Real, Record, column_headers
 
 Kernel = tuple[Any, ...]
-"""A numba-compiled function of a design (d,) to objectives and constraints (m + c,) and its further arguments.
-
-Or a verb: a named tuple with the method ``function``, see `compiled`.
-"""
+"""A compiled function from a design (d,) to values (m + c,) with its further arguments; or a verb (`compiled`)."""
 
 
 class Minimisable(Protocol):
-    """The part of a problem that the optimisers use; `Problem` and `RideProblem` both have it."""
+    """The part of `Problem` and `RideProblem` for optimisers."""
 
     @property
     def lower(self) -> Sequence[float]:
@@ -39,15 +36,15 @@ class Minimisable(Protocol):
 
     @property
     def kernel(self) -> Kernel | None:
-        """Objectives and constraints of one design as a compiled function, if there is one."""
+        """Compiled function from a design (d,) to its values (m + c,), if any."""
 
     @property
     def evaluate(self) -> Callable[[Real], Real]:
-        """Function from designs (n, d) to objectives and constraints (n, m + c)."""
+        """Function from designs (n, d) to values (n, m + c), objectives, then constraints."""
 
 
 class Described(Minimisable, Protocol):
-    """A problem whose variables and units have names, so that tables can have headers."""
+    """A problem with names of variables and units for the headers of tables."""
 
     @property
     def variables(self) -> Sequence[str]:
@@ -71,16 +68,15 @@ class Problem(Record):
     objectives : (m,) sequence of str
         Names of the objectives, m >= 2.
     constraints : (c,) sequence of str, optional
-        Names of the constraints. After the objectives `evaluate` and `kernel` return a value g for each, which is
-        met where g <= 0. Violations are summed: divide each g by what it is measured against, for example
-        ``temperature / limit - 1``.
+        Names of the constraints: `evaluate` and `kernel` return a value g of each after the objectives, met where
+        g <= 0. Violations are summed: divide each g by its limit, as in ``temperature / limit - 1``.
     variables : (d,) sequence of str, optional
         Names of the variables, ``x1 .. xd`` if not given.
     units : mapping, optional
         Unit of a variable or an objective by name.
     kernel : (callable, tuple), optional
-        The objectives and constraints of a single design as a function compiled by numba, and its further
-        arguments; optimisers that go design by design then need not leave compiled code.
+        Function compiled by numba from a design (d,) to objectives and constraints (m + c,), and its further
+        arguments: for optimisers that evaluate designs one by one in compiled code.
 
     Raises
     ------
@@ -109,29 +105,24 @@ class Problem(Record):
             raise ValueError(f"variables must be {len(self.lower)} different names, got {self.variables!r}")
         if self.kernel is not None and not _is_kernel(self.kernel):
             raise ValueError(f"kernel must be a function compiled by numba and a tuple, got {self.kernel!r}")
-        bounds = {
-            name: tuple(np.asarray(getattr(self, name), dtype=float).tolist()) for name in ("lower", "upper")
-        }
+        lower, upper = (tuple(np.asarray(bound, dtype=float).tolist()) for bound in (self.lower, self.upper))
         lists = {name: tuple(getattr(self, name)) for name in ("objectives", "constraints")}
-        for name, value in {"variables": names, "units": FrozenMapping(self.units), **bounds, **lists}.items():
-            object.__setattr__(self, name, value)
+        self._keep(lower=lower, upper=upper, variables=names, units=FrozenMapping(self.units), **lists)
 
     def replace(self, **changes: Any) -> "Problem":
         """Return the problem with other parameters."""
         return replace(self, **changes)
 
 
-def _is_kernel(kernel: object) -> bool:
-    if hasattr(kernel, "function"):
-        return True
+def _is_kernel(kernel: Any) -> bool:
     match kernel:
-        case (function, tuple()) if callable(function):
-            return bool(is_jitted(function))
-    return False
+        case (function, tuple()) if is_jitted(function):
+            return True
+    return hasattr(kernel, "function")
 
 
 def headers_of(problem: Minimisable) -> tuple[str, ...]:
-    """Return the names of variables and objectives with their units, () where a problem has no such names."""
+    """Return the names of variables and objectives with their units, () for a problem without."""
     names = [*getattr(problem, "variables", ()), *problem.objectives]
     if len(names) < len(problem.lower) + len(problem.objectives):
         return ()
@@ -139,15 +130,8 @@ def headers_of(problem: Minimisable) -> tuple[str, ...]:
 
 
 def evaluate_checked(evaluate: Callable[[Real], ArrayLike], designs: Real, problem: Minimisable) -> Real:
-    """Return the values (n, m + c) of `designs` (n, d): the problem's objectives, then its constraints.
-
-    The evaluation works on a copy and its answer is copied: it may spoil the one and reuse the other.
-
-    Raises
-    ------
-    ValueError
-        If it answers with another shape, or a value that is not finite.
-    """
+    """Return the values (n, m + c) of designs (n, d); ValueError if of another shape or not finite."""
+    # Copies: a user's evaluation may change its argument and reuse its result.
     values = np.array(evaluate(designs.copy()), dtype=float, order="C")
     expected = (designs.shape[0], len(problem.objectives) + len(problem.constraints))
     if values.shape != expected:
@@ -155,9 +139,7 @@ def evaluate_checked(evaluate: Callable[[Real], ArrayLike], designs: Real, probl
     finite = np.isfinite(values)
     if not finite.all():
         first = int(finite.all(axis=1).argmin())
-        what = "objectives and constraints" if problem.constraints else "objectives"
-        raise ValueError(
-            f"evaluate must return finite {what}, got {values[first].tolist()} "
-            f"for design {designs[first].tolist()}"
-        )
+        names = "objectives and constraints" if problem.constraints else "objectives"
+        found = f"{values[first].tolist()} for design {designs[first].tolist()}"
+        raise ValueError(f"evaluate must return finite {names}, got {found}")
     return values

@@ -11,7 +11,7 @@ from .. import checks
 from ..quantities import Real
 from .constraints import any_feasible, constrained, ideal_with
 from .indicators import non_dominated
-from .population import State
+from .population import Generational, State
 from .problem import Minimisable, evaluate_checked
 
 
@@ -39,7 +39,7 @@ _POINTS: dict[str, Callable[..., Iterator[Real]]] = {"random": random_points, "s
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sampling:
+class Sampling(Generational):
     """Settings of a sample; an iteration costs `population` evaluations, and so does the start.
 
     Its population is the non-dominated designs of all evaluated ones; while none is feasible, those of the least
@@ -66,10 +66,6 @@ class Sampling:
     def __post_init__(self) -> None:
         checks.at_least("population", self.population, 4)
         checks.one_of("points", self.points, _POINTS)
-
-    def evaluations_per_iteration(self, objectives: int) -> int:  # noqa: ARG002
-        """Return how many designs an iteration evaluates."""
-        return self.population
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
         """Return the verbs of the sample, with these settings, for `problem`."""

@@ -7,9 +7,8 @@ import numpy as np
 from deap.base import Toolbox
 from numba import njit
 from numba.extending import is_jitted
-from numpy.typing import NDArray
 
-from ..quantities import Real
+from ..quantities import Integer, Real
 from .clock import untimed
 from .compiled import call, call_compiled, storable, verb_of
 from .constraints import feasible_objectives
@@ -18,36 +17,20 @@ from .problem import Minimisable, evaluate_checked
 
 
 class Decomposed(NamedTuple):
-    """A population with one individual per subproblem; its arrays change in place as the search goes on.
+    """A population with one individual per subproblem; a sweep changes its arrays in place."""
 
-    Parameters
-    ----------
-    designs : (N, d) ndarray
-    values : (N, m + c) ndarray
-        Objectives, then constraints.
-    ideal : (m,) ndarray
-        Least value seen of each objective, among feasible designs as soon as there is one.
-    weights : (N, m) ndarray
-        Weight vectors over the objectives' spans: what multiplies each objective in each scalar problem.
-    neighbours : (N, T) ndarray
-        Nearest subproblems of each, itself first.
-    """
-
-    designs: Real
-    values: Real
-    ideal: Real
-    weights: Real
-    neighbours: NDArray[np.int64]
+    designs: Real  # (N, d)
+    values: Real  # (N, m + c), objectives, then constraints
+    ideal: Real  # (m,) least value seen of each objective, of feasible designs once there is one
+    weights: Real  # (N, m) weight vectors over the spans of the objectives
+    neighbours: Integer  # (N, T) nearest subproblems of each, itself first
 
     def state(self, evaluations: int) -> State:
-        """Return a copy of what the search shows of itself after so many evaluations."""
+        """Return a copy of the population after so many evaluations."""
         return State.of(self.designs, self.values, self.ideal, evaluations)
 
     def span(self) -> Real:
-        """Return the distance (m,) from the ideal point to the worst of each objective, 1 where there is none.
-
-        Worst among feasible designs, among all while there is no feasible one.
-        """
+        """Return the span (m,) from ideal point to worst feasible design (any, if none), 1 where it is zero."""
         m = self.ideal.size
         feasible = feasible_objectives(self.values, m)
         span = (feasible if len(feasible) else self.values[:, :m]).max(axis=0) - self.ideal
@@ -55,16 +38,11 @@ class Decomposed(NamedTuple):
 
 
 def sweep_sequential(
-    rng: np.random.Generator,
-    chosen: NDArray[np.int64],
-    population: Decomposed,
-    toolbox: Toolbox,
-    problem: Minimisable,
+    rng: np.random.Generator, chosen: Integer, population: Decomposed, toolbox: Toolbox, problem: Minimisable
 ) -> None:
-    """Work on the chosen subproblems in order, each child seeing every replacement before it.
+    """Work on the chosen subproblems in order, each child after the replacements of the one before.
 
-    Runs compiled if every verb is compiled and the problem has a kernel; otherwise as plain Python with
-    whatever the toolbox holds. The same draws are made either way.
+    Runs compiled if every verb is compiled and the problem has a kernel, otherwise in Python with the same draws.
     """
     verbs = [compiled_verb(untimed(getattr(toolbox, name))) for name in VERBS]
     verbs.append(compiled_evaluation(toolbox, problem))
@@ -77,13 +55,9 @@ def sweep_sequential(
 
 
 def sweep_batch(
-    rng: np.random.Generator,
-    chosen: NDArray[np.int64],
-    population: Decomposed,
-    toolbox: Toolbox,
-    problem: Minimisable,
+    rng: np.random.Generator, chosen: Integer, population: Decomposed, toolbox: Toolbox, problem: Minimisable
 ) -> None:
-    """Make the children of all chosen subproblems, evaluate them in one call, then replace in order."""
+    """Make the children of all chosen subproblems, evaluate them in one call, replace in order."""
     designs, values, ideal, weights, neighbours = population
     ranges = [toolbox.mating_range(rng, i, neighbours) for i in chosen]
     children = np.empty((chosen.size, designs.shape[1]))
@@ -96,12 +70,12 @@ def sweep_batch(
 
 
 VERBS = ("mating_range", "reproduce", "repair", "mutate", "update")
-"""The verbs inside a sweep, in the order in which `work_on` takes them."""
+"""The verbs inside a sweep, in the order of `work_on`."""
 
 
 def work_on(
     rng: np.random.Generator,
-    chosen: NDArray[np.int64],
+    chosen: Integer,
     population: Decomposed,
     mating_range: Any,
     reproduce: Any,
@@ -130,7 +104,7 @@ _STORED, _FRESH = njit(cache=True)(work_on), njit(work_on)
 
 
 def compiled_verb(verb: partial[Any]) -> Any:
-    """Return a toolbox verb's compiled function with its settings in order, None if it is not compiled."""
+    """Return a verb of a toolbox in the form for compiled loops, None if it is not compiled."""
     if verb.func is call_compiled:
         return verb.args[0]
     if verb.args or not is_jitted(verb.func):
@@ -143,7 +117,7 @@ def compiled_verb(verb: partial[Any]) -> Any:
 
 
 def compiled_evaluation(toolbox: Toolbox, problem: Minimisable) -> Any:
-    """Return the problem's kernel, or None if it has none or the toolbox evaluates in another way."""
+    """Return the problem's kernel, None if it has none or the toolbox evaluates in another way."""
     evaluate = untimed(toolbox.evaluate)
     own = evaluate.func == problem.evaluate and not evaluate.args and not evaluate.keywords
     return verb_of(problem.kernel) if own and problem.kernel else None
