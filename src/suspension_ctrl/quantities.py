@@ -12,8 +12,8 @@ from . import checks
 
 Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-Bool = NDArray[np.bool_]
 Integer = NDArray[np.int64]
+Bool = NDArray[np.bool_]
 K = TypeVar("K")
 V = TypeVar("V", covariant=True)
 
@@ -23,6 +23,11 @@ _WIDTH, _LINES = 88, 6  # most columns and lines of a record's repr
 def unit(text: str, *limits: float) -> dict[str, Any]:
     """Return the metadata of a field in this unit and from a lowest to a highest value, if there are `limits`."""
     return {"unit": text, "limits": limits} if limits else {"unit": text}
+
+
+def wrapped(text: str) -> str:
+    """Return the text of a repr in lines, cut after the last that it may take."""
+    return textwrap.fill(text, _WIDTH, subsequent_indent="    ", max_lines=_LINES, placeholder=" ...")
 
 
 def frozen_array(values: ArrayLike, dtype: type = float) -> NDArray[Any]:
@@ -81,7 +86,7 @@ class Record:
     def __repr__(self) -> str:
         shown = (f for f in self._fields() if f.repr and not _is_default(f, getattr(self, f.name)))
         text = f"{type(self).__name__}({', '.join(f'{f.name}={_shown(getattr(self, f.name), f)}' for f in shown)})"
-        return textwrap.fill(text, _WIDTH, subsequent_indent="    ", max_lines=_LINES, placeholder=" ...")
+        return wrapped(text)
 
     def _keep(self, **values: object) -> None:
         """Set fields of this frozen record, in ``__post_init__``."""

@@ -4,13 +4,12 @@ A left-right symmetric vehicle decouples into an in-phase half (heave, pitch) an
 half of the struts each: two loops of two equations instead of one of four.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..quantities import Bool, Complex, Real
+from ..quantities import Bool, Complex, Integer, Real
 from ..vehicles.assembly import StrutParameter
 from .many_struts import ManyStruts
 from .ports import Ports
@@ -29,18 +28,15 @@ class Variables(NamedTuple):
     """Coefficients that vary: tensions (v, q, q) by derivatives of `order` (v,), and values in place (v,)."""
 
     gain: Real
-    order: NDArray[np.int64]
+    order: Integer
     origin: Real
 
     @classmethod
-    def of(
-        cls, parameters: Sequence[StrutParameter], names: Sequence[str], origin: Sequence[float]
-    ) -> "Variables":
-        """Take those called `names` (v,) out of the coefficients of a vehicle."""
+    def of(cls, parameters: Sequence[StrutParameter], origin: Mapping[str, float]) -> "Variables":
+        """Take those with a value in place out of the coefficients of a vehicle."""
         by_name = {parameter.name: parameter for parameter in parameters}
-        chosen = [by_name[name] for name in names]
-        orders = np.array([parameter.order for parameter in chosen], dtype=np.int64)
-        return cls(np.array([parameter.gain for parameter in chosen]), orders, np.array(origin, dtype=float))
+        gains, orders = zip(*((by_name[name].gain, by_name[name].order) for name in origin), strict=True)
+        return cls(np.array(gains), np.array(orders, dtype=np.int64), np.array(list(origin.values()), dtype=float))
 
 
 class Pairs(NamedTuple):
@@ -105,12 +101,18 @@ class _Block(NamedTuple):
 
     parts: list[Real]
     gain: Real
-    response: NDArray[np.int64]
+    response: Integer
 
     def rows_of(self, response: int) -> Real:
         """Return all rows (s + q, 2, n) of a response, zeros if it has none."""
         own = np.concatenate(self.parts[2:], axis=1)[self.response == response]
         return own[0] if len(own) else np.zeros_like(self.parts[2][0, :1])
+
+    def only(self, responses: Integer) -> "_Block":
+        """Return the block without other responses."""
+        stay = np.isin(self.response, responses)
+        terms = [part[stay] for part in self.parts[2:]]
+        return self._replace(parts=self.parts[:2] + terms, response=self.response[stay])
 
 
 def _joined(blocks: Sequence[_Block], m: int, omega: Real, variables: Variables) -> ManyStruts:
@@ -120,23 +122,18 @@ def _joined(blocks: Sequence[_Block], m: int, omega: Real, variables: Variables)
         same = (j for j in range(i) if first[j] == j and all(_alike(block, i, j) for block in blocks))
         first[i] = next(same, i)
     kept, channel = np.unique(first, return_inverse=True)
-    stays = [np.isin(block.response, kept) for block in blocks]
-    parts = [
-        part if i < 2 else part[stay]
-        for block, stay in zip(blocks, stays, strict=True)
-        for i, part in enumerate(block.parts)
-    ]
-    sizes = [(*block.parts[1].shape[:2], stay.sum()) for block, stay in zip(blocks, stays, strict=True)]
-    responses = [channel[block.response[stay]] for block, stay in zip(blocks, stays, strict=True)]
-    gains = [block.gain.reshape(len(block.gain), -1) for block in blocks]
+    blocks = [block.only(kept) for block in blocks]
+    sizes = [(*block.parts[1].shape[:2], block.response.size) for block in blocks]
     v, n = variables.origin.size, omega.size
     return ManyStruts(
         omega,
-        np.concatenate([np.empty((0, 2, n)), *(part.reshape(-1, 2, n) for part in parts)]),
+        np.concatenate(
+            [np.empty((0, 2, n)), *(part.reshape(-1, 2, n) for block in blocks for part in block.parts)]
+        ),
         np.array(sizes, dtype=np.int64).reshape(-1, 3),
-        np.concatenate([np.empty(0, dtype=np.int64), *responses]),
+        np.concatenate([np.empty(0, dtype=np.int64), *(channel[block.response] for block in blocks)]),
         channel.astype(np.int64),
-        np.hstack([np.empty((v, 0)), *gains]),
+        np.hstack([np.empty((v, 0)), *(block.gain.reshape(v, -1) for block in blocks)]),
         variables.order,
         variables.origin,
     )
@@ -150,7 +147,7 @@ def _alike(block: _Block, i: int, j: int) -> bool:
     return any(((a - sign * b) ** 2).sum() <= _ALIKE**2 * (b**2).sum() for sign in (1, -1))
 
 
-def _parts(struts: Bool, by_road: Complex, roads: Complex) -> list[tuple[NDArray[np.int64], NDArray[np.int64]]]:
+def _parts(struts: Bool, by_road: Complex, roads: Complex) -> list[tuple[Integer, Integer]]:
     """Return the struts and the roads of each part that no coupling (q, q), deflection or road connects."""
     from scipy.sparse.csgraph import connected_components
 
@@ -161,7 +158,7 @@ def _parts(struts: Bool, by_road: Complex, roads: Complex) -> list[tuple[NDArray
     return [(np.flatnonzero(member[:q] == part), np.flatnonzero(member[q:] == part)) for part in range(count)]
 
 
-def _coupled(matrices: NDArray[np.number]) -> Bool:
+def _coupled(matrices: Real | Complex) -> Bool:
     """Nonzero pattern (a, b) of matrices (n, a, b) over all n."""
     sizes = np.abs(matrices)
     return (sizes > _NOTHING * sizes.max(axis=(1, 2), keepdims=True, initial=0.0)).any(axis=0)

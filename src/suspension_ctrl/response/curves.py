@@ -29,20 +29,7 @@ def setting_of(problem: RideProblem, design: Sequence[float]) -> dict[str, float
 def design_curves(
     problem: RideProblem, label: str, design: Sequence[float], responses: Sequence[str], points: int = 800
 ) -> DesignCurves:
-    """Return the curves of a design in the first load case; accelerations weighted too.
-
-    Parameters
-    ----------
-    problem : RideProblem
-    label : str
-        What the design is called.
-    design : sequence of float
-        Values of the problem's variables.
-    responses : sequence of str
-        Names of the responses.
-    points : int
-        Frequencies.
-    """
+    """Return the labelled curves of a design (d,) in the first load case; accelerations weighted too."""
     case = problem.cases[0]
     closed = case.vehicle.closed(setting_of(problem, design), responses=responses)
     f = frequencies(problem.band, points)
@@ -74,5 +61,5 @@ def oscillations(problem: RideProblem, label: str, design: Sequence[float]) -> p
     """Return design, mode, natural frequency [Hz] and damping ratio of the oscillating modes of a design."""
     modes = problem.cases[0].vehicle.modes(setting_of(problem, design))
     found = modes[modes["damping ratio [-]"] < 1].assign(design=label)
-    names = {"design": "design", "name": "mode", "frequency [Hz]": "natural frequency [Hz]"}
-    return found[[*names, "damping ratio [-]"]].rename(columns=names)
+    columns = ["design", "name", "frequency [Hz]", "damping ratio [-]"]
+    return found[columns].rename(columns={"name": "mode", "frequency [Hz]": "natural frequency [Hz]"})

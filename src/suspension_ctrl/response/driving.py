@@ -4,10 +4,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import control
 import numpy as np
+from control import StateSpace
 from numpy.typing import ArrayLike
 
 from .. import checks
-from ..quantities import Real, signal_unit
+from ..quantities import Real, column_headers, signal_unit
 from ..roads.profiles import Profile
 from ..vehicles.vehicle import Setting, Vehicle
 
@@ -16,22 +17,18 @@ if TYPE_CHECKING:
 
 _POINTS = 4  # of the profile in a wave of the fastest mode, at least: it meets that by 0.81, sinc^2 of 1/4
 _SAME_TRACK = 1e-3  # m
+_ONE = ((0.0, 0.0),)  # contact point of one wheel
 
 
 @overload
 def simulate(
-    closed: Vehicle, setting: Setting, profile: Profile, speed: float, *, periodic: bool = False
+    closed: Vehicle, setting: Setting, profile: Profile, speed: float, *, periodic: bool = ...
 ) -> "pd.DataFrame": ...
 
 
 @overload
 def simulate(
-    closed: control.StateSpace,
-    profile: Profile,
-    speed: float,
-    contact_points: ArrayLike = ((0.0, 0.0),),
-    *,
-    periodic: bool = False,
+    closed: StateSpace, profile: Profile, speed: float, contact_points: ArrayLike = ..., *, periodic: bool = ...
 ) -> "pd.DataFrame": ...
 
 
@@ -90,12 +87,7 @@ def _drive_vehicle(
 
 
 def _drive(
-    closed: control.StateSpace,
-    profile: Profile,
-    speed: float,
-    contact_points: ArrayLike = ((0.0, 0.0),),
-    *,
-    periodic: bool = False,
+    closed: StateSpace, profile: Profile, speed: float, contact_points: ArrayLike = _ONE, *, periodic: bool = False
 ) -> "pd.DataFrame":
     import pandas as pd
 
@@ -108,12 +100,15 @@ def _drive(
     wheels = _Wheels.on(profile, points, periodic)
     dt = profile.step / speed
     states = _states(model, wheels, dt, periodic)
+    names = closed.output_labels
     responses = states @ model.c.T + wheels.elevation() @ model.d.T + wheels.rise() / dt @ model.e.T
     return pd.DataFrame(
         {
             "time [s]": dt * np.arange(len(states)),
             "distance [m]": wheels.start + profile.step * np.arange(len(states)),
-            **{_header(name): values for name, values in zip(closed.output_labels, responses.T, strict=True)},
+            **dict(
+                zip(column_headers(names, {name: signal_unit(name) for name in names}), responses.T, strict=True)
+            ),
         }
     )
 
@@ -129,12 +124,12 @@ class _Model(NamedTuple):
     roads: list[str]
 
     @classmethod
-    def of(cls, closed: control.StateSpace) -> "_Model":
+    def of(cls, closed: StateSpace) -> "_Model":
         """Eliminate road rates from x' = A x + B u + G u', y = C x + D u + E u'.
 
         The shifted state w = x - G u obeys w' = A w + (B + A G) u, and y = C w + (D + C G) u + E u'.
         """
-        if not (isinstance(closed, control.StateSpace) and closed.isctime(strict=True)):
+        if not (isinstance(closed, StateSpace) and closed.isctime(strict=True)):
             got = f"{type(closed).__name__} with dt = {getattr(closed, 'dt', None)}"
             raise ValueError(f"closed must be a state-space model in continuous time, got {got}")
         roads = [name for name in closed.input_labels if not name.endswith("_rate")]
@@ -147,26 +142,21 @@ class _Model(NamedTuple):
 
 
 class _Wheels(NamedTuple):
-    """The road under r wheels at k times.
+    """The road under r wheels at k times."""
 
-    The `points` (k, r, 4) are the heights of the last two points of the profile reached by each wheel and of the
-    next two [m], `share` (r,) the share of a step by which it is beyond the last, `start` the origin's first place
-    [m].
-    """
-
-    points: Real
-    share: Real
-    start: float
+    points: (
+        Real  # (k, r, 4), heights of the profile's last two points that a wheel has reached and of the next two
+    )
+    share: Real  # (r,), share of a step by which the wheel is beyond the last
+    start: float  # first place of the origin [m]
 
     @classmethod
     def on(cls, profile: Profile, contacts: Real, periodic: bool) -> "_Wheels":
         """Place the wheels on a profile; ValueError if it is too short or lacks a track."""
         x, step, n = contacts[:, 0], profile.step, profile.distance.size
-        wheelbase = float(np.ptp(x))
-        if wheelbase > step * (n - 2):
-            raise ValueError(
-                f"profile must be longer by a step than the wheelbase of {wheelbase:g} m, got {step * (n - 1):g} m"
-            )
+        if (base := float(np.ptp(x))) > step * (n - 2):
+            got = f"{step * (n - 1):g} m"
+            raise ValueError(f"profile must be longer by a step than the wheelbase of {base:g} m, got {got}")
         ahead = np.round((x if periodic else x - x.min()) / step, 9)  # a whole number of steps but for rounding
         first = np.floor(ahead).astype(int)
         times = np.arange(n if periodic else n - int(np.ceil(ahead.max())))
@@ -192,16 +182,15 @@ def _states(model: _Model, wheels: _Wheels, dt: float, periodic: bool) -> Real:
     n, k = len(model.a), len(wheels.points)
     taps = np.array([_taps(model, i, dt, share) for i, share in enumerate(wheels.share.tolist())])
     drive = np.einsum("krj,rjn->nk", wheels.points[:, :, 1:], taps)  # contribution of a step
+    drive = np.pad(drive, ((0, 0), (0, 1)))  # for the states after the last step
     forward = _straight(model.a, model.b[:, :1], dt)[0]
     sampled = control.ss(forward, np.eye(n), np.eye(n), np.zeros((n, n)), dt)
-    drive = np.pad(drive, ((0, 0), (0, 1)))  # for the states after the last step
     if periodic:  # the first states recur after a period
         after = control.forced_response(sampled, inputs=drive).outputs[:, -1]
         at_first = np.linalg.solve(np.eye(n) - np.linalg.matrix_power(forward, k), after)
     else:
         at_first = np.linalg.solve(model.a, -model.b @ wheels.elevation()[0])
-    answer = control.forced_response(sampled, inputs=drive, initial_state=at_first)
-    return answer.outputs.T[:-1]
+    return control.forced_response(sampled, inputs=drive, initial_state=at_first).outputs.T[:-1]
 
 
 def _taps(model: _Model, wheel: int, dt: float, share: float) -> Real:
@@ -225,13 +214,12 @@ def _straight(a: Real, b: Real, duration: float) -> tuple[Real, Real, Real]:
 def _checked_points(contact_points: ArrayLike, roads: list[str]) -> Real:
     points = np.asarray(contact_points, dtype=float)
     if points.shape != (len(roads), 2) or not np.isfinite(points).all():
-        raise ValueError(
-            f"contact_points must be finite, x and y [m] for each of {', '.join(roads)}, got {points.tolist()}"
-        )
+        each = ", ".join(roads)
+        raise ValueError(f"contact_points must be finite, x and y [m] for each of {each}, got {points.tolist()}")
     return points
 
 
-def _coarsest(closed: control.StateSpace, speed: float) -> float:
+def _coarsest(closed: StateSpace, speed: float) -> float:
     """Return the longest step [m] with four points in a wave of the fastest mode."""
     poles = closed.poles()
     fastest = float(np.abs(poles[poles.imag != 0]).max(initial=0.0)) / (2 * np.pi)
@@ -258,9 +246,3 @@ def _track(profile: Profile, y: float) -> int:
             f"got tracks at {list(profile.tracks)} m"
         )
     return int(apart.argmin())
-
-
-def _header(response: str) -> str:
-    """Return name and unit of a response."""
-    unit = signal_unit(response)
-    return f"{response} [{unit}]" if unit else response

@@ -16,7 +16,6 @@ from .weightings import BANDS, by_name
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")  # Okabe and Ito: told apart by colour-blind readers
 
-
 _MOST_IN_LEGEND = 12
 """Designs beyond which a legend would cover the curves; curves.csv names them all."""
 
@@ -34,33 +33,27 @@ def weighting_factors(ax: Axes, filters: Sequence[str], tables: Sequence[str]) -
     for colour, name in zip(COLOURS, tables, strict=False):
         label = f"{name.removesuffix('-table')}, table"
         ax.loglog(BANDS, by_name(name).factor(BANDS), "o", ms=3.5, color=colour, label=label)
-    ax.set_xlabel("frequency [Hz]")
-    ax.set_ylabel("weighting factor [-]")
+    ax.set(xlabel="frequency [Hz]", ylabel="weighting factor [-]")
     ax.grid(which="both", alpha=0.3)
     ax.legend(frameon=False)
 
 
 @dataclass(frozen=True)
 class DesignCurves:
-    """Curves of a design over frequency f (n,) [Hz], for Figures 6 and 7.
-
-    By response H(w) (n,) from the road; spectra on the road, those of weighted accelerations (`weighted_name`)
-    beside them; natural frequencies (k,) [Hz].
-    """
+    """Curves of a design over frequency, for Figures 6 and 7."""
 
     label: str
-    f: Real
-    responses: Mapping[str, Complex]
-    densities: Mapping[str, Real]
-    natural: Real
+    f: Real  # (n,) [Hz]
+    responses: Mapping[str, Complex]  # H(w) (n,) from the road
+    densities: Mapping[str, Real]  # spectra (n,) on the road, also of weighted accelerations (`weighted_name`)
+    natural: Real  # (k,) natural frequencies [Hz]
 
 
 def bode(designs: Sequence[DesignCurves]) -> Figure:
     """Draw Figure 6: magnitude and phase of the responses to the road, a line per design."""
     panels = _panels(designs)
     figure, axes = _columns(len(panels), 2)
-    for column, (response, panel) in zip(axes.T, panels.items(), strict=True):
-        magnitude, phase = column
+    for (magnitude, phase), (response, panel) in zip(axes.T, panels.items(), strict=True):
         for colour, design in zip(colours(len(designs)), designs, strict=False):
             h = design.responses[response] * panel.scale
             _marked_line(magnitude, design, np.abs(h), colour)

@@ -44,7 +44,9 @@ def load_problem(path: str | Path) -> RideProblem:
         table = read_toml(path)
         table.check_keys(dict(zip(_KEYS, _KEYS, strict=True)), ["cases", "measures"])
         settings = _settings(table)
-        files, cases = zip(*(_case(table, one, path.parent) for one in _cases(table)), strict=True)
+        if not (given := table.tables("cases")):
+            raise ValueError("cases must be an array of tables, one at least, got none")
+        files, cases = zip(*(_case(table, one, path.parent) for one in given), strict=True)
         bounds, struts = _bounds_and_struts(table, files[0], cases[0].vehicle)
         settings |= {key: _texts(table, key) for key in ("measures", "constraints")}
         for case in cases:
@@ -54,18 +56,11 @@ def load_problem(path: str | Path) -> RideProblem:
 
 
 def _settings(table: Table) -> dict[str, Any]:
-    """Return what of weighting, band and worst case the file has."""
-    settings: dict[str, Any] = {}
-    if "title" in table.content:
-        table.text("title")
-    if "weighting" in table.content:
-        settings["weighting"] = table.text("weighting")
-        weightings.by_name(settings["weighting"])
-    if "band_Hz" in table.content:
-        settings["band"] = table.pair("band_Hz")
-    if "worst_case" in table.content:
-        settings["worst_case"] = table.boolean("worst_case")
-    return settings
+    """Return weighting, band and worst case where the file has them."""
+    readers = {"title": table.text, "weighting": table.text, "band_Hz": table.pair, "worst_case": table.boolean}
+    found = {key: read(key) for key, read in readers.items() if key in table.content}
+    weightings.checked(found.get("weighting"))
+    return {key.removesuffix("_Hz"): value for key, value in found.items() if key != "title"}
 
 
 def _bounds_and_struts(
@@ -87,13 +82,6 @@ def _check_texts(case: LoadCase, settings: Mapping[str, Any]) -> None:
         for i, text in enumerate(settings[key], start=1):
             with under(f"{key}[{i}]"):
                 meaning(text, case, weighting)
-
-
-def _cases(table: Table) -> list[Table]:
-    cases = table.tables("cases")
-    if not cases:
-        raise ValueError("cases must be an array of tables, one at least, got none")
-    return cases
 
 
 def _case(table: Table, case: Table, folder: Path) -> tuple[VehicleFile, LoadCase]:

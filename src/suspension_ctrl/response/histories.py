@@ -19,17 +19,15 @@ INTEGRATIONS = ("linear", "exponential")
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Exposure(Record):
-    """Measures of a weighted acceleration; of a rotation in radians.
+    """Measures of a weighted acceleration; of a rotation in radians."""
 
-    Root mean square (clause 6.1), largest magnitude, maximum transient vibration value, the largest running r.m.s.
-    (6.3.1), vibration dose value (6.3.2), and duration T of the history.
-    """
-
-    rms: float = field(metadata=unit("m/s^2"))
-    peak: float = field(metadata=unit("m/s^2"))
-    mtvv: float = field(metadata=unit("m/s^2"))
-    vdv: float = field(metadata=unit("m/s^1.75"))
-    duration: float = field(metadata=unit("s"))
+    rms: float = field(metadata=unit("m/s^2"))  # clause 6.1
+    peak: float = field(metadata=unit("m/s^2"))  # largest magnitude
+    mtvv: float = field(
+        metadata=unit("m/s^2")
+    )  # maximum transient vibration value: largest running r.m.s. (6.3.1)
+    vdv: float = field(metadata=unit("m/s^1.75"))  # vibration dose value (6.3.2)
+    duration: float = field(metadata=unit("s"))  # T
 
     @property
     def crest_factor(self) -> float:
@@ -51,22 +49,21 @@ def weighted(acceleration: ArrayLike, time_step: float, name: str) -> Real:
     """Return a history of acceleration behind a weighting filter of ISO 2631, at rest before it.
 
     The bilinear transform makes the analogue filter digital: its factor at f is the analogue one at
-    ``tan(pi f time_step)/(pi time_step)``, a frequency higher by (pi f time_step)^2/3. In steps of 5 ms the factor
-    of Wk is so within 0.3 % up to 10 Hz and 3.1 % at 20 Hz, in steps of 2 ms within 0.05 % and 0.5 %. The exact
-    filter stands behind the vehicle, ``control.ss(weighting("Wk")) * closed[response, road]``.
-
-    The step is no longer than a period of the filter's upper band limit, 10 ms but for Wf.
+    ``tan(pi f time_step)/(pi time_step)``, a frequency higher by (pi f time_step)^2/3: in steps of 5 ms that of Wk
+    is within 0.3 % up to 10 Hz and 3.1 % at 20 Hz, in steps of 2 ms within 0.05 % and 0.5 %. Exact is the filter
+    behind the vehicle, ``control.ss(weighting("Wk")) * closed[response, road]``. The step is no longer than a
+    period of the filter's upper band limit, 10 ms but for Wf.
     """
     from scipy import signal
 
     history = _checked(acceleration, time_step)
     filter_ = weightings.weighting(name)
-    zeros, poles = filter_.zeros(), filter_.poles()
+    poles = filter_.poles()
     highest = float(np.abs(poles).max()) / (2 * np.pi)
     if time_step * highest > 1 + 1e-9:
         raise ValueError(f"time_step must be at most {1 / highest:.3g} s for {name}, got {time_step!r}")
     gain = float(filter_.num[0][0][0] / filter_.den[0][0][0])
-    digital = signal.bilinear_zpk(zeros, poles, gain, 1 / time_step)
+    digital = signal.bilinear_zpk(filter_.zeros(), poles, gain, 1 / time_step)
     return np.asarray(signal.sosfilt(signal.zpk2sos(*digital), history))
 
 
@@ -123,9 +120,8 @@ def exposure(
     duration = history.size * time_step
     peak = float(np.abs(history).max())
     if duration < 1.0 - 1e-9 or peak == 0:
-        raise ValueError(
-            f"acceleration must last 1 s at least and not be zero throughout, got {duration:g} s, peak {peak:g}"
-        )
+        got = f"{duration:g} s, peak {peak:g}"
+        raise ValueError(f"acceleration must last 1 s at least and not be zero throughout, got {got}")
     return Exposure(
         rms=float(np.sqrt(np.mean(history**2))),
         peak=peak,

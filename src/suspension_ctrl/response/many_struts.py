@@ -5,46 +5,27 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 from numba.extending import register_jitable
-from numpy.typing import NDArray
 
-from ..quantities import Bool, Real
+from ..quantities import Bool, Integer, Real
 
 
 class ManyStruts(NamedTuple):
     """Blocks of coupled struts: loop gains, and rows of the terms to which they contribute.
 
     A row (2, n) holds the real and imaginary parts of a value at n frequencies. Blocks follow one another; the
-    last dimension of each part of a block varies fastest.
-
-    Parameters
-    ----------
-    omega : (n,) ndarray
-        Angular frequencies [rad/s].
-    rows : (l, 2, n) ndarray
-        Of each block: deflections by tensions (q, q) and by s uncorrelated sources of unit density that stand
-        for the roads (q, s); terms by sources (k, s) and by tensions (k, q), times the root of their densities.
-    sizes : (b, 3) ndarray
-        q, s and k of each block.
-    response : (sum of k,) ndarray
-        The distinct mean square to which a row of terms contributes.
-    channel : (m,) ndarray
-        The distinct mean square of each term.
-    gain : (v, sum of q q) ndarray
-        Tensions by deflections of each variable at 1, or by their derivatives of its order.
-    order : (v,) ndarray
-        Order of these derivatives: 0 of springs, 1 of dampers, 2 of inerters and masses.
-    origin : (v,) ndarray
-        Values of the variables around which the plant is closed already.
+    last dimension of each part of a block varies fastest. The rows of a block are deflections by tensions (q, q)
+    and by s uncorrelated sources of unit density in place of the roads (q, s); terms by sources (k, s) and by
+    tensions (k, q), times the root of their densities.
     """
 
-    omega: Real
-    rows: Real
-    sizes: NDArray[np.int64]
-    response: NDArray[np.int64]
-    channel: NDArray[np.int64]
-    gain: Real
-    order: NDArray[np.int64]
-    origin: Real
+    omega: Real  # (n,) angular frequencies [rad/s]
+    rows: Real  # (l, 2, n)
+    sizes: Integer  # (b, 3), q, s and k of each block
+    response: Integer  # (sum of k,), the distinct mean square to which a row of terms contributes
+    channel: Integer  # (m,), the distinct mean square of each term
+    gain: Real  # (v, sum of q q), tensions of each variable at 1 by deflections or their derivatives of its order
+    order: Integer  # (v,), 0 of springs, 1 of dampers, 2 of inerters and masses
+    origin: Real  # (v,), values of the variables around which the plant is closed already
 
     @njit(cache=True)
     def mean_squares(self, designs: Real) -> Real:

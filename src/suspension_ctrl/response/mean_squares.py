@@ -62,12 +62,6 @@ def case_of(
     responses = [term.response for term in terms]
     if load_case.wheels == 1 and [p.name for p in vehicle.parameters] == list(variables) == ["spring", "damper"]:
         return OneStrut.around(Ports.of(vehicle, f, responses), omega, densities * load_case.psd(f))
-    varied = Variables.of(vehicle.parameters, variables, [setting[name] for name in variables])
-    return in_blocks(
-        Ports.of(vehicle, f, responses, setting),
-        omega,
-        load_case.cross_spectrum(f),
-        densities,
-        varied,
-        pairs(vehicle.struts, vehicle.contact_points),
-    )
+    ports, roads = Ports.of(vehicle, f, responses, setting), load_case.cross_spectrum(f)
+    varied = Variables.of(vehicle.parameters, {name: setting[name] for name in variables})
+    return in_blocks(ports, omega, roads, densities, varied, pairs(vehicle.struts, vehicle.contact_points))

@@ -37,10 +37,8 @@ from .weightings import Weighting
 _LARGEST = 1e6  # of factors and coordinates: squares times those of any response are still finite
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _POINT = rf"\(\s*({_NUMBER})\s*,\s*({_NUMBER})\s*\)"
-_LIMIT = re.compile(r"(.+?)(<=|>=)(.+)")
-_KINDS = {"SWS": "travel", "DTL": "load", "DLC": "load"}
-_TURNED = ("pitch", "roll")
-_UNITS = {"ACC": "m/s^2", "SWS": "m", "DTL": "N", "DLC": "-"}
+_LIMIT = re.compile(rf"((?:(?![<>]=).)+)([<>]=)\s*({_NUMBER})\s*")
+_KINDS = {"SWS": ("travel", "m"), "DTL": ("load", "N"), "DLC": ("load", "-")}
 
 
 class Designs(NamedTuple):
@@ -105,15 +103,12 @@ def _positional(function: object) -> int:
 
 
 class Term(NamedTuple):
-    """A response with its weighting and factor, over the static load of a tyre if `relative`.
-
-    Its mean square is the spectral moment of the order `moment`, the integral of w^moment times the spectrum.
-    """
+    """A response with its weighting and factor; its mean square is the integral of w^moment times the spectrum."""
 
     response: ResponseName
     weighting: Weighting | None = None
     factor: float = 1.0
-    relative: bool = False
+    relative: bool = False  # over the static load of the tyre
     moment: int = 0
 
     @property
@@ -123,16 +118,13 @@ class Term(NamedTuple):
 
 
 class CaseMeasure(NamedTuple):
-    """A measure in a load case: the `worst` of its terms or the root of the sum of their squares, or a function.
-
-    The `sign` is -1 where more is better.
-    """
+    """A measure in a load case: the `worst` of its terms, the root of the sum of their squares, or a function."""
 
     name: str
     unit: str
     terms: tuple[Term, ...] = ()
     worst: bool = False
-    sign: float = 1.0
+    sign: float = 1.0  # -1 where more is better
     values: Values | None = None
 
 
@@ -166,10 +158,10 @@ def case_measure(measure: str | Measure, case: LoadCase, weighting: Weighting | 
         return CaseMeasure(name, _HANDLING[body][0], sign=sign, values=_handling(body, case))
     kind, _, where = body.partition(" ")
     if kind in _KINDS:
-        return CaseMeasure(name, _UNITS[kind], _at_corners(kind, where.strip(), case.vehicle), True, sign)
+        return CaseMeasure(name, _KINDS[kind][1], _at_corners(kind, where.strip(), case.vehicle), True, sign)
     if kind == "ACC":
         term = Term(_accelerated(where.strip(), case.vehicle), weighting)
-        return CaseMeasure(name, _UNITS[kind], (term,), False, sign)
+        return CaseMeasure(name, "m/s^2", (term,), False, sign)
     terms = tuple(_term(part.strip(), case.vehicle) for part in re.split(r"\+(?![^(]*\))", body))
     if len({signal_unit(label(term.response)).removeprefix("rad").removeprefix("m") for term in terms}) > 1:
         raise ValueError(f"measure must be a sum of responses of one kind, got {body!r}")
@@ -180,11 +172,7 @@ def case_measure(measure: str | Measure, case: LoadCase, weighting: Weighting | 
 def case_limit(text: str, case: LoadCase, weighting: Weighting | None, own: Sequence[str | Measure] = ()) -> Limit:
     """Return a limit in a load case, on a measure written out or one of the user's `own` by its name."""
     found = _LIMIT.fullmatch(text) if isinstance(text, str) else None
-    try:
-        value = float(found[3]) if found else float("nan")
-    except ValueError:
-        value = float("nan")
-    if not found or not abs(value) < float("inf"):
+    if not found or np.isinf(value := float(found[3])):
         raise ValueError(f"constraint must be like 'SWS <= 0.03' or 'roll_damping >= 0.2', got {text!r}")
     by_name = {measure.name: measure for measure in own if isinstance(measure, Measure)}
     limited = case_measure(by_name.get(found[1].strip(), found[1]), case, weighting)
@@ -215,7 +203,7 @@ def _at_corners(kind: str, where: str, vehicle: Vehicle) -> tuple[Term, ...]:
     found = {
         str(response.where): name
         for name, response in vehicle.meanings.items()
-        if response.kind == _KINDS[kind] and (where or response.where in tyres)
+        if response.kind == _KINDS[kind][0] and (where or response.where in tyres)
     }
     axle = {f"{where}_left", f"{where}_right"} & tyres
     chosen = {end: name for end, name in found.items() if where in ("", end) or end in axle}
@@ -229,20 +217,20 @@ def _at_corners(kind: str, where: str, vehicle: Vehicle) -> tuple[Term, ...]:
 
 def _accelerated(where: str, vehicle: Vehicle) -> ResponseName:
     if point := re.fullmatch(_POINT, where):
-        return _at_point(point[1], point[2])
+        return _at_point(*point.groups())
     name = f"{where or 'body'}_acceleration"
-    accelerations = {r: m.where for r, m in vehicle.meanings.items() if m.kind == "acceleration"}
-    vertical = [response for response, place in accelerations.items() if place not in _TURNED]
+    known = vehicle.meanings.items()
+    vertical = [r for r, m in known if m.kind == "acceleration" and m.where not in ("pitch", "roll")]
     if name not in vertical:
-        known = [r.removesuffix("_acceleration") for r in vertical]
-        raise ValueError(f"ACC must be of one of {', '.join(known)} or a point (x, y), got {where!r}")
+        places = ", ".join(r.removesuffix("_acceleration") for r in vertical)
+        raise ValueError(f"ACC must be of one of {places} or a point (x, y), got {where!r}")
     return name
 
 
 def _at_point(*texts: str) -> ResponseName:
     x, y = map(float, texts)
-    for name, value in (("x", x), ("y", y)):
-        checks.within(f"{name} of a point", value, -_LARGEST, _LARGEST)
+    checks.within("x of a point", x, -_LARGEST, _LARGEST)
+    checks.within("y of a point", y, -_LARGEST, _LARGEST)
     return ("acceleration", x, y)
 
 
@@ -251,15 +239,15 @@ def _term(text: str, vehicle: Vehicle) -> Term:
     if not found:
         known = "ACC, SWS, DTL, DLC, or terms like '0.4 We pitch_acceleration'"
         raise ValueError(f"measure must be {known}, got {text!r}")
-    weighting, response = found[2], found[3]
-    factor = float(found[1] or 1)
+    number, weighting, response, *point = found.groups()
+    factor = float(number or 1)
     if not 0 < factor <= _LARGEST:
-        raise ValueError(f"factor of a response must be above 0 and up to {_LARGEST:g}, got {found[1]}")
+        raise ValueError(f"factor of a response must be above 0 and up to {_LARGEST:g}, got {number}")
     if weighting is not None:
         weightings.by_name(weighting)
         if "acceleration" not in response:
             raise ValueError(f"weighting must be of an acceleration, got {weighting} of {response}")
-    if found[4] is not None:
-        return Term(_at_point(found[4], found[5]), weighting, factor)
+    if None not in point:
+        return Term(_at_point(*point), weighting, factor)
     checks.one_of("response", response, vehicle.meanings)
     return Term(response, weighting, factor)

@@ -4,9 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
-from ..quantities import Complex, Real
+from ..quantities import Complex, Integer, Real
 from .ports import Ports
 
 
@@ -17,15 +16,12 @@ class OneStrut(NamedTuple):
     ``P11 + P12 D (1 - P22 D)^-1 P21 = (a + b D) / (1 + c D)``, where a = P11, b = P12 P21 - P11 P22 and
     c = -P22. Both |a + b D|^2 and |1 + c D|^2 are linear in the powers 1, K, C, K^2, C^2 of a design. Only
     numerators that are not zero at every frequency are kept.
-
-    The denominator (5, n) has the coefficients of |1 + c D|^2 at n frequencies, the numerators (q, n) those of
-    |a + b D|^2 times a density, `term` and `power` (q,) what each belongs to, of `terms` in all.
     """
 
-    denominator: Real
-    numerators: Real
-    term: NDArray[np.int64]
-    power: NDArray[np.int64]
+    denominator: Real  # (5, n), coefficients of |1 + c D|^2 at n frequencies
+    numerators: Real  # (q, n), those of |a + b D|^2 times a density
+    term: Integer  # (q,), the term of each numerator
+    power: Integer  # (q,), its power of a design
     terms: int
 
     # The sums over frequencies may be taken in whatever order suits the processor, the same one for every design;
@@ -54,8 +50,7 @@ class OneStrut(NamedTuple):
     def around(cls, ports: Ports, omega: Real, densities: Real) -> "OneStrut":
         """Take the ports of a plant with one strut on one road, at angular frequencies `omega` (n,) [rad/s].
 
-        The squared magnitude of each term is integrated with its density (k, n): spectrum of the road, squared
-        weighting and quadrature weight.
+        Each density (k, n) is the product of the road's spectrum, squared weighting and quadrature weight.
         """
         p21, p22 = ports.h[:, -1, 0], ports.h[:, -1, 1]
         numerators = np.array(

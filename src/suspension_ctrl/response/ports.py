@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
+import control
 import numpy as np
 
 from ..quantities import Complex, Real
@@ -28,25 +29,29 @@ class Ports(NamedTuple):
     ) -> "Ports":
         """Take it at `f` (n,) [Hz], ascending, around struts with the coefficients `values`, if given.
 
-        They are closed in state space: a body on springs does not drift away at low frequency, which would cost
-        digits. A response may be asked for more than once.
+        These are closed in state space: a body on springs does not drift at low frequency and cost digits.
         """
-        omega = 2 * np.pi * f
-        q, r = len(vehicle.struts), len(vehicle.contact_points)
+        q = len(vehicle.struts)
         distinct = list(dict.fromkeys(responses))
         plant = around(vehicle.plant(distinct), gains_by_order(vehicle.parameters, values or {}, q))
-        h = np.moveaxis(plant.frequency_response(omega, squeeze=False).frdata, 2, 0)
-        h = h[:, [*map(distinct.index, responses), *range(len(distinct), len(distinct) + q)]]
-        roads, struts = h[:, :, :r], h[:, :, -q:]
-        if h.shape[2] > r + q:  # damped tyres follow the road's rate too
-            roads = roads + 1j * omega[:, None, None] * h[:, :, r : 2 * r]
-        return cls(np.concatenate([roads, struts], axis=2), len(responses), r)
+        rows = [*map(distinct.index, responses), *range(len(distinct), len(distinct) + q)]
+        return cls(paths(plant, f)[:, rows], len(responses), len(vehicle.contact_points))
 
     def around(self, stiffness: Complex) -> "Ports":
         """Return the ports around struts of this dynamic stiffness D (n, q, q): h + h_2 (1 - D h_22)^-1 D h_1."""
         h, m, r = self
         loop = np.eye(stiffness.shape[1]) - stiffness @ h[:, m:, r:]
         return self._replace(h=h + h[:, :, r:] @ np.linalg.solve(loop, stiffness @ h[:, m:]))
+
+
+def paths(system: control.LTI, f: Real) -> Complex:
+    """Return H(w) (n, outputs, inputs) at ascending f (n,) [Hz]; rates of roads are added to the roads."""
+    omega = 2 * np.pi * f
+    h = np.moveaxis(system.frequency_response(omega, squeeze=False).frdata, 2, 0)
+    if r := sum(name.endswith("_rate") for name in system.input_labels):
+        roads = h[:, :, :r] + 1j * omega[:, None, None] * h[:, :, r : 2 * r]
+        h = np.concatenate([roads, h[:, :, 2 * r :]], axis=2)
+    return h
 
 
 def dynamic_stiffness(gains: Real, omega: Real) -> Complex:

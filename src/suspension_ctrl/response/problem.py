@@ -1,6 +1,5 @@
 """The ride problem: measures of a vehicle over coefficients of its struts, in load cases, within limits."""
 
-import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -12,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import checks
-from ..quantities import FrozenMapping, Real, Record
+from ..quantities import FrozenMapping, Real, Record, wrapped
 from ..vehicles.vehicle import Struts, Vehicle
 from .bounds import checked_bounds
 from .load_case import LoadCase, Road, load_cases
@@ -43,8 +42,8 @@ class RideProblem(Record):
     speed : float, optional
         Vehicle speed V [m/s].
     weighting : str, control.LTI or None
-        Weighting of ``ACC``: a filter of ISO 2631 (``"Wk"``, ``"Wb"``, ...) or a table (``"Wk-table"``,
-        ``"Wb-table"``), or a system of one input and one output; None for no weighting.
+        Weighting of ``ACC``: a filter of ISO 2631 (``"Wk"``, ``"Wb"``), a table (``"Wk-table"``, ``"Wb-table"``)
+        or a system of one input and one output; None for no weighting.
     band : (float, float)
         Frequencies over which the spectra are integrated [Hz].
     lower, upper : sequence of float, optional
@@ -55,17 +54,17 @@ class RideProblem(Record):
     struts : mapping of str to float, optional
         Coefficients that do not vary.
     measures : sequence of str or Measure
-        The objectives, written as in `measures`, or a `Measure` of your own.
+        The objectives, texts as in `measures` or a `Measure`.
     constraints : sequence of str
-        Limits on measures: ``"SWS <= 0.0287"``, in the worst load case; on one of your own by its name.
+        Limits on measures in the worst load case, ``"SWS <= 0.0287"``; on a `Measure` by its name.
     cases : sequence of LoadCase, optional
-        Several load cases; beside them a vehicle, road or speed takes the place of theirs. An objective is the
-        root mean square over them by their shares, of handling and your own the mean.
+        Several load cases; a vehicle, road or speed replaces theirs. An objective is the root mean square over
+        them by their shares, of handling and a `Measure` the mean.
     worst_case : bool
         Whether in place of that the worst case counts.
     nodes : int, optional
-        Quadrature nodes over the band; as many as resolve every resonance if not given. With 256, taken for the
-        paper's Table 1, the objectives over its whole box are within 1e-9 of the integral (relative).
+        Quadrature nodes over the band; by default as many as resolve every resonance. The paper's Table 1 takes
+        256, with which the objectives over its whole box are within 1e-9 of the integral (relative).
 
     Raises
     ------
@@ -140,12 +139,12 @@ class RideProblem(Record):
         """Speed in every load case [m/s]."""
         return self._common("speed")
 
-    @property
+    @cached_property
     def lower(self) -> tuple[float, ...]:
         """Lower bounds of the variables."""
         return tuple(low for low, _ in self.bounds.values())
 
-    @property
+    @cached_property
     def upper(self) -> tuple[float, ...]:
         """Upper bounds of the variables."""
         return tuple(high for _, high in self.bounds.values())
@@ -164,19 +163,19 @@ class RideProblem(Record):
     def units(self) -> Mapping[str, str]:
         """Unit of each variable and each objective by name."""
         of_struts = {parameter.name: parameter.unit for parameter in self.cases[0].vehicle.parameters}
-        judged = {score.measures[0].name: score.measures[0].unit for score in self._scores.scores}
+        first = [score.measures[0] for score in self._scores.scores[: len(self.measures)]]
         return FrozenMapping(
-            {name: of_struts[name] for name in self.variables} | {name: judged[name] for name in self.objectives}
+            {name: of_struts[name] for name in self.variables} | {measure.name: measure.unit for measure in first}
         )
 
     @cached_property
     def weighted(self) -> bool:
         """Whether a measure depends on the weighting of the problem."""
-        terms = [
-            [case_measure(measure, self.cases[0], weighting).terms for measure in self.measures]
-            for weighting in (None, self.weighting)
-        ]
-        return terms[0] != terms[1]
+        case = self.cases[0]
+        return any(
+            case_measure(one, case, None).terms != case_measure(one, case, self.weighting).terms
+            for one in self.measures
+        )
 
     def evaluate(self, designs: ArrayLike) -> Real:
         """Return the objectives and constraints of many designs.
@@ -224,8 +223,7 @@ class RideProblem(Record):
             *(f"{type(case.vehicle).__name__} at {case.speed:g} m/s" for case in self.cases),
             f"{self.band[0]:g} to {self.band[1]:g} Hz, weighting {self.weighting}, {self.nodes} nodes",
         ]
-        text = f"RideProblem({'; '.join(parts)})"
-        return "\n".join(textwrap.wrap(text, 88, subsequent_indent="    ", max_lines=6, placeholder=" ..."))
+        return wrapped(f"RideProblem({'; '.join(parts)})")
 
     def _common(self, name: str) -> Any:
         first, *others = (getattr(case, name) for case in self.cases)
@@ -260,14 +258,14 @@ class RideProblem(Record):
         if len(set(self.objectives)) < max(2, len(self.measures)):
             raise ValueError(f"measures must be 2 or more with different names, got {self.measures!r}")
         for names, what in ((self.objectives, "measures"), (self.constraints, "constraints")):
-            if len(set(names) | set(self.variables)) < len(names) + len(self.variables):
+            if len({*names, *self.bounds}) < len(names) + len(self.bounds):
                 raise ValueError(f"{what} must have names of their own, got {list(names)}")
         middle = np.add(self.lower, self.upper) / 2
         scores = [*map(score, self.measures), *map(limited, self.constraints)]
         own = any(isinstance(measure, Measure) for measure in self.measures)
         if not own and all(one.measures[0].values for one in scores):
             raise ValueError(f"measures must hold one of the ride, got {self.measures!r}")
-        variables = dict(zip(self.variables, middle.tolist(), strict=True))
+        variables = dict(zip(self.bounds, middle.tolist(), strict=True))
         return Scores(self.cases, scores, variables, self.struts, self.band)
 
     def _error(self, nodes: int) -> float:

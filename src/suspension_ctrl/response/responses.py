@@ -12,6 +12,7 @@ from ..vehicles.assembly import ResponseName
 from ..vehicles.vehicle import Setting, Vehicle
 from .load_case import LoadCase, Road
 from .measures import CaseMeasure, Measure, Term, case_measure
+from .ports import paths
 from .scores import NODES, RESOLVED, Score, Scores
 from .weightings import Weighting, checked
 
@@ -85,7 +86,7 @@ def _diverging(case: LoadCase, setting: Setting, terms: Iterable[Term]) -> set[R
     closed = case.vehicle.closed(setting, responses=responses)
     spectra = np.array(list(response_psds(closed, _LOWEST, case.cross_spectrum(_LOWEST)).values()))
     rising = spectra[:, 0] >= spectra[:, 1] * _LOWEST[1] / _LOWEST[0]
-    return {name for name, is_rising in zip(responses, rising & (spectra[:, 0] > 0), strict=True) if is_rising}
+    return {responses[i] for i in np.flatnonzero(rising & (spectra[:, 0] > 0))}
 
 
 def _resolved(scores: Scores, design: Real, diverging: set[ResponseName]) -> tuple[int, dict[Term, float]]:
@@ -105,24 +106,10 @@ def _note(one: CaseMeasure, diverging: set[ResponseName], off: Mapping[Term, flo
     return "" if worst < RESOLVED else f"not resolved: {nodes} and {2 * nodes} nodes differ by {worst:.1g}"
 
 
-def road_paths(closed: control.LTI, f: Real) -> Complex:
-    """Return H(w) (n, m, r) of a closed vehicle from roads to responses [unit/m], at ascending f (n,) [Hz].
-
-    The rate of the road is an input of its own where a tyre is damped.
-    """
-    omega = 2 * np.pi * f
-    h = np.moveaxis(closed.frequency_response(omega, squeeze=False).frdata, 2, 0)
-    rates = sum(name.endswith("_rate") for name in closed.input_labels)
-    roads = h.shape[2] - rates
-    if rates:
-        h = h[:, :, :roads] + 1j * omega[:, None, None] * h[:, :, roads:]
-    return h
-
-
 def frequency_responses(closed: control.LTI, f: Real, delays: Sequence[float] = (0.0,)) -> dict[str, Complex]:
     """Return H(w) (n,) by response [unit/m] to a road that is alike on all tracks, met late by r delays [s]."""
     late = np.exp(-2j * np.pi * f[:, None] * np.asarray(delays))
-    h = (road_paths(closed, f) * late[:, None, :]).sum(axis=2)
+    h = (paths(closed, f) * late[:, None, :]).sum(axis=2)
     return dict(zip(closed.output_labels, h.T, strict=True))
 
 
@@ -143,7 +130,7 @@ def response_psds(closed: control.LTI, f: Real, road: Real | Complex) -> dict[st
     dict of str to (n,) ndarray
         One-sided spectrum by response [response unit^2/Hz].
     """
-    h = road_paths(closed, f)
+    h = paths(closed, f)
     psd = np.einsum("nmi,nij,nmj->mn", h, road.reshape(len(f), h.shape[2], h.shape[2]), h.conj()).real
     return dict(zip(closed.output_labels, psd, strict=True))
 

@@ -22,15 +22,9 @@ _COARSEST = 0.3
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class RoughnessIndex(Record):
-    """International Roughness Index of a profile.
+    """International Roughness Index of a profile."""
 
-    Parameters
-    ----------
-    tracks : (t,) tuple of float
-        Index of each track [mm/m].
-    """
-
-    tracks: tuple[float, ...] = field(metadata=unit("mm/m"))
+    tracks: tuple[float, ...] = field(metadata=unit("mm/m"))  # by track
 
     @property
     def mean(self) -> float:

@@ -8,7 +8,7 @@ import numpy as np
 from numba import literal_unroll
 from numba.extending import register_jitable
 
-from ..quantities import Bool, Real
+from ..quantities import Bool, Integer, Real
 from ..vehicles.feedback import gains_by_order
 from ..vehicles.vehicle import assembled
 from .load_case import LoadCase
@@ -36,19 +36,15 @@ class Score(NamedTuple):
 
 
 class Kernel(NamedTuple):
-    """Scores of designs as data: of c load cases, factors (s, k) of the mean squares of each and its share.
-
-    Of each score (s,), whether the largest of the terms and of the cases counts, or the sum and the mean, and what
-    the root of that is multiplied with and what is added.
-    """
+    """Scores of designs as data, of c load cases."""
 
     cases: tuple[Case, ...]
-    squares: tuple[Real, ...]
-    shares: Real
-    worst_term: Bool
-    worst_case: Bool
-    scale: Real
-    offset: Real
+    squares: tuple[Real, ...]  # (s, k) in each case, factors of its mean squares
+    shares: Real  # (c,), sum 1
+    worst_term: Bool  # (s,), whether the largest of the terms counts, or their sum
+    worst_case: Bool  # (s,), whether the largest of the cases counts, or their mean
+    scale: Real  # (s,), factor of the root of that
+    offset: Real  # (s,), added last
 
     def scores(self, designs: Real) -> Real:
         """Return the scores (p, s) of designs (p, v), to the last bit those of each one alone.
@@ -103,27 +99,25 @@ class Scores:
     ) -> None:
         self.cases, self.scores, self.variables, self.band = cases, scores, variables, band
         self.settings = [case.vehicle.coefficients({**fixed, **variables}) for case in cases]
+        shares = np.array([case.share for case in cases])
+        self.shares = shares / shares.sum()
         self._kernels: dict[int, Kernel] = {}
 
     @cached_property
     def terms(self) -> list[tuple[Term, ...]]:
         """The terms to be integrated in each case."""
-        every = [
-            [term.integral for score in self.scores for term in score.measures[c].terms] for c in self._numbers
-        ]
-        return [tuple(dict.fromkeys(terms)) for terms in every]
+        by_case = zip(*(score.measures for score in self.scores), strict=True)
+        return [tuple(dict.fromkeys(term.integral for one in each for term in one.terms)) for each in by_case]
 
     def kernel(self, nodes: int) -> Kernel:
         """Return the scores as data of a compiled function; those of measures with a function are offsets."""
         if nodes not in self._kernels:
             cases = zip(self.cases, self.terms, self.settings, strict=True)
-            shares = np.array([case.share for case in self.cases])
-            first = [score.measures[0] for score in self.scores]
             self._kernels[nodes] = Kernel(
                 tuple(case_of(*case, list(self.variables), self.band, nodes) for case in cases),
-                tuple(self._squares(c) for c in self._numbers),
-                shares / shares.sum(),
-                np.array([measure.worst for measure in first]),
+                tuple(self._squares(c) for c in range(len(self.cases))),
+                self.shares,
+                np.array([score.measures[0].worst for score in self.scores]),
                 np.array([score.worst_case for score in self.scores]),
                 np.array([score.scale for score in self.scores]),
                 np.array([score.offset for score in self.scores]),
@@ -137,7 +131,12 @@ class Scores:
 
     def evaluate(self, designs: Real, nodes: int) -> Real:
         """Return the scores (p, s) of designs (p, v)."""
-        scores = self.kernel(nodes).scores(designs)
+        kernel = self.kernel(nodes)
+        if self._simple:
+            which, factor = self._simple
+            found = kernel.cases[0].mean_squares(designs).T[which]
+            return np.asarray(kernel.scale * np.sqrt(factor * found).T + kernel.offset)
+        scores = kernel.scores(designs)
         for column, score in enumerate(self.scores):
             if score.measures[0].values:
                 scores[:, column] = score.scale * self._by_function(score, designs) + score.offset
@@ -148,9 +147,13 @@ class Scores:
         both = zip(self.kernel(nodes).cases, self.kernel(2 * nodes).cases, strict=True)
         return [_change(*(np.sqrt(case.mean_squares(designs)) for case in pair)) for pair in both]
 
-    @property
-    def _numbers(self) -> range:
-        return range(len(self.cases))
+    @cached_property
+    def _simple(self) -> tuple[Integer, Real] | None:
+        """The mean square (s,) and its factor (s, 1) of each score, None unless of a single case and term."""
+        squares = self._squares(0)
+        if len(self.cases) > 1 or (np.count_nonzero(squares, axis=1) != 1).any():
+            return None
+        return squares.argmax(axis=1), squares.max(axis=1, keepdims=True)
 
     def _squares(self, c: int) -> Real:
         """Return the factor (s, k) of each mean square of a case in each score."""
@@ -172,10 +175,9 @@ class Scores:
 
     def _by_function(self, score: Score, designs: Real) -> Real:
         """Return a measure with a function (p,): its mean over the cases by their shares, or the worst."""
-        by_case = np.array([self._values(c, score.measures[c], designs) for c in self._numbers])
-        shares = np.array([case.share for case in self.cases])
+        by_case = np.array([self._values(c, measure, designs) for c, measure in enumerate(score.measures)])
         if not score.worst_case:
-            return np.asarray(shares / shares.sum() @ by_case)
+            return np.asarray(self.shares @ by_case)
         sign = np.sign(score.scale)
         return np.asarray(sign * (sign * by_case).max(axis=0))
 
@@ -190,12 +192,11 @@ class Scores:
         """Yield for each of the coefficients (p, c) the frequencies (n,) [Hz] and the spectra of all responses."""
         case, known, (low, high) = self.cases[c], self.settings[c], self.band
         f = low + (high - low) * (np.arange(_PARTS) + 0.5) / _PARTS
-        parameters, names = case.vehicle.parameters, case.vehicle.responses
-        ports, roads = Ports.of(case.vehicle, f, names, known), case.cross_spectrum(f)
+        vehicle, names = case.vehicle, case.vehicle.responses
+        ports, roads = Ports.of(vehicle, f, names, known), case.cross_spectrum(f)
         for row in coefficients - np.array(list(known.values())):
-            gains = gains_by_order(
-                parameters, dict(zip(known, row.tolist(), strict=True)), len(case.vehicle.struts)
-            )
+            added = dict(zip(known, row.tolist(), strict=True))
+            gains = gains_by_order(vehicle.parameters, added, len(vehicle.struts))
             h = ports.around(dynamic_stiffness(gains, 2 * np.pi * f)).h[:, : ports.m, : ports.r]
             yield f, dict(zip(names, np.einsum("nmi,nij,nmj->mn", h, roads, h.conj()).real, strict=True))
 
