@@ -14,14 +14,9 @@ from ..vehicles.assembly import StrutParameter
 from .many_struts import ManyStruts
 from .ports import Ports
 
-_NOTHING = 1e-11
-"""Share of the largest value of its kind at the same frequency below which a coupling is rounding."""
-
-_ALIKE = 1e-9
-"""Share of a response by which an equal one may differ."""
-
-_ROUNDING = 1e-13
-"""Share of the road's power, and of the largest value of a response, below which a difference is rounding."""
+_NOTHING = 1e-11  # of the largest value of its kind at the same frequency: a smaller coupling is rounding
+_ALIKE = 1e-9  # of a response: an equal one may differ by it
+_ROUNDING = 1e-13  # of the road's power and the largest value of a response: a smaller difference is rounding
 
 
 class Variables(NamedTuple):

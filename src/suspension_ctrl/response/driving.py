@@ -100,15 +100,13 @@ def _drive(
     wheels = _Wheels.on(profile, points, periodic)
     dt = profile.step / speed
     states = _states(model, wheels, dt, periodic)
-    names = closed.output_labels
+    columns = column_headers(closed.output_labels, {name: signal_unit(name) for name in closed.output_labels})
     responses = states @ model.c.T + wheels.elevation() @ model.d.T + wheels.rise() / dt @ model.e.T
     return pd.DataFrame(
         {
             "time [s]": dt * np.arange(len(states)),
             "distance [m]": wheels.start + profile.step * np.arange(len(states)),
-            **dict(
-                zip(column_headers(names, {name: signal_unit(name) for name in names}), responses.T, strict=True)
-            ),
+            **dict(zip(columns, responses.T, strict=True)),
         }
     )
 

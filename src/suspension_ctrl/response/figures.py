@@ -16,8 +16,7 @@ from .weightings import BANDS, by_name
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")  # Okabe and Ito: told apart by colour-blind readers
 
-_MOST_IN_LEGEND = 12
-"""Designs beyond which a legend would cover the curves; curves.csv names them all."""
+_MOST_IN_LEGEND = 12  # designs: of more, a legend would cover the curves; curves.csv names them all
 
 
 def colours(count: int) -> Sequence[Any]:

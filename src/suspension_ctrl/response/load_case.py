@@ -78,9 +78,8 @@ class LoadCase(Record):
         """Return the road's spectrum (n,) under a wheel [m^2/Hz], for `f` (n,) [Hz]."""
         spectrum = np.asarray(self.road.psd(f, self.speed), dtype=float)
         if spectrum.shape != f.shape or not (np.isfinite(spectrum) & (spectrum >= 0)).all():
-            raise ValueError(
-                f"psd of the road must return {f.size} finite values >= 0 m^2/Hz, got shape {spectrum.shape}"
-            )
+            wanted = f"{f.size} finite values >= 0 m^2/Hz"
+            raise ValueError(f"psd of the road must return {wanted}, got shape {spectrum.shape}")
         return spectrum
 
     def cross_spectrum(self, f: Real) -> Complex:

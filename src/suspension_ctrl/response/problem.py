@@ -19,8 +19,7 @@ from .measures import Measure, case_limit, case_measure, name_of
 from .scores import NODES, RESOLVED, Kernel, Score, Scores
 from .weightings import Weighting, checked
 
-_CORNERS = 64
-"""Corners of the box at which the nodes are judged; of a box with more, so many drawn at random."""
+_CORNERS = 64  # at most, at which the nodes are judged; of a box with more, so many drawn at random
 
 
 class _Found(int):

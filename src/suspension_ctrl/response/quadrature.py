@@ -9,8 +9,7 @@ from scipy.special import roots_legendre
 from .. import checks
 from ..quantities import Real
 
-_LEAST_PER_PANEL = 16
-"""Nodes that a panel needs for 1e-9 where a slow pole, K/C of a soft and heavily damped strut, lies beside it."""
+_LEAST = 16  # nodes of a panel for 1e-9 beside a slow pole, K/C of a soft and heavily damped strut
 
 
 def frequency_nodes(band: tuple[float, float], nodes: int, breakpoints: Iterable[float] = ()) -> tuple[Real, Real]:
@@ -25,7 +24,7 @@ def frequency_nodes(band: tuple[float, float], nodes: int, breakpoints: Iterable
     checks.at_least("nodes", nodes, 2)
     edges = np.sqrt([low, *(f for f in sorted(breakpoints) if low < f < high), high])
     panels = edges.size - 1
-    x, w = roots_legendre(nodes if panels == 1 else max(_LEAST_PER_PANEL, -(-nodes // panels)))
+    x, w = roots_legendre(nodes if panels == 1 else max(_LEAST, -(-nodes // panels)))
     f, weight = zip(*(_panel(x, w, start, end) for start, end in pairwise(edges)), strict=True)
     return np.concatenate(f), np.concatenate(weight)
 

@@ -19,8 +19,7 @@ from .weightings import Weighting, checked
 if TYPE_CHECKING:
     import pandas as pd
 
-_LOWEST = np.array([1e-3, 2e-3])
-"""Frequencies [Hz] between which a spectrum shows its power of frequency towards 0 Hz."""
+_LOWEST = np.array([1e-3, 2e-3])  # Hz, between which a spectrum shows its power of frequency towards 0 Hz
 
 
 def ride(

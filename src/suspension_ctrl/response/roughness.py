@@ -12,12 +12,9 @@ from ..vehicles.cars import QuarterCar
 
 SPEED = 80 / 3.6
 """Speed of the reference quarter car [m/s]."""
-_BASE = 0.25
-"""Length over which a tyre averages the profile [m]."""
-_START = 11.0
-"""Length whose mean slope the car begins with [m]: half a second of driving."""
-_COARSEST = 0.3
-"""Longest step of a profile [m]."""
+_BASE = 0.25  # length over which a tyre averages the profile [m]
+_START = 11.0  # length whose mean slope the car begins with [m]: half a second of driving
+_COARSEST = 0.3  # longest step of a profile [m]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -33,17 +30,10 @@ class RoughnessIndex(Record):
 
 
 def golden_car() -> control.StateSpace:
-    """Return the reference quarter car, with masses per mass of the body.
+    """Return the golden car from ``road`` to ``suspension_travel``, heights [m] or slopes [m/m], per body mass.
 
-    Tyre 653 1/s^2, spring 63.3 1/s^2, damper 6.0 1/s and wheel 0.15, the golden car of [1]_ and [2]_: from
-    ``road`` to ``suspension_travel`` in the same unit, elevations [m] or, as it is linear, slopes [m/m].
-
-    References
-    ----------
-    .. [1] M. W. Sayers, "On the calculation of International Roughness Index from longitudinal road profile",
-       Transportation Research Record 1501 (1995).
-    .. [2] ASTM E1926, Standard practice for computing International Roughness Index of roads from longitudinal
-       profile measurements.
+    M. W. Sayers, "On the calculation of International Roughness Index from longitudinal road profile",
+    Transportation Research Record 1501 (1995); ASTM E1926.
     """
     car = QuarterCar(body_mass=1.0, wheel_mass=0.15, tyre_stiffness=653.0)
     return car.closed(spring=63.3, damper=6.0)["suspension_travel", "road"]
@@ -73,16 +63,11 @@ def international_roughness_index(profile: Profile) -> RoughnessIndex:
     ValueError
         If the profile is too short or its step too long.
     """
-    step = profile.step
+    step, name = profile.step, "a profile for the roughness index"
     if step > _COARSEST * (1 + 1e-9):
-        raise ValueError(
-            f"a profile for the roughness index must have steps of at most {_COARSEST} m, got {step:g} m"
-        )
-    length = step * (profile.distance.size - 1)
-    if length < _START + _BASE:
-        raise ValueError(
-            f"a profile for the roughness index must be at least {_START + _BASE} m long, got {length:g} m"
-        )
+        raise ValueError(f"{name} must have steps of at most {_COARSEST} m, got {step:g} m")
+    if (length := step * (profile.distance.size - 1)) < _START + _BASE:
+        raise ValueError(f"{name} must be at least {_START + _BASE} m long, got {length:g} m")
     base = max(math.floor(round(_BASE / step, 9) + 0.5), 1)  # half up, as in Sayers' program
     slope = (profile.height[base:] - profile.height[:-base]) / (base * step)
     start = round(_START / step)

@@ -18,12 +18,9 @@ from .ports import Ports, dynamic_stiffness
 
 RESOLVED = 1e-6
 """Largest relative change of a root mean square that twice the nodes may make."""
-
 NODES = (256, 384, 512, 768, 1024, 2048, 4096)
 """Numbers of nodes to choose from."""
-
-_PARTS = 1000
-"""Equal parts of the band, in whose middles a user's own measure gets spectra."""
+_PARTS = 1000  # equal parts of the band, in whose middles a user's own measure gets spectra
 
 
 class Score(NamedTuple):
