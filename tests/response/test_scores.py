@@ -38,6 +38,18 @@ def test_a_score_is_made_of_terms_and_cases(mean_squares, worst_term, worst_case
     assert judged.compiled
 
 
+def test_a_single_case_of_one_term_each_is_scored_as_any_other_to_the_last_bit():
+    doubled = Term("body_acceleration", None, 1.0)
+    each = [
+        Score((CaseMeasure("x", "", (term,), worst_term),), worst_case, -3.0, 0.5)
+        for term, worst_term, worst_case in ((B, False, False), (A, True, False), (doubled, False, True))
+    ]
+    judged = Scores(CASES[:1], each, VARIABLES, {}, (0.0, 20.0))
+    found = judged.evaluate(DESIGNS, 256)
+    np.testing.assert_array_equal(found, judged.kernel(256).scores(DESIGNS))
+    assert len(set(found.ravel().tolist())) == found.size
+
+
 def test_cases_may_have_different_terms(mean_squares):
     each = tuple(CaseMeasure("x", "", terms) for terms in ((A,), (A, B)))
     squares = mean_squares * [4.0, 0.25]
