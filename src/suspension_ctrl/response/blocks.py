@@ -120,11 +120,10 @@ def _joined(blocks: Sequence[_Block], m: int, omega: Real, variables: Variables)
     blocks = [block.only(kept) for block in blocks]
     sizes = [(*block.parts[1].shape[:2], block.response.size) for block in blocks]
     v, n = variables.origin.size, omega.size
+    rows = [part.reshape(-1, 2, n) for block in blocks for part in block.parts]
     return ManyStruts(
         omega,
-        np.concatenate(
-            [np.empty((0, 2, n)), *(part.reshape(-1, 2, n) for block in blocks for part in block.parts)]
-        ),
+        np.concatenate([np.empty((0, 2, n)), *rows]),
         np.array(sizes, dtype=np.int64).reshape(-1, 3),
         np.concatenate([np.empty(0, dtype=np.int64), *(channel[block.response] for block in blocks)]),
         channel.astype(np.int64),

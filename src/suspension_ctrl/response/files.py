@@ -65,8 +65,8 @@ def _settings(table: Table) -> dict[str, Any]:
 
 def _bounds_and_struts(
     table: Table, file: VehicleFile, vehicle: Vehicle
-) -> tuple[dict[str, Any], dict[str, float]]:
-    """Return the bounds (low, high) of coefficients that vary and the values of those that do not."""
+) -> tuple[dict[str, tuple[float, float]], dict[str, float]]:
+    """Return the bounds of coefficients that vary and the values of those that do not."""
     own = "bounds" in table.content
     bounds = read_bounds(table.table("bounds").flat(), vehicle) if own else dict(file.bounds)
     if not bounds:

@@ -146,7 +146,7 @@ class Scores:
 
     @cached_property
     def _simple(self) -> tuple[Integer, Real] | None:
-        """The mean square (s,) and its factor (s, 1) of each score, None unless of a single case and term."""
+        """The mean square (s,) and its factor (s, 1) in each score, if of one case and one term; else None."""
         squares = self._squares(0)
         if len(self.cases) > 1 or (np.count_nonzero(squares, axis=1) != 1).any():
             return None
