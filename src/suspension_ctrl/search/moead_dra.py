@@ -130,7 +130,6 @@ class MoeadDra:
         size, m = self.population, len(problem.objectives)
         vectors = decomposition.weight_vectors(size, m)
         corners = np.arange(m)  # the unit vectors come first
-        corners = np.arange(m)  # the unit vectors come first
         weights = np.where(vectors == 0, decomposition.ZERO_WEIGHT, vectors) / self._scales(m)
         designs = np.array(toolbox.sample(rng, size), dtype=float)
         values = evaluate_checked(toolbox.evaluate, designs, problem)
