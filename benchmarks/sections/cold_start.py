@@ -7,16 +7,16 @@ from tempfile import TemporaryDirectory
 
 import pandas as pd
 
-CONTROL = "import control"
-IMPORT = f"{CONTROL}; from suspension_ctrl import MoeadDra, Nsga2, RideProblem, minimise"
+IMPORT = "from suspension_ctrl import MoeadDra, Nsga2, RideProblem, minimise"
 _PROBLEM = f"{IMPORT}; from suspension_ctrl.paper import experiment; problem = experiment.ride_problem()"
 PROGRAMS = {
-    "import": IMPORT,
+    "import": "import suspension_ctrl",
     "evaluate": f"{_PROBLEM}; problem.evaluate([[2e4, 1500.0]])",
     "Nsga2": f"{_PROBLEM}; minimise(problem, Nsga2(population=500), iterations=10, seed=1)",
     "MoeadDra": f"{_PROBLEM}; minimise(problem, MoeadDra(population=500), iterations=10, seed=1)",
 }
-"""What is run in a process of its own; the searches are the paper's, of 5,500 and 1,500 evaluations."""
+"""What is run after `import control` in a process of its own; the searches are the paper's, of 5,500 and 1,500
+evaluations."""
 
 EMPTY, FILLED = "empty", "filled"
 
@@ -24,28 +24,29 @@ EMPTY, FILLED = "empty", "filled"
 def measure(repeats: int) -> pd.DataFrame:
     """Return one row per program, repeat and state of the store: contender, repeat, store, seconds, multiple.
 
-    `multiple` is the processor time beyond that of `import control`, in multiples of it; the latter is the mean of
-    a process before and one after.
+    `seconds` is the processor time beyond `import control`, `multiple` the same over that import's.
     """
-    processor_seconds(CONTROL, None)  # brings the files into memory
     rows = []
     for repeat in range(1, repeats + 1):
         for name, program in PROGRAMS.items():
             with TemporaryDirectory() as folder:
                 for store in (EMPTY, FILLED):
-                    before = processor_seconds(CONTROL, None)
-                    seconds = processor_seconds(program, folder)
-                    control = (before + processor_seconds(CONTROL, None)) / 2
-                    multiple = seconds / control - 1
-                    rows.append((name, repeat, store, seconds, multiple))
+                    control, beyond = processor_seconds(program, folder)
+                    rows.append((name, repeat, store, beyond, beyond / control))
     return pd.DataFrame(rows, columns=["contender", "repeat", "store", "seconds", "multiple"])
 
 
-def processor_seconds(program: str, folder: str | None) -> float:
-    """Return the processor time [s] of a new process that runs a program, numba's store in `folder`."""
-    environment = os.environ | ({} if folder is None else {"NUMBA_CACHE_DIR": folder})
-    command = [sys.executable, "-c", f"{program}; import time; print(time.process_time())"]
-    return float(subprocess.run(command, check=True, capture_output=True, text=True, env=environment).stdout)
+def processor_seconds(program: str, folder: str) -> tuple[float, float]:
+    """Return the processor time [s] of `import control` and of a program after it, numba's store in `folder`."""
+    timed = (
+        f"from time import process_time as t; a = t(); import control; b = t(); {program}; print(b - a, t() - b)"
+    )
+    environment = os.environ | {"NUMBA_CACHE_DIR": folder}
+    done = subprocess.run(
+        [sys.executable, "-c", timed], check=True, capture_output=True, text=True, env=environment
+    )
+    control, beyond = map(float, done.stdout.split())
+    return control, beyond
 
 
 def medians(timings: pd.DataFrame) -> pd.DataFrame:

@@ -24,7 +24,7 @@ from .quadrature import frequency_nodes
 Case = OneStrut | ManyStruts
 
 
-@overload_method(types.BaseNamedTuple, "mean_squares")
+@overload_method(types.BaseNamedTuple, "mean_squares", inline="always")
 def _of_its_class(self: Any, designs: Any) -> Callable[..., Any]:  # noqa: ARG001  # numba matches names
     """Call the method of a case's class in compiled code, which knows no methods of named tuples."""
     method = self.instance_class.mean_squares

@@ -129,7 +129,7 @@ class MoeadDra:
         """Yield the state after the start and after each iteration, without end (Figure 4 of the paper)."""
         size, m = self.population, len(problem.objectives)
         vectors = decomposition.weight_vectors(size, m)
-        corners = np.arange(m)  # the unit vectors come first
+        corners = vectors.argmax(axis=0)  # the unit vectors, wherever they stand
         weights = np.where(vectors == 0, decomposition.ZERO_WEIGHT, vectors) / self._scales(m)
         designs = np.array(toolbox.sample(rng, size), dtype=float)
         values = evaluate_checked(toolbox.evaluate, designs, problem)
