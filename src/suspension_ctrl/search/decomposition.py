@@ -54,9 +54,7 @@ def neighbourhoods(size: int, objectives: int, neighbours: int) -> Integer:
     return frozen_array(cKDTree(weights).query(weights, k=neighbours)[1], dtype=np.int64)
 
 
-@njit(
-    cache=True, no_cfunc_wrapper=True, inline="always"
-)  # a call for each comparison would cost more than what it compares
+@njit(cache=True, inline="always")  # a call for each comparison would cost more than what it compares
 def tchebycheff(objectives: Real, weight: Real, ideal: Real) -> float:
     """Return g(F | lambda) = max_j lambda_j |F_j - z_j|, equation (14), of objectives (m + c,), the first m."""
     g = 0.0
