@@ -2,7 +2,6 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from numba import njit
 
 from functions import dtlz2, zdt1
 from suspension_ctrl import MoeadDra, minimise
@@ -30,14 +29,6 @@ def test_corners_worked_on_every_iteration_and_utilities_in_range(population, pr
     assert len(utilities) == 4
     assert all(((u > 0) & (u <= 1)).all() for u in utilities)
     assert any((u < 1).any() for u in utilities)
-
-
-def halfway(rng, child, parent, lower, upper):
-    repaired = child.copy()
-    for v in range(child.size):
-        if not lower[v] <= child[v] <= upper[v]:
-            repaired[v] = (lower[v] + upper[v]) / 2
-    return repaired
 
 
 def test_steps_are_handed_what_the_definition_says():
@@ -83,22 +74,6 @@ def test_steps_are_handed_what_the_definition_says():
     assert len(before) == 3
     for (_, at_update), (last, _) in pairwise(before):
         np.testing.assert_array_equal(last, at_update)
-
-
-@njit
-def counting_kernel(design, calls):
-    calls[0] += 1
-    return np.array([design[0], design[1], 2.0 - design[0] - design[1]])
-
-
-@njit
-def short_kernel(design):
-    return design[:2].copy()
-
-
-@njit
-def bad_kernel(design):
-    return np.array([np.nan, 1.0, 1.0])
 
 
 @pytest.mark.parametrize("update", ["sequential", "batch"])

@@ -18,13 +18,6 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
-POPULATIONS = (500, 1000)
-ITERATIONS = (10, 20)
-REPEATS = 5
-SWS_LIMIT = 0.0287
-"""Design limit of the suspension working space [m]."""
-
-
 def _table1() -> dict[str, dict[str, str]]:
     return {row["symbol"]: row for row in datafiles.rows("paper/table1_vehicle.csv")}
 
