@@ -11,6 +11,7 @@ IMPORT = "from suspension_ctrl import MoeadDra, Nsga2, RideProblem, minimise"
 _PROBLEM = f"{IMPORT}; from suspension_ctrl.paper import experiment; problem = experiment.ride_problem()"
 PROGRAMS = {
     "import": "import suspension_ctrl",
+    "names": IMPORT,
     "evaluate": f"{_PROBLEM}; problem.evaluate([[2e4, 1500.0]])",
     "Nsga2": f"{_PROBLEM}; minimise(problem, Nsga2(population=500), iterations=10, seed=1)",
     "MoeadDra": f"{_PROBLEM}; minimise(problem, MoeadDra(population=500), iterations=10, seed=1)",
@@ -61,6 +62,7 @@ def goals(timings: pd.DataFrame) -> list[tuple[str, float, float]]:
     beyond = table[FILLED]["MoeadDra"] - table[FILLED]["evaluate"]
     return [
         ("import", 0.1, float(table[FILLED]["import"])),
+        ("import of names", 0.1, float(table[FILLED]["names"])),  # the former alone does next to nothing
         ("first evaluate", 1.2, float(table[EMPTY]["evaluate"])),
         ("first Nsga2", 3.0, float(table[EMPTY]["Nsga2"])),
         ("first MoeadDra", 3.0, float(table[EMPTY]["MoeadDra"])),
