@@ -100,7 +100,7 @@ def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summar
     problem = paper.ride_problem(nodes=settings["nodes"])
     reference = ReferenceFront.of(grid_front(problem, settings["grid"]))
     scaled = searches.scaled_problem(problem, reference)
-    scaled_front = reference.in_own_scale()
+    scaled_front = searches.scaled_front(reference)
     both = {f"{name}, NSGA-II": search for name, search in field.nsga2.items()}
     both |= {f"{name}, MOEA/D": search for name, search in field.moead.items()}
     repeats, limit = settings["repeats"], settings["limit"]

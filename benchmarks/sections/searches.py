@@ -141,6 +141,12 @@ def scaled_problem(problem: RideProblem, reference: ReferenceFront) -> Problem:
     )
 
 
+def scaled_front(reference: ReferenceFront) -> ReferenceFront:
+    """Return the front of `scaled_problem`."""
+    ideal, nadir = 0 * reference.ideal, 0 * reference.nadir + 1
+    return replace(reference, objectives=reference.scaled(reference.objectives), ideal=ideal, nadir=nadir)
+
+
 def to_target(
     searches: Mapping[str, Prepare],
     problem: Minimisable,

@@ -68,7 +68,7 @@ def test_nsga2_of_every_library(field, problem, reference):
 
 def test_moead_of_every_library(field, problem, reference):
     scaled = searches.scaled_problem(problem, reference)
-    front = reference.in_own_scale()
+    front = searches.scaled_front(reference)
     task = peers.Task(scaled, 100, 10, 2)
     for name, prepare in field.moead.items():
         assert 0.9 * task.evaluations <= searches.evaluations(prepare, task) <= task.evaluations, name

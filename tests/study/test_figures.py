@@ -52,10 +52,10 @@ def test_anytime_curves_are_medians_between_quartiles(ax, quality, over):
             assert {tuple(corner) for corner in np.round(np.stack([places, edge], axis=1), 12)} <= corners
 
 
-def test_boxes_reach_from_quartile_to_quartile_of_finite_values(ax):
+def test_boxes_reach_from_quartile_to_quartile_of_finite_values():
     values = {"a": [3.0, 1.0, 2.0, 5.0, 4.0], "b": [20.0, 10.0, np.inf, 30.0]}
     runs = pd.DataFrame([{"algorithm": name, "igd_plus": x} for name, xs in values.items() for x in xs])
-    figures.boxes(ax, runs, "igd_plus")
+    (ax,) = figures.box_panels(runs, ["igd_plus"]).axes
     assert ax.get_ylabel() == "IGD+ [-]"
     assert [label.get_text() for label in ax.get_xticklabels()] == ["a", "b"]
     medians = [
@@ -88,42 +88,6 @@ def test_attainment_is_the_share_of_runs_that_reach_a_place(ax):
         assert share == pytest.approx(attained[0] - attained[1], abs=1e-12)
     assert drawn.get_clim() == (-1, 1)
     assert max(drawn.get_array()) > 0
-
-
-def populations() -> pd.DataFrame:
-    rows = [
-        {"algorithm": name, "population": n, "iterations": 5, "SWS [m]": x, "ACC [m/s^2]": y, "DTL [N]": z}
-        for name in ALGORITHMS
-        for n in (10, 20)
-        for x, y, z in rng.random((n, 3)) * [0.1, 2, 3000]
-    ]
-    return pd.DataFrame(rows)
-
-
-def test_figure_5_shows_every_design_in_the_units_of_its_axes():
-    table = populations()
-    figure = figures.final_populations(table)
-    (left, right) = figure.subfigs
-    for place, n in ((left, 10), (right, 20)):
-        upper, lower = place.axes
-        assert upper.get_title() == f"N = {n}, 5 iterations"
-        assert (upper.get_ylabel(), lower.get_ylabel(), lower.get_xlabel()) == (
-            "ACC [m/s²]",
-            "DTL [kN]",
-            "SWS [m]",
-        )
-        for ax, column, factor in ((upper, "ACC [m/s^2]", 1), (lower, "DTL [N]", 1e-3)):
-            assert [marks.get_label() for marks in ax.collections] == list(ALGORITHMS)
-            for marks, name in zip(ax.collections, ALGORITHMS, strict=True):
-                part = table[(table.algorithm == name) & (table.population == n)]
-                expected = np.stack([part["SWS [m]"], factor * part[column]], axis=1)
-                np.testing.assert_allclose(marks.get_offsets(), expected, rtol=1e-14)
-
-
-def test_a_panel_holds_two_algorithms_at_most(ax):
-    table = pd.concat([populations(), populations().replace({"algorithm": {"a": "c"}})])
-    with pytest.raises(ValueError, match=r"^populations must be of one or two algorithms, got \['a', 'b', 'c'\]$"):
-        figures.final_population_panel(ax, table, "SWS [m]", "DTL [N]")
 
 
 def test_panels_are_as_many_as_asked_for():

@@ -34,8 +34,8 @@ def test_sizes_have_the_names_of_vargha_and_delaney():
 
 def test_holm_of_a_worked_example():
     """0.005 x 4, 0.01 x 3, 0.03 x 2, then 0.04 x 1, but no less than the one before."""
-    adjusted = statistics.holm([0.01, np.nan, 0.04, 0.03, 0.005])
-    np.testing.assert_allclose(adjusted, [0.03, np.nan, 0.06, 0.06, 0.02])
+    adjusted = statistics.holm([0.01, 0.04, 0.03, 0.005])
+    np.testing.assert_allclose(adjusted, [0.03, 0.06, 0.06, 0.02])
 
 
 def test_bootstrap_interval_is_that_of_plain_resampling():

@@ -36,7 +36,7 @@ def test_seconds_are_in_proportion_between_those_timed(timed):
 
 def test_each_lens_takes_the_last_state_within_its_limit(timed):
     """Two iterations: 30 and 14 evaluations; as many as the most, 30; the 3 s of the first, 20."""
-    equal = lenses.at_equal(timed, ["big", "small"], [2], {("big", 10): 10, ("small", 10): 2})
+    equal = lenses.at_equal(timed, [2], {("big", 10): 10, ("small", 10): 2})
     found = equal[equal.seed == 1].set_index(["lens", "algorithm"]).evaluations.to_dict()
     assert found == {
         (lenses.ITERATIONS, "big"): 30, (lenses.ITERATIONS, "small"): 14,
@@ -51,10 +51,10 @@ def test_who_is_first_does_not_depend_on_which_run_is_missing(timed):
     cost = {("big", 10): 10, ("small", 10): 2}
     gap = timed[(timed.algorithm == "small") | (timed.seed == 1)]
     gap = pd.concat([gap[gap.algorithm == "small"], gap[gap.algorithm == "big"]])
-    equal = lenses.at_equal(gap, ["big", "small"], [2], cost)
+    equal = lenses.at_equal(gap, [2], cost)
     time = equal[equal.lens == lenses.TIME].set_index(["algorithm", "seed"]).evaluations
     assert time.to_dict() == {("big", 1): 30, ("small", 0): 20, ("small", 1): 20}
-    none = lenses.at_equal(timed[timed.algorithm == "small"], ["big", "small"], [2], cost)
+    none = lenses.at_equal(timed[timed.algorithm == "small"], [2], cost)
     assert lenses.TIME not in set(none.lens)
     pairs = statistics.pairwise(equal, ["lens"], ["relative_hypervolume"], ["big", "small"])
     assert set(zip(pairs["first"], pairs["second"], strict=True)) == {("big", "small")}
@@ -62,10 +62,11 @@ def test_who_is_first_does_not_depend_on_which_run_is_missing(timed):
 
 def test_time_to_reach_a_quality(timed):
     """1 - 2/e reaches 0.95 at 40 and 1 - 1/e at 20, a thousandth for the seed notwithstanding."""
-    reached = lenses.to_reach(timed, 0.95).set_index(["algorithm", "seed"])
-    assert reached.evaluations.to_dict() == {("big", 0): 40, ("big", 1): 40, ("small", 0): 20, ("small", 1): 20}
-    assert reached.seconds["small", 1] == 3
-    summary = lenses.reached_by(lenses.to_reach(timed, 0.9605)).set_index("algorithm")
+    reached = lenses.to_reach(timed, 0.95).set_index("algorithm")
+    assert reached.runs.to_dict() == reached.reached.to_dict() == {"big": 2, "small": 2}
+    assert reached.evaluations.to_dict() == {"big": 40, "small": 20}
+    assert reached.seconds["small"] == 3
+    summary = lenses.to_reach(timed, 0.9605).set_index("algorithm")
     assert summary.reached.to_dict() == {"big": 1, "small": 2}
     assert np.isnan(summary.evaluations["big"])  # the median of two runs of which one gets there
     assert summary.evaluations["small"] == 26

@@ -34,8 +34,9 @@ def bode(
     import pandas as pd
 
     from .. import checks
+    from ..paper import figures
     from ..paper.experiment import chosen
-    from ..response import curves, figures
+    from ..response import curves
     from ..tables import write_csv, write_figure
     from . import results, terminal
 

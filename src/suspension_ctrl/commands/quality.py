@@ -4,7 +4,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from ..study import figures, lenses, study
-from ..study.findings import CONFIGURATION, Findings
+from ..study.comparison import CONFIGURATION
+from ..study.findings import Findings
 from ..study.store import StoredRun
 from ..study.study import INDICATORS
 from ..tables import write_csv, write_figure, write_table, write_text
@@ -60,7 +61,7 @@ def _draw(request: "Request", found: Findings, store: Mapping[str, StoredRun], p
 def say(found: Findings, target: float) -> None:
     """Print medians, evaluations and time to the target, and the verdict."""
     final = found.medians[found.medians.set == study.POPULATION]
-    kept = [*CONFIGURATION, "algorithm", "evaluations", *INDICATORS]
+    kept = ["lens", *CONFIGURATION, "algorithm", "evaluations", *INDICATORS]
     terminal.show("Final populations, medians", final[kept].rename(columns=SHORT), DECIMALS, keys=4)
     title = f"To {target:g} of the reference hypervolume, medians"
     terminal.show(title, found.reached.rename(columns=SHORT), DECIMALS, keys=3)

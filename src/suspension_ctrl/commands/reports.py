@@ -5,9 +5,10 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from ..paper import figures
 from ..paper import tables as printed
 from ..search.moead_dra import MoeadDra
-from ..study import figures, timing
+from ..study import timing
 from ..study.store import StoredRun
 from ..tables import write_csv, write_figure, write_table
 from . import terminal

@@ -12,7 +12,8 @@ def weighting(out: o.Out = None) -> None:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from ..response import figures, weightings
+    from ..paper import figures
+    from ..response import weightings
     from ..tables import write_csv, write_figure
     from . import results
 

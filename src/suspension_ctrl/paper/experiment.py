@@ -28,12 +28,9 @@ def ride_problem(**changes: Any) -> RideProblem:
     value = {symbol: float(row["value"]) for symbol, row in rows.items() if row["value"]}
     car = QuarterCar(body_mass=value["Mb"], wheel_mass=value["Mw"], tyre_stiffness=value["Kt"])
     road = PowerLawRoad(roughness=value["G"], exponent=value["kappa"])
-    settings: dict[str, Any] = {
-        "speed": value["V"],
-        "band": (float(rows["f"]["lower"]), float(rows["f"]["upper"])),
-        "lower": tuple(float(rows[symbol]["lower"]) for symbol in ("Ks", "Cs")),
-        "upper": tuple(float(rows[symbol]["upper"]) for symbol in ("Ks", "Cs")),
-    }
+    limits = {symbol: (float(rows[symbol]["lower"]), float(rows[symbol]["upper"])) for symbol in ("f", "Ks", "Cs")}
+    lower, upper = zip(limits["Ks"], limits["Cs"], strict=True)
+    settings: dict[str, Any] = {"speed": value["V"], "band": limits["f"], "lower": lower, "upper": upper}
     return RideProblem(car, road, **settings | changes)
 
 
@@ -77,10 +74,7 @@ def chosen(
     Names and files are those of `load_vehicle` and `load_road`, settings further parameters of `RideProblem`.
     """
     papers = ride_problem()
-    if road is not None:
-        settings["road"] = load_road(road)
-    if speed is not None:
-        settings["speed"] = speed
+    settings |= {"road": None if road is None else load_road(road), "speed": speed}
     if vehicle is None:
         return papers.replace(**settings), dict(zip(papers.variables, reference_design(), strict=True))
     file = load_vehicle(vehicle)

@@ -7,9 +7,8 @@ import pandas as pd
 
 from ..quantities import column_headers
 from ..response.problem import RideProblem
-from ..study.comparison import EQUAL_EVALUATIONS, EQUAL_ITERATIONS
+from ..study.comparison import CONFIGURATION, EQUAL_EVALUATIONS, EQUAL_ITERATIONS
 
-CONFIGURATION = ["population", "iterations"]
 ALGORITHMS = {2: "nsga2", 3: "moead-dra"}
 """The published algorithm by the number of its table of times."""
 

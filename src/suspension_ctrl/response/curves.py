@@ -1,17 +1,33 @@
 """Curves of one design over frequency: its responses to the road and their spectra, for figures and tables."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 
-from ..quantities import Real, signal_unit
+from ..quantities import Complex, Real, signal_unit
 from . import weightings
-from .figures import DesignCurves, weighted_name
 from .problem import RideProblem
 from .responses import frequency_responses, natural_frequencies, phase_degrees, response_psds
 
 LOWEST = 0.1  # Hz, of a band from 0 on
+
+
+@dataclass(frozen=True)
+class DesignCurves:
+    """Curves of a design over frequency."""
+
+    label: str
+    f: Real  # (n,) [Hz]
+    responses: Mapping[str, Complex]  # H(w) (n,) from the road
+    densities: Mapping[str, Real]  # spectra (n,) on the road, also of weighted accelerations (`weighted_name`)
+    natural: Real  # (k,) natural frequencies [Hz]
+
+
+def weighted_name(response: str) -> str:
+    """Return the name of an acceleration that is weighted: ``"weighted_acceleration"`` is that of the body."""
+    return f"weighted_{response.removeprefix('body_')}"
 
 
 def frequencies(band: tuple[float, float], points: int) -> Real:

@@ -78,12 +78,6 @@ class ReferenceFront(Record):
             return replace(whole, volume=volume)
         return cls(objectives[evenly_spread(objectives, cls.SAMPLE)], ideal, nadir, volume)
 
-    def in_own_scale(self) -> "ReferenceFront":
-        """Return this front with its objectives scaled to it."""
-        return replace(
-            self, objectives=self.scaled(self.objectives), ideal=0 * self.ideal, nadir=0 * self.nadir + 1
-        )
-
     def scaled(self, objectives: ArrayLike) -> Real:
         """Return objectives (n, m) with this front's ideal point at 0 and its nadir at 1."""
         return (np.asarray(objectives, dtype=float) - self.ideal) / (self.nadir - self.ideal)

@@ -28,6 +28,7 @@ ALGORITHMS: dict[str, Callable[..., Optimiser]] = {
 """Optimisers by name. Raw MOEA/D-DRA takes equation (14) to the letter, in the paper's units (DTL in kN)."""
 
 EQUAL_ITERATIONS, EQUAL_EVALUATIONS = "iterations", "evaluations"
+CONFIGURATION = ["population", "iterations"]
 
 
 def optimiser(algorithm: str, population: int) -> Optimiser:
@@ -80,12 +81,15 @@ class Comparison(Record):
         An algorithm that spends fewer evaluations than another in equal iterations runs once more with equal
         evaluations, up to a part of an iteration.
         """
-        repeats = range(1, self.repeats + 1)
-        return [
-            self._timed(name, population, count, repeat, budget, evaluations)
-            for population, count, repeat in product(self.populations, self.iterations, repeats)
-            for name, budget, evaluations in self._budgets_of(population, count)
-        ]
+        runs = []
+        for size, count, repeat in product(self.populations, self.iterations, range(1, self.repeats + 1)):
+            for name, budget, evaluations in self._budgets_of(size, count):
+                suffix = "_equal-evaluations" if budget == EQUAL_EVALUATIONS else ""
+                file, seed = f"{name}_n{size}_i{count}_r{repeat}{suffix}", self.seed + repeat - 1
+                key = {"algorithm": name, "population": size, "iterations": count, "budget": budget}
+                key |= {"repeat": repeat, "seed": seed}
+                runs.append(PlannedRun(file, optimiser(name, size), seed, evaluations, key))
+        return runs
 
     def _budgets_of(self, population: int, count: int) -> Iterator[tuple[str, str, int]]:
         """Yield algorithm, equal effort and evaluations of the runs at `count` iterations."""
@@ -96,13 +100,6 @@ class Comparison(Record):
         for name, each in cost.items():
             if population + count * each < most:
                 yield name, EQUAL_EVALUATIONS, population + (most - population) // each * each
-
-    def _timed(self, name: str, size: int, count: int, repeat: int, budget: str, evaluations: int) -> PlannedRun:
-        suffix = "_equal-evaluations" if budget == EQUAL_EVALUATIONS else ""
-        file = f"{name}_n{size}_i{count}_r{repeat}{suffix}"
-        seed = self.seed + repeat - 1
-        key = {"algorithm": name, "population": size, "iterations": count, "budget": budget}
-        return PlannedRun(file, optimiser(name, size), seed, evaluations, key | {"repeat": repeat, "seed": seed})
 
     def budgets(self, population: int) -> list[int]:
         """Return the evaluations at which runs are judged: steps of N/5 to 5 N, then of N, and timed totals."""

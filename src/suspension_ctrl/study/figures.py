@@ -54,10 +54,18 @@ def anytime_panels(quality: pd.DataFrame, sets: Sequence[str]) -> Figure:
 
 
 def box_panels(runs: pd.DataFrame, values: Sequence[str]) -> Figure:
-    """Draw `boxes` of several values."""
+    """Draw a box plot per algorithm of each value over the runs; runs without a feasible design are left out."""
     figure, axes = panels(len(values), columns=2)
+    style: dict[str, Any] = {"medianprops": {"color": "black"}, "flierprops": {"markersize": 3}}
     for ax, value in zip(axes, values, strict=True):
-        boxes(ax, runs, value)
+        groups = {str(name): part[value] for name, part in runs.groupby("algorithm", sort=False)}
+        finite = [found[np.isfinite(found)] for found in groups.values()]
+        box = ax.boxplot(finite, tick_labels=list(groups), patch_artist=True, **style)
+        for colour, patch in zip(COLOURS, box["boxes"], strict=False):
+            patch.set(facecolor=colour, alpha=0.5)
+        ax.set_ylabel(LABELS[value])
+        ax.tick_params(axis="x", rotation=25)
+        ax.grid(axis="y", alpha=0.25)
     return figure
 
 
@@ -71,19 +79,6 @@ def attainment_panels(
         drawn = attainment_differences(ax, first, second, pair)
     figure.colorbar(drawn, ax=axes, label=f"share of runs attaining: {names[0]} less {names[1]}")
     return figure
-
-
-def boxes(ax: Axes, runs: pd.DataFrame, value: str) -> None:
-    """Draw a box plot per algorithm of a value over the runs; runs without a feasible design are left out."""
-    groups = {str(name): part[value] for name, part in runs.groupby("algorithm", sort=False)}
-    style: dict[str, Any] = {"medianprops": {"color": "black"}, "flierprops": {"markersize": 3}}
-    finite = [values[np.isfinite(values)] for values in groups.values()]
-    box = ax.boxplot(finite, tick_labels=list(groups), patch_artist=True, **style)
-    for colour, patch in zip(COLOURS, box["boxes"], strict=False):
-        patch.set(facecolor=colour, alpha=0.5)
-    ax.set_ylabel(LABELS[value])
-    ax.tick_params(axis="x", rotation=25)
-    ax.grid(axis="y", alpha=0.25)
 
 
 def attainment_differences(
@@ -121,50 +116,11 @@ def _fronts(populations: pd.DataFrame, seeds: list[int], objectives: tuple[str, 
     return np.concatenate(fronts)
 
 
-def panels(count: int, columns: int = 3, width: float = 4.2, height: float = 3.4) -> tuple[Figure, list[Axes]]:
+def panels(count: int, columns: int = 3) -> tuple[Figure, list[Axes]]:
     """Return a figure with `count` panels, `columns` in a row, and its Axes."""
     rows = -(-count // columns)
-    figure = Figure(figsize=(width * columns, height * rows + 0.5), layout="constrained")
+    figure = Figure(figsize=(4.2 * columns, 3.4 * rows + 0.5), layout="constrained")
     axes = list(figure.subplots(rows, columns, squeeze=False).flat)
     for ax in axes[count:]:
         ax.remove()
     return figure, axes[:count]
-
-
-def final_populations(
-    populations: pd.DataFrame, across: str = "SWS [m]", up: Sequence[str] = ("ACC [m/s^2]", "DTL [N]")
-) -> Figure:
-    """Draw Figure 5 of `timing.final_populations`, columns `up` over column `across` for each configuration."""
-    panels = list(populations.groupby(["population", "iterations"]))
-    columns = min(2, len(panels))
-    rows = -(-len(panels) // columns)
-    figure = Figure(figsize=(5.0 * columns, 2.2 * len(up) * rows + 0.4), layout="constrained")
-    places = figure.subfigures(rows, columns, squeeze=False).flat
-    for place, ((population, iterations), part) in zip(places, panels, strict=False):
-        axes = place.subplots(len(up), 1, sharex=True, squeeze=False)[:, 0]
-        for ax, objective in zip(axes, up, strict=True):
-            final_population_panel(ax, part, across, objective)
-        axes[-1].set_xlabel(_shown(across)[0])
-        axes[0].set_title(f"N = {population}, {iterations} iterations", fontsize=10)
-    handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=len(labels), markerscale=2, frameon=False)
-    return figure
-
-
-def final_population_panel(ax: Axes, populations: pd.DataFrame, across: str, up: str) -> None:
-    """Draw one objective over another for the populations of one or two algorithms."""
-    # Small marks over rings: both populations stay visible.
-    ring: dict[str, Any] = {"s": 22, "facecolors": "none", "edgecolors": COLOURS[0], "linewidths": 0.5}
-    mark: dict[str, Any] = {"s": 4, "color": COLOURS[1], "linewidths": 0}
-    groups = list(populations.groupby("algorithm", sort=False))
-    if len(groups) > 2:
-        raise ValueError(f"populations must be of one or two algorithms, got {[name for name, _ in groups]}")
-    (_, width), (label, height) = _shown(across), _shown(up)
-    for style, (algorithm, part) in zip((ring, mark), groups, strict=False):
-        ax.scatter(part[across] * width, part[up] * height, label=algorithm, marker="o", **style)
-    ax.set_ylabel(label)
-
-
-def _shown(header: str) -> tuple[str, float]:
-    """Return the label of an axis and the factor of its values, by the header of a column."""
-    return (header.replace("[N]", "[kN]"), 1e-3) if header.endswith("[N]") else (header.replace("^2", "²"), 1.0)

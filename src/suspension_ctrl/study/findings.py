@@ -6,10 +6,9 @@ from typing import NamedTuple
 import pandas as pd
 
 from . import inference, lenses
-from .comparison import Comparison
+from .comparison import CONFIGURATION, Comparison
 from .study import CUT_ARCHIVE, INDICATORS, POPULATION
 
-CONFIGURATION = ("lens", "population", "iterations")
 SETS = {"final population": POPULATION, "archive cut to N": CUT_ARCHIVE}
 
 
@@ -20,7 +19,7 @@ class Findings(NamedTuple):
     equal: pd.DataFrame  # those at equal iterations, evaluations and time, from `lenses.at_equal`
     medians: pd.DataFrame  # a row per configuration, lens, set and algorithm
     differences: pd.DataFrame  # of every two algorithms, from `inference.pairwise`
-    reached: pd.DataFrame  # evaluations and seconds to the target, from `lenses.reached_by`
+    reached: pd.DataFrame  # evaluations and seconds to the target, from `lenses.to_reach`
     verdict: list[str]
 
 
@@ -34,14 +33,13 @@ def findings(comparison: Comparison, table: pd.DataFrame, clock: pd.DataFrame, t
     if ended.empty:
         return None
     course = lenses.with_seconds(ended, clock)
-    equal = lenses.at_equal(course, comparison.algorithms, comparison.iterations, comparison.cost())
-    by = [*CONFIGURATION, "set", "algorithm"]
+    equal = lenses.at_equal(course, comparison.iterations, comparison.cost())
+    by = ["lens", *CONFIGURATION, "set", "algorithm"]
     spent = equal.groupby(by, sort=False)[["evaluations", "seconds"]].median().reset_index()
-    differences = inference.pairwise(equal, [*CONFIGURATION, "set"], INDICATORS, comparison.algorithms)
+    differences = inference.pairwise(equal, by[:-1], INDICATORS, comparison.algorithms)
     medians = spent.merge(inference.quartiles(equal, by, INDICATORS), on=by)
-    reached = lenses.reached_by(lenses.to_reach(course, target))
     verdict = _verdict(differences, comparison.algorithms[:2])
-    return Findings(course, equal, medians, differences, reached, verdict)
+    return Findings(course, equal, medians, differences, lenses.to_reach(course, target), verdict)
 
 
 def _verdict(differences: pd.DataFrame, algorithms: Sequence[str]) -> list[str]:

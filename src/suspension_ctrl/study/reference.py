@@ -20,7 +20,6 @@ from .machine import provenance
 TOLERANCE = 1e-4
 FIRST, MOST = 100, 20_000_000
 """Values per variable of the coarsest grid, and designs of the finest."""
-
 _CHUNK = 500_000  # designs at a time
 
 
@@ -86,8 +85,8 @@ def best_known(found: Sequence[Real]) -> ReferenceFront:
     if len(best) == 0:
         raise ValueError("constraints must leave a feasible design, got none in any run")
     if not np.ptp(best, axis=0).all():
-        message = "the best designs of all runs must differ in every objective, got {} that do not"
-        raise ValueError(message.format(len(best)))
+        got = f"{len(best)} that do not"
+        raise ValueError(f"the best designs of all runs must differ in every objective, got {got}")
     return ReferenceFront.of(best)
 
 

@@ -22,7 +22,6 @@ from .workers import outcome, outcomes
 if TYPE_CHECKING:
     from distributed import Client
 
-
 POPULATION, ARCHIVE, CUT_ARCHIVE = "population", "archive", "archive of N"
 """Sets judged, of feasible designs: the population, all non-dominated evaluated, and N of those, spread evenly."""
 
@@ -72,9 +71,7 @@ class Study(Record):
     algorithms: Mapping[str, Optimiser] = field(metadata={"show": list})
     seeds: Sequence[int] = field(metadata={"show": span})
     budgets: Sequence[int] = field(metadata={"show": span})
-    references: Mapping[str, ReferenceFront] = field(
-        default_factory=lambda: FrozenMapping({}), metadata={"show": list}
-    )
+    references: Mapping[str, ReferenceFront] = field(default=FrozenMapping({}), metadata={"show": list})
 
     def __post_init__(self) -> None:
         for name in ("problems", "algorithms", "references"):
@@ -189,9 +186,7 @@ def _judged(seen: Trace, budget: int, population: int, reference: ReferenceFront
     spent = state.evaluations
     archive = best_of(seen.objectives[:spent][seen.feasible[:spent]])
     best = best_of(state.objectives[state.feasible])
-    for name, found, size in (
-        (POPULATION, best, population), (ARCHIVE, archive, len(archive)), (CUT_ARCHIVE, archive, population)
-    ):  # fmt: skip
-        objectives = found[evenly_spread(found, size)]
+    cut, best = (found[evenly_spread(found, population)] for found in (archive, best))
+    for name, objectives in ((POPULATION, best), (ARCHIVE, archive), (CUT_ARCHIVE, cut)):
         indicators = {indicator: getattr(reference, indicator)(objectives) for indicator in INDICATORS}
         yield {"budget": budget, "evaluations": spent, "set": name, "members": len(objectives), **indicators}

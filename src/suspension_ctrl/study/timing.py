@@ -12,7 +12,7 @@ from ..search.driver import minimise
 from ..search.indicators import ReferenceFront, evenly_spread, non_dominated
 from ..search.moead_dra import MoeadDra
 from ..search.problem import Described
-from .comparison import EQUAL_ITERATIONS, Comparison, optimiser
+from .comparison import CONFIGURATION, EQUAL_ITERATIONS, Comparison, optimiser
 from .store import StoredRun
 from .study import PlannedRun
 
@@ -55,10 +55,7 @@ def feasible_objectives(problem: Described, run: StoredRun) -> Real:
 
 
 def tidy(comparison: Comparison, store: Mapping[str, StoredRun], reference: ReferenceFront) -> pd.DataFrame:
-    """Return one row per timed run: its key, evaluations, seconds, hypervolume and igd_plus.
-
-    The seconds are those of `Run.history`, the indicators those of the feasible designs of its final population.
-    """
+    """Return one row per timed run: its key, evaluations, seconds of `Run.history`, hypervolume and igd_plus."""
     rows = []
     for planned in comparison.timed_runs():
         run = store[planned.name]
@@ -76,7 +73,7 @@ def final_populations(comparison: Comparison, store: Mapping[str, StoredRun]) ->
     """
     first = {"repeat": 1, "budget": EQUAL_ITERATIONS}
     runs = [run for run in comparison.timed_runs() if first.items() <= run.key.items()]
-    by = ("algorithm", "population", "iterations")
+    by = ["algorithm", *CONFIGURATION]
     parts = [store[run.name].final.assign(**{name: run.key[name] for name in by}) for run in runs]
     return pd.concat(parts, ignore_index=True)
 

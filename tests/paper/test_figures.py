@@ -3,14 +3,16 @@
 import re
 
 import numpy as np
+import pandas as pd
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from garage import FULL, ROAD, SPEED, struts_of
 from suspension_ctrl import QuarterCar, RideProblem
-from suspension_ctrl.response import figures, weightings
-from suspension_ctrl.response.curves import design_curves
+from suspension_ctrl.paper import figures
+from suspension_ctrl.response import weightings
+from suspension_ctrl.response.curves import DesignCurves, design_curves
 
 DESIGNS = {"soft": (12e3, 1600.0), "stiff": (26e3, 1900.0)}
 TITLES = {"SWS": "suspension_travel", "ACC": "body_acceleration", "DTL": "tyre_load"}
@@ -19,7 +21,7 @@ PER_SI = {"m": 1.0, "m/s²": 1.0, "rad/s²": 1.0, "kN": 1e-3}
 
 
 @pytest.fixture(scope="module")
-def curves(table1_problem) -> list[figures.DesignCurves]:
+def curves(table1_problem) -> list[DesignCurves]:
     names = list(table1_problem.vehicle.responses)
     return [design_curves(table1_problem, label, design, names, 50) for label, design in DESIGNS.items()]
 
@@ -118,3 +120,33 @@ def test_many_designs_have_colours_of_their_own_and_no_legend(curves):
         colours = {line.get_color() if isinstance(line.get_color(), str) else tuple(line.get_color())
                    for line in figure.axes[0].lines}  # fmt: skip
         assert (len(colours), len(figure.legends)) == (count, legends)
+
+
+def populations() -> pd.DataFrame:
+    rows = [
+        {"algorithm": name, "population": n, "iterations": 5, "SWS [m]": x, "ACC [m/s^2]": y, "DTL [N]": z}
+        for name in ("a", "b")
+        for n in (10, 20)
+        for x, y, z in np.random.default_rng(3).random((n, 3)) * [0.1, 2, 3000]
+    ]
+    return pd.DataFrame(rows)
+
+
+def test_figure_5_shows_every_design_in_the_units_of_its_axes():
+    table = populations()
+    figure = figures.final_populations(table, "SWS [m]", ["ACC [m/s^2]", "DTL [N]"])
+    (left, right) = figure.subfigs
+    for place, n in ((left, 10), (right, 20)):
+        upper, lower = place.axes
+        assert upper.get_title() == f"N = {n}, 5 iterations"
+        assert (upper.get_ylabel(), lower.get_ylabel(), lower.get_xlabel()) == (
+            "ACC [m/s²]",
+            "DTL [kN]",
+            "SWS [m]",
+        )
+        for ax, column, factor in ((upper, "ACC [m/s^2]", 1), (lower, "DTL [N]", 1e-3)):
+            assert [marks.get_label() for marks in ax.collections] == ["a", "b"]
+            for marks, name in zip(ax.collections, ("a", "b"), strict=True):
+                part = table[(table.algorithm == name) & (table.population == n)]
+                expected = np.stack([part["SWS [m]"], factor * part[column]], axis=1)
+                np.testing.assert_allclose(marks.get_offsets(), expected, rtol=1e-14)
