@@ -1,6 +1,7 @@
 """Ride optimisation of vehicle suspensions: linear ride models, ISO 2631 comfort, NSGA-II and MOEA/D-DRA.
 
-``__init__.pyi`` lists the public names with their modules; each is imported when it is first used (PEP 562).
+``__init__.pyi`` lists the public names with their modules; each is imported when it is first used (PEP 562). A
+parameter that is not as its description says raises a ValueError, which names it, what is allowed and the value.
 """
 
 import re

@@ -30,12 +30,7 @@ class Isotropic(Record):
     Parameters
     ----------
     exponent : float, optional
-        Exponent of the power law for the coherence, in place of the road's own spectrum [-].
-
-    Raises
-    ------
-    ValueError
-        If the exponent is not finite and above zero.
+        Exponent > 0 of the power law for the coherence, in place of the road's own spectrum [-].
 
     References
     ----------
@@ -65,12 +60,7 @@ class Exponential(Checked):
     Parameters
     ----------
     decay : float
-        Decay per cycle [-]; 0 for identical tracks.
-
-    Raises
-    ------
-    ValueError
-        If the decay is not finite and at least zero.
+        Decay per cycle, 0 to 1e6 [-]; 0 for identical tracks.
 
     References
     ----------
@@ -95,11 +85,6 @@ class Constant(Checked):
     ----------
     value : float
         From 0, uncorrelated tracks, to 1, identical tracks (cylindrical road) [-].
-
-    Raises
-    ------
-    ValueError
-        If the value is out of range.
     """
 
     value: float = field(metadata=unit("", 0.0, 1.0))
@@ -119,14 +104,9 @@ class Tabulated(Checked):
     Parameters
     ----------
     wavenumber, coherence : (k,) sequence of float
-        Wavenumbers, ascending and above zero [cycle/m], and coherences from 0 to 1 [-].
+        Wavenumbers, ascending and above zero [cycle/m], and as many coherences from 0 to 1 [-].
     distance : float
-        Distance of the measured tracks [m].
-
-    Raises
-    ------
-    ValueError
-        If a parameter is out of range or the lengths differ.
+        Distance of the measured tracks, above zero [m].
     """
 
     wavenumber: tuple[float, ...] = field(metadata=unit("cycle/m"))

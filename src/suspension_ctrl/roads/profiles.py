@@ -86,11 +86,8 @@ def _check_even(distance: Real) -> None:
         raise ValueError(f"distance must have steps of {_CLOSEST:g} m at least, got {mean:g} m")
     worst = int(np.abs(steps - mean).argmax())
     if not abs(steps[worst] - mean) <= UNEVEN * mean:
-        needed, got = (
-            f"within {UNEVEN:.0%} of the mean {mean:g} m",
-            f"{steps[worst]:g} m after {distance[worst]:g} m",
-        )
-        raise ValueError(f"distance must be even, each step {needed}, got {got}")
+        got = f"{steps[worst]:g} m after {distance[worst]:g} m"
+        raise ValueError(f"distance must be even, each step within {UNEVEN:.0%} of the mean {mean:g} m, got {got}")
 
 
 def read_profile(path: str | PathLike[str], track_width: float | None = None) -> Profile:

@@ -40,17 +40,12 @@ class Road(Checked, ABC):
         f : (n,) array_like
             Frequencies above zero [Hz].
         speed : float
-            Vehicle speed V [m/s].
+            Vehicle speed V > 0 [m/s].
 
         Returns
         -------
         (n,) ndarray
             One-sided power spectral density [m^2/Hz].
-
-        Raises
-        ------
-        ValueError
-            If the speed is not finite and above zero, or a frequency is not above zero.
         """
         checks.positive("speed", speed, "m/s")
         frequency = np.asarray(f, dtype=float)

@@ -19,16 +19,11 @@ class PowerLawRoad(Road):
     Parameters
     ----------
     roughness : float
-        One-sided spectral density at 1 cycle/m, G [m^(3 - exponent) cycle^(exponent - 1)].
+        One-sided spectral density at 1 cycle/m, G > 0 [m^(3 - exponent) cycle^(exponent - 1)].
     exponent : float
-        Waviness kappa [-].
+        Waviness kappa > 0 [-].
     coherence : Coherence
         Model of the coherence of parallel tracks.
-
-    Raises
-    ------
-    ValueError
-        If a parameter is not finite and above zero.
     """
 
     roughness: float = field(metadata=unit("m^3"))
@@ -53,18 +48,13 @@ class TwoSlopeRoad(Road):
     Parameters
     ----------
     roughness, reference : float
-        One-sided spectral density Gd(n0) [m^3] at a wavenumber n0 [cycle/m], on either side of the corner.
+        One-sided spectral density Gd(n0) > 0 [m^3] at a wavenumber n0 > 0 [cycle/m], on either side of the corner.
     lower_exponent, upper_exponent : float
-        Waviness below and above the corner [-].
+        Waviness below and above the corner, > 0 [-].
     corner : float
-        Wavenumber at which the exponent changes [cycle/m]; the spectrum is continuous there.
+        Wavenumber > 0 at which the exponent changes [cycle/m]; the spectrum is continuous there.
     coherence : Coherence
         Model of the coherence of parallel tracks.
-
-    Raises
-    ------
-    ValueError
-        If a parameter is not finite and above zero.
     """
 
     roughness: float = field(metadata=unit("m^3"))
@@ -107,14 +97,9 @@ class Iso8608Road(Road):
     level : str
         ``"geometric mean"`` of the class, or its ``"lower"`` or ``"upper"`` limit. A has no lower, H no upper one.
     waviness : float
-        Exponent w [-]; 2 in the standard's classes.
+        Exponent w > 0 [-]; 2 in the standard's classes.
     coherence : Coherence
         Model of the coherence of parallel tracks.
-
-    Raises
-    ------
-    ValueError
-        If there is no such class or level, or the waviness is not finite and above zero.
     """
 
     reference: ClassVar[float] = 0.1  # n0 [cycle/m]

@@ -18,14 +18,9 @@ class QuarterCar(Checked, AssembledVehicle):
     Parameters
     ----------
     body_mass, wheel_mass : float
-        Mass of the body on this wheel, M_b, and of the wheel, M_w [kg].
+        Mass of the body on this wheel, M_b, and of the wheel, M_w, above zero [kg].
     tyre_stiffness, tyre_damping : float
-        Vertical stiffness, K_t [N/m], and damping of the tyre [N s/m].
-
-    Raises
-    ------
-    ValueError
-        If a parameter is not finite and above zero; the tyre's damping may be zero.
+        Vertical stiffness, K_t, above zero [N/m], and damping of the tyre, zero or more [N s/m].
 
     References
     ----------
@@ -54,12 +49,9 @@ class QuarterCar(Checked, AssembledVehicle):
             },
         )
 
-    def closed(
-        self, setting: Any = None, damper: Any = None, /, *, responses: Any = None, **struts: Any
-    ) -> System:
+    def closed(self, setting: Any = None, damper: Any = None, /, **others: Any) -> System:
         """Return the vehicle with its strut: ``closed(K_s, C_s)`` [N/m, N s/m], or as `Vehicle.closed`."""
-        setting = setting if damper is None else (setting, damper)
-        return super().closed(setting, responses=responses, **struts)
+        return super().closed(setting if damper is None else (setting, damper), **others)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -104,7 +96,8 @@ class _TwoAxleCar(Checked, AssembledVehicle):
 class HalfCar(_TwoAxleCar):
     """Four-degree-of-freedom half car: heave and pitch of the body, a front and a rear wheel.
 
-    Masses and stiffnesses are those of one side of a car, or of a whole car with an axle as one wheel.
+    Masses and stiffnesses are those of one side of a car, or of a whole car with an axle as one wheel. All values
+    are above zero, a tyre's damping zero or more.
 
     Parameters
     ----------
@@ -116,11 +109,6 @@ class HalfCar(_TwoAxleCar):
         Vertical stiffness [N/m] and damping [N s/m].
     cg_to_front, cg_to_rear : float
         Distance of the axles from the centre of gravity [m].
-
-    Raises
-    ------
-    ValueError
-        If a parameter is not finite and above zero; a tyre's damping may be zero.
     """
 
     @cached_property
@@ -138,7 +126,8 @@ class FullCar(_TwoAxleCar):
     """Seven-degree-of-freedom full car: heave, pitch and roll of the body, four wheels; left and right are alike.
 
     An anti-roll bar of stiffness k [N m/rad] on an axle of track t [m] adds the tension k (z_left - z_right)/t^2
-    of the travels z [m] to the left strut, and the opposite to the right strut.
+    of the travels z [m] to the left strut, and the opposite to the right strut. All values are above zero, a
+    tyre's damping zero or more.
 
     Parameters
     ----------
@@ -152,11 +141,6 @@ class FullCar(_TwoAxleCar):
         Distance of the axles from the centre of gravity [m].
     front_track, rear_track : float
         Distance between left and right wheel [m], the centre of gravity midway. Struts stand over the wheels.
-
-    Raises
-    ------
-    ValueError
-        If a parameter is not finite and above zero; a tyre's damping may be zero.
     """
 
     roll_inertia: float = field(metadata=unit("kg m^2"))

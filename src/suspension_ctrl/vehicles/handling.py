@@ -15,8 +15,7 @@ from ..quantities import Checked, Real, unit
 from .assembly import GRAVITY, Assembly
 
 _TOPPLED = 180.0  # deg/g, roll gradient of a body that its struts and tyres do not hold upright
-_AXLES = ("front", "rear")
-_SIDES = ("left", "right")
+_AXLES, _SIDES = ("front", "rear"), ("left", "right")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -26,14 +25,9 @@ class RollGeometry(Checked):
     Parameters
     ----------
     roll_arm : float
-        Height of the body's centre of gravity above the roll axis [m], also of its occupants and payload.
+        Height of the body's centre of gravity above the roll axis, also of its occupants and payload, > 0 [m].
     front_roll_centre, rear_roll_centre, wheel_centre : float
-        Height of the roll centres, and of the centres of the wheels, above the ground [m].
-
-    Raises
-    ------
-    ValueError
-        If the arm or the height of the wheels is not above zero, or a roll centre not from -10 to 10 m.
+        Height of the roll centres, -10 to 10 m, and of the centres of the wheels, > 0, above the ground [m].
     """
 
     roll_arm: float = field(metadata=unit("m"))

@@ -104,15 +104,10 @@ class Payload(Part):
     Parameters
     ----------
     mass : float
-        [kg].
+        Above zero [kg].
     position : (float, float)
         Place from the centre of gravity of the unladen body, x forward and y to the left [m]; coordinates of the
         body stay those of this point.
-
-    Raises
-    ------
-    ValueError
-        If the mass is not finite and above zero, or the position is not two numbers.
     """
 
     mass: float = field(metadata=unit("kg"))
