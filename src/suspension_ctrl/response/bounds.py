@@ -6,15 +6,13 @@ from .. import checks
 from ..quantities import FrozenMapping
 from ..vehicles.vehicle import Struts, Vehicle
 
+Bounds = Mapping[str, tuple[float, float]]
+
 
 def checked_bounds(
-    vehicle: Vehicle,
-    bounds: Mapping[str, tuple[float, float]] | None,
-    lower: Sequence[float],
-    upper: Sequence[float],
-    fixed: Struts,
-) -> FrozenMapping[str, tuple[float, float]]:
-    """Return the bounds by name, with `lower` and `upper` (d,) in place of theirs where given."""
+    vehicle: Vehicle, bounds: Bounds | None, lower: Sequence[float], upper: Sequence[float], fixed: Struts
+) -> Bounds:
+    """Return the bounds by name, frozen, with `lower` and `upper` (d,) in place of theirs where given."""
     known = {parameter.name: parameter for parameter in vehicle.parameters}
     if bounds is not None and not bounds:
         raise ValueError("bounds must hold one coefficient at least, got none")
@@ -24,15 +22,12 @@ def checked_bounds(
         checks.interval(f"bounds of {name}", pair, known[name].unit)
     names = [name for name, p in known.items() if p.default is None] if bounds is None else list(bounds)
     low, high = zip(*bounds.values(), strict=True) if bounds else ((), ())
-    low, high = (
-        tuple(map(float, own if len(own) else of_pairs)) for own, of_pairs in ((lower, low), (upper, high))
-    )
+    low, high = (tuple(map(float, x if len(x) else of_pairs)) for x, of_pairs in ((lower, low), (upper, high)))
     checks.ordered("lower", "upper", low, high)
     if len(low) != len(names):
         raise ValueError(f"lower and upper must bound {', '.join(names)}, got {low!r}")
     for name, value in zip(names, low, strict=True):
-        check = checks.not_negative if known[name].default == 0 else checks.positive
-        check(f"lower bound of {name}", value, known[name].unit)
+        known[name].check(f"lower bound of {name}", value)
     if both := set(names) & fixed.keys():
         raise ValueError(f"struts must be those that do not vary, got {min(both)} with bounds")
     return FrozenMapping(dict(zip(names, zip(low, high, strict=True), strict=True)))

@@ -11,8 +11,6 @@ from . import weightings
 from .problem import RideProblem
 from .responses import frequency_responses, natural_frequencies, phase_degrees, response_psds
 
-LOWEST = 0.1  # Hz, of a band from 0 on
-
 
 @dataclass(frozen=True)
 class DesignCurves:
@@ -31,9 +29,9 @@ def weighted_name(response: str) -> str:
 
 
 def frequencies(band: tuple[float, float], points: int) -> Real:
-    """Return logarithmically spaced frequencies above 0 [Hz]."""
+    """Return logarithmically spaced frequencies [Hz], of a band from 0 on those above 0.1 Hz."""
     low, high = band
-    return np.geomspace(low or min(LOWEST, high / 10), high, points)
+    return np.geomspace(low or min(0.1, high / 10), high, points)
 
 
 def setting_of(problem: RideProblem, design: Sequence[float]) -> dict[str, float]:

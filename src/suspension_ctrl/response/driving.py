@@ -35,12 +35,10 @@ def simulate(
 def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
     """Drive a vehicle over a profile: ``simulate(vehicle, setting, profile, speed)``.
 
-    ``simulate(closed, profile, speed, contact_points)`` drives any model from roads to responses.
-
-    A wheel at (x, y) follows the track at y, ``z(t) = h(d(t) + x, y)``, where d is the place of the body's centre
-    of gravity. The response to a road that is straight between its points is exact (first-order hold), also where
-    the wheels pass their points at different times. The straight pieces attenuate a wave of frequency f by
-    sinc^2(f step/speed).
+    ``simulate(closed, profile, speed, contact_points)`` drives any model from roads to responses. A wheel at
+    (x, y) follows the track at y, ``z(t) = h(d(t) + x, y)``, where d is the place of the body's centre of gravity.
+    The response to a road that is straight between its points is exact (first-order hold), also where the wheels
+    pass its points at different times; straight pieces attenuate a wave of frequency f by sinc^2(f step/speed).
 
     Parameters
     ----------
@@ -100,15 +98,12 @@ def _drive(
     wheels = _Wheels.on(profile, points, periodic)
     dt = profile.step / speed
     states = _states(model, wheels, dt, periodic)
-    columns = column_headers(closed.output_labels, {name: signal_unit(name) for name in closed.output_labels})
     responses = states @ model.c.T + wheels.elevation() @ model.d.T + wheels.rise() / dt @ model.e.T
-    return pd.DataFrame(
-        {
-            "time [s]": dt * np.arange(len(states)),
-            "distance [m]": wheels.start + profile.step * np.arange(len(states)),
-            **dict(zip(columns, responses.T, strict=True)),
-        }
-    )
+    columns = column_headers(closed.output_labels, {name: signal_unit(name) for name in closed.output_labels})
+    table, steps = pd.DataFrame(responses, columns=columns), np.arange(len(states))
+    table.insert(0, "time [s]", dt * steps)
+    table.insert(1, "distance [m]", wheels.start + profile.step * steps)
+    return table
 
 
 class _Model(NamedTuple):
@@ -142,9 +137,7 @@ class _Model(NamedTuple):
 class _Wheels(NamedTuple):
     """The road under r wheels at k times."""
 
-    points: (
-        Real  # (k, r, 4), heights of the profile's last two points that a wheel has reached and of the next two
-    )
+    points: Real  # (k, r, 4), heights of the last two points that a wheel has reached and of the next two
     share: Real  # (r,), share of a step by which the wheel is beyond the last
     start: float  # first place of the origin [m]
 
@@ -239,8 +232,6 @@ def _refined(profile: Profile, step: float, periodic: bool) -> Profile:
 def _track(profile: Profile, y: float) -> int:
     apart = np.abs(np.array(profile.tracks) - y)
     if apart.min() > _SAME_TRACK:
-        raise ValueError(
-            f"profile must have a track at y = {y:g} m, as by road.profile(..., tracks=({y:g}, ...)), "
-            f"got tracks at {list(profile.tracks)} m"
-        )
+        needed = f"a track at y = {y:g} m, as by road.profile(..., tracks=({y:g}, ...))"
+        raise ValueError(f"profile must have {needed}, got tracks at {list(profile.tracks)} m")
     return int(apart.argmin())

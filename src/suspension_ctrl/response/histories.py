@@ -23,9 +23,7 @@ class Exposure(Record):
 
     rms: float = field(metadata=unit("m/s^2"))  # clause 6.1
     peak: float = field(metadata=unit("m/s^2"))  # largest magnitude
-    mtvv: float = field(
-        metadata=unit("m/s^2")
-    )  # maximum transient vibration value: largest running r.m.s. (6.3.1)
+    mtvv: float = field(metadata=unit("m/s^2"))  # maximum transient vibration value, of the running r.m.s. (6.3.1)
     vdv: float = field(metadata=unit("m/s^1.75"))  # vibration dose value (6.3.2)
     duration: float = field(metadata=unit("s"))  # T
 
@@ -97,22 +95,13 @@ def exposure(
     Parameters
     ----------
     acceleration : (n,) array_like
-        [m/s^2], of a second at least.
+        [m/s^2], of a second at least and not zero throughout.
     time_step : float
         Between two samples [s].
     weighting : str, optional
         Filter of ISO 2631 to be applied first, see `weighted`: ``"Wk"``.
     integration : str
         Of the running r.m.s. with a time constant of 1 s: ``"linear"`` or ``"exponential"``.
-
-    Returns
-    -------
-    Exposure
-
-    Raises
-    ------
-    ValueError
-        If a parameter is out of range, or the history too short or zero throughout.
     """
     if weighting is not None:
         acceleration = weighted(acceleration, time_step, weighting)

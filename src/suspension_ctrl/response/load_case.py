@@ -28,19 +28,14 @@ class LoadCase(Record):
     vehicle : Vehicle
         With its payload.
     road : Road
-        The road, e.g. a `PowerLawRoad`. Under one wheel any object with ``psd(f, speed)`` is one; kinks of its
-        spectrum stand in ``breakpoints(speed)``, if it has that [Hz].
+        E.g. a `PowerLawRoad`. Under one wheel any object with ``psd(f, speed)`` is one, under several if it has
+        ``cross_spectrum`` too; kinks of its spectrum stand in ``breakpoints(speed)``, if it has that [Hz].
     speed : float
-        Vehicle speed V [m/s].
+        Vehicle speed V > 0 [m/s].
     share : float
-        How much of the time; cases count by their shares of the sum.
+        How much of the time, > 0; cases count by their shares of the sum.
     roll_geometry : RollGeometry, optional
         For measures of cornering.
-
-    Raises
-    ------
-    ValueError
-        If speed or share are not finite and above zero, or the road has no spectrum for the vehicle's wheels.
     """
 
     vehicle: Vehicle

@@ -69,11 +69,6 @@ class Measure(Record):
         (n,) of its responses by name [unit^2/Hz] at the middles (n,) of 1000 equal parts of the band [Hz]. Of one,
         ``f(designs)``: the values (p,) of designs (p, d), the variables in their order. The mean over several load
         cases by their shares counts, or the worst.
-
-    Raises
-    ------
-    ValueError
-        If the function takes other parameters.
     """
 
     name: str
@@ -160,13 +155,12 @@ def case_measure(measure: str | Measure, case: LoadCase, weighting: Weighting | 
     if kind in _KINDS:
         return CaseMeasure(name, _KINDS[kind][1], _at_corners(kind, where.strip(), case.vehicle), True, sign)
     if kind == "ACC":
-        term = Term(_accelerated(where.strip(), case.vehicle), weighting)
-        return CaseMeasure(name, "m/s^2", (term,), False, sign)
+        return CaseMeasure(name, "m/s^2", (Term(_accelerated(where.strip(), case.vehicle), weighting),), sign=sign)
     terms = tuple(_term(part.strip(), case.vehicle) for part in re.split(r"\+(?![^(]*\))", body))
     if len({signal_unit(label(term.response)).removeprefix("rad").removeprefix("m") for term in terms}) > 1:
         raise ValueError(f"measure must be a sum of responses of one kind, got {body!r}")
     unit = signal_unit(label(terms[0].response))  # factors carry further units
-    return CaseMeasure(name, unit, terms, False, sign)
+    return CaseMeasure(name, unit, terms, sign=sign)
 
 
 def case_limit(text: str, case: LoadCase, weighting: Weighting | None, own: Sequence[str | Measure] = ()) -> Limit:

@@ -30,14 +30,11 @@ class _Found(int):
 class RideProblem(Record):
     """Objectives of springs and dampers on a random road, equations (3) to (13) of Yuen and Ramli 2010.
 
-    ``problem.replace(bounds={...})``, as `dataclasses.replace`, returns a problem with other parameters.
-
     Parameters
     ----------
     vehicle : Vehicle, optional
-        The vehicle.
     road : Road, optional
-        The road, e.g. a `PowerLawRoad`; under one wheel any object with ``psd(f, speed)``.
+        E.g. a `PowerLawRoad`; under one wheel any object with ``psd(f, speed)``.
     speed : float, optional
         Vehicle speed V [m/s].
     weighting : str, control.LTI or None
@@ -58,17 +55,12 @@ class RideProblem(Record):
         Limits on measures in the worst load case, ``"SWS <= 0.0287"``; on a `Measure` by its name.
     cases : sequence of LoadCase, optional
         Several load cases; a vehicle, road or speed replaces theirs. An objective is the root mean square over
-        them by their shares, of handling and a `Measure` the mean.
+        them by their shares, of handling and a `Measure` the mean, or if `worst_case` the worst of them.
     worst_case : bool
-        Whether in place of that the worst case counts.
     nodes : int, optional
-        Quadrature nodes over the band; by default as many as resolve every resonance. The paper's Table 1 takes
-        256, with which the objectives over its whole box are within 1e-9 of the integral (relative).
-
-    Raises
-    ------
-    ValueError
-        If a parameter is out of range, or `nodes` does not resolve the resonances at a corner of the box.
+        Quadrature nodes over the band, enough to resolve every resonance at the corners of the box; by default
+        they are found. The paper's Table 1 takes 256, with which the objectives over its whole box are within 1e-9
+        of the integral (relative).
     """
 
     cases: tuple[LoadCase, ...]
@@ -102,10 +94,7 @@ class RideProblem(Record):
         checks.interval("band", band, "Hz")
         checks.listed("measures", measures)
         checks.listed("constraints", constraints)
-        fixed: dict[str, Any] = {
-            name: tuple(value) if isinstance(value, Sequence | np.ndarray) else value
-            for name, value in (struts or {}).items()
-        }
+        fixed: Any = {k: tuple(v) if isinstance(v, list | np.ndarray) else v for k, v in (struts or {}).items()}
         every = load_cases(cases, vehicle=vehicle, road=road, speed=speed)
         self._keep(
             cases=every,
@@ -120,7 +109,7 @@ class RideProblem(Record):
         self._keep(nodes=self._resolving(None if isinstance(nodes, _Found) else nodes))
 
     def replace(self, **changes: Any) -> "RideProblem":
-        """Return the problem with other parameters; nodes that were not given are found anew."""
+        """Return the problem with other parameters, as `dataclasses.replace`; nodes not given are found anew."""
         return replace(self, **changes)
 
     @property
@@ -161,20 +150,16 @@ class RideProblem(Record):
     @cached_property
     def units(self) -> Mapping[str, str]:
         """Unit of each variable and each objective by name."""
-        of_struts = {parameter.name: parameter.unit for parameter in self.cases[0].vehicle.parameters}
-        first = [score.measures[0] for score in self._scores.scores[: len(self.measures)]]
-        return FrozenMapping(
-            {name: of_struts[name] for name in self.variables} | {measure.name: measure.unit for measure in first}
-        )
+        units = {one.name: one.unit for one in self.cases[0].vehicle.parameters if one.name in self.bounds}
+        scores = zip(self.objectives, self._scores.scores, strict=False)  # those of limits come last
+        return FrozenMapping(units | {name: score.measures[0].unit for name, score in scores})
 
     @cached_property
     def weighted(self) -> bool:
         """Whether a measure depends on the weighting of the problem."""
-        case = self.cases[0]
-        return any(
-            case_measure(one, case, None).terms != case_measure(one, case, self.weighting).terms
-            for one in self.measures
-        )
+        case, weightings = self.cases[0], (None, self.weighting)
+        plain, weighted = ([case_measure(one, case, w).terms for one in self.measures] for w in weightings)
+        return plain != weighted
 
     def evaluate(self, designs: ArrayLike) -> Real:
         """Return the objectives and constraints of many designs.
@@ -183,17 +168,13 @@ class RideProblem(Record):
         ----------
         designs : (n, d) array_like
             Variables of each design, within the bounds: spring K_s [N/m] and damper C_s [N s/m] of a quarter car.
+            Outside, where resonances may be too sharp for the nodes, a ValueError is raised.
 
         Returns
         -------
         (n, m + c) ndarray
             Objectives, ACC [m/s^2], SWS [m] and DTL [N] unless `measures` says otherwise; then for each constraint
             the violation as a share of the limit.
-
-        Raises
-        ------
-        ValueError
-            If a design has not d values or is outside the bounds, where resonances may be too sharp for the nodes.
         """
         x = checks.designs(designs, len(self.variables))
         checks.rows_within("designs", x, self.lower, self.upper)
@@ -239,37 +220,30 @@ class RideProblem(Record):
             return taken if nodes else _Found(taken)
         several = any(case.wheels > 1 for case in self.cases) and not self.band[0]
         hint = "; under several wheels a band may have to begin above 0 Hz" if several else ""
-        raise ValueError(
-            f"nodes must resolve every resonance in the box to {RESOLVED:g}, got {taken}, which is off by "
-            f"{error:.1g} at its corners{hint}"
-        )
+        got = f"{taken}, which is off by {error:.1g} at its corners{hint}"
+        raise ValueError(f"nodes must resolve every resonance in the box to {RESOLVED:g}, got {got}")
 
     @cached_property
     def _scores(self) -> Scores:
-        def score(measure: str | Measure) -> Score:
-            found = tuple(case_measure(measure, case, self.weighting) for case in self.cases)
-            return Score(found, self.worst_case, found[0].sign)
-
-        def limited(text: str) -> Score:
-            found = [case_limit(text, case, self.weighting, self.measures) for case in self.cases]
-            return Score(tuple(one.measure for one in found), True, *found[0][1:])
-
         if len(set(self.objectives)) < max(2, len(self.measures)):
             raise ValueError(f"measures must be 2 or more with different names, got {self.measures!r}")
         for names, what in ((self.objectives, "measures"), (self.constraints, "constraints")):
             if len({*names, *self.bounds}) < len(names) + len(self.bounds):
                 raise ValueError(f"{what} must have names of their own, got {list(names)}")
-        middle = np.add(self.lower, self.upper) / 2
-        scores = [*map(score, self.measures), *map(limited, self.constraints)]
+        scores = []
+        for measure in self.measures:
+            judged = tuple(case_measure(measure, case, self.weighting) for case in self.cases)
+            scores.append(Score(judged, self.worst_case, judged[0].sign))
+        for text in self.constraints:
+            limits = [case_limit(text, case, self.weighting, self.measures) for case in self.cases]
+            scores.append(Score(tuple(limit.measure for limit in limits), True, *limits[0][1:]))
         own = any(isinstance(measure, Measure) for measure in self.measures)
-        if not own and all(one.measures[0].values for one in scores):
+        if not own and all(score.measures[0].values for score in scores):
             raise ValueError(f"measures must hold one of the ride, got {self.measures!r}")
-        variables = dict(zip(self.bounds, middle.tolist(), strict=True))
-        return Scores(self.cases, scores, variables, self.struts, self.band)
+        middle = {name: (low + high) / 2 for name, (low, high) in self.bounds.items()}
+        return Scores(self.cases, scores, middle, self.struts, self.band)
 
     def _error(self, nodes: int) -> float:
         """Return the largest error of a term at corners of the box, where resonances are sharpest."""
-        corners = np.array(list(product(*self.bounds.values())), dtype=float)
-        if len(corners) > _CORNERS:
-            corners = np.random.default_rng(0).permutation(corners)[:_CORNERS]
+        corners = np.random.default_rng(0).permutation(list(product(*self.bounds.values())))[:_CORNERS]
         return max(float(errors.max(initial=0.0)) for errors in self._scores.errors(corners, nodes))

@@ -37,11 +37,10 @@ def ride(
     Parameters
     ----------
     vehicle : Vehicle
-        The vehicle.
     setting : mapping of str to float or (float, float)
         Coefficients of its struts, as for ``vehicle.closed``; spring [N/m] and damper [N s/m] of a quarter car.
     road : Road
-        The road; under one wheel any object with ``psd(f, speed)``.
+        Under one wheel any object with ``psd(f, speed)``.
     speed : float
         Vehicle speed V [m/s].
     weighting, band, measures
@@ -52,11 +51,6 @@ def ride(
     DataFrame
         By ``name`` the measures, then every response, unweighted; columns ``value``, ``unit`` and ``note``. A
         value whose integral diverges, or is not resolved, is NaN, and the note gives the reason.
-
-    Raises
-    ------
-    ValueError
-        If a parameter is out of range, or a measure is none of the vehicle's.
     """
     import pandas as pd
 

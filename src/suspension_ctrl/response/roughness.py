@@ -40,7 +40,7 @@ def golden_car() -> control.StateSpace:
 
 
 def international_roughness_index(profile: Profile) -> RoughnessIndex:
-    """Return the International Roughness Index of every track of a profile.
+    """Return the International Roughness Index of every track of a profile, in mm/m, which is m/km.
 
     The profile's slope, averaged over 250 mm (the nearest whole number of steps, half a step up and one at least:
     steps of more than 167 mm are not averaged), drives the golden car at 80 km/h. The response is exact for an
@@ -50,18 +50,8 @@ def international_roughness_index(profile: Profile) -> RoughnessIndex:
     Parameters
     ----------
     profile : Profile
-        In steps of at most 300 mm and at least 11 m long. How the car begins tells in the index of a short road:
-        some 20 m of lead, and 100 m of road, are good practice.
-
-    Returns
-    -------
-    RoughnessIndex
-        In mm/m, which is m/km.
-
-    Raises
-    ------
-    ValueError
-        If the profile is too short or its step too long.
+        In steps of at most 300 mm and at least 11.25 m long. How the car begins tells in the index of a short
+        road: some 20 m of lead, and 100 m of road, are good practice.
     """
     step, name = profile.step, "a profile for the roughness index"
     if step > _COARSEST * (1 + 1e-9):

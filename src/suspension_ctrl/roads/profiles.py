@@ -32,16 +32,11 @@ class Profile(Record):
     Parameters
     ----------
     distance : (n,) array_like
-        Ascending [m]; steps may differ from their mean, a micrometre at least, by 1 % of it.
+        Two or more, ascending [m]; steps may differ from their mean, a micrometre at least, by 1 % of it.
     height : (n, tracks) array_like
-        Elevation of each track [m].
+        Elevation of each track, finite [m].
     tracks : (tracks,) sequence of float
         Place of each track across the road, positive to the left [m].
-
-    Raises
-    ------
-    ValueError
-        If the shapes do not fit, a number is not finite, the distances are uneven or there are less than two.
     """
 
     distance: Real = field(metadata=unit("m"))

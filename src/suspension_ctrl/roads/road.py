@@ -107,11 +107,6 @@ class Road(Checked, ABC):
         -------
         Profile
             At the distances 0, step, ... below `length`.
-
-        Raises
-        ------
-        ValueError
-            If a parameter is not as above, or as `psd` and the coherence raise.
         """
         checks.positive("step", step, "m")
         checks.positive("length", length, "m")

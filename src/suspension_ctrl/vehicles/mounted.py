@@ -51,18 +51,14 @@ class Seat(Part):
     Parameters
     ----------
     mass : float
-        Occupant and moving part of the seat [kg].
+        Occupant and moving part of the seat, > 0 [kg].
     spring, damper : float
-        Stiffness [N/m] and damping coefficient [N s/m].
+        Stiffness [N/m] and damping coefficient [N s/m], > 0.
     position : (float, float)
-        Place from the body's centre of gravity, x forward and y to the left [m].
+        Place from the body's centre of gravity, x forward and y to the left [m]; on a flexible body one with known
+        mode shapes.
     name : str
-        Letters, digits and underscores; different for each seat.
-
-    Raises
-    ------
-    ValueError
-        If a parameter is out of range; from `on`, if the name is taken or mode shapes at the place are unknown.
+        Letters, digits and underscores; none that the vehicle has already.
     """
 
     mass: float = field(metadata=unit("kg"))
