@@ -14,6 +14,7 @@ from suspension_ctrl.paper import figures
 from suspension_ctrl.response import weightings
 from suspension_ctrl.response.curves import DesignCurves, design_curves
 
+ALGORITHMS = ("a", "b")
 DESIGNS = {"soft": (12e3, 1600.0), "stiff": (26e3, 1900.0)}
 TITLES = {"SWS": "suspension_travel", "ACC": "body_acceleration", "DTL": "tyre_load"}
 PER_SI = {"m": 1.0, "m/s²": 1.0, "rad/s²": 1.0, "kN": 1e-3}
@@ -125,7 +126,7 @@ def test_many_designs_have_colours_of_their_own_and_no_legend(curves):
 def populations() -> pd.DataFrame:
     rows = [
         {"algorithm": name, "population": n, "iterations": 5, "SWS [m]": x, "ACC [m/s^2]": y, "DTL [N]": z}
-        for name in ("a", "b")
+        for name in ALGORITHMS
         for n in (10, 20)
         for x, y, z in np.random.default_rng(3).random((n, 3)) * [0.1, 2, 3000]
     ]
@@ -145,8 +146,14 @@ def test_figure_5_shows_every_design_in_the_units_of_its_axes():
             "SWS [m]",
         )
         for ax, column, factor in ((upper, "ACC [m/s^2]", 1), (lower, "DTL [N]", 1e-3)):
-            assert [marks.get_label() for marks in ax.collections] == ["a", "b"]
-            for marks, name in zip(ax.collections, ("a", "b"), strict=True):
+            assert [marks.get_label() for marks in ax.collections] == list(ALGORITHMS)
+            for marks, name in zip(ax.collections, ALGORITHMS, strict=True):
                 part = table[(table.algorithm == name) & (table.population == n)]
                 expected = np.stack([part["SWS [m]"], factor * part[column]], axis=1)
                 np.testing.assert_allclose(marks.get_offsets(), expected, rtol=1e-14)
+
+
+def test_figure_5_is_of_two_algorithms_at_most():
+    table = pd.concat([populations(), populations().replace({"algorithm": {"a": "c"}})])
+    with pytest.raises(ValueError, match=r"^populations must be of one or two algorithms, got \['a', 'b', 'c'\]$"):
+        figures.final_populations(table, "SWS [m]", ["DTL [N]"])

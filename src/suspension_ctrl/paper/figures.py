@@ -45,7 +45,10 @@ def final_populations(populations: pd.DataFrame, across: str, up: Sequence[str])
     """
     ring: dict[str, Any] = {"s": 22, "facecolors": "none", "edgecolors": COLOURS[0], "linewidths": 0.5}
     mark: dict[str, Any] = {"s": 4, "color": COLOURS[1], "linewidths": 0}
-    styles = dict(zip(populations.algorithm.unique(), (ring, mark), strict=False))
+    names = populations.algorithm.unique().tolist()
+    if len(names) > 2:
+        raise ValueError(f"populations must be of one or two algorithms, got {names}")
+    styles = dict(zip(names, (ring, mark), strict=False))
     panels = list(populations.groupby(CONFIGURATION))
     columns = min(2, len(panels))
     rows = -(-len(panels) // columns)

@@ -60,10 +60,8 @@ class SystemWeighting(Record):
             raise ValueError(f"weighting must have one input and one output in continuous time, got {got}")
         of_quotient = isinstance(system, control.TransferFunction)
         numbers = (system.num[0][0], system.den[0][0]) if of_quotient else numbers_of(system)
-        return cls(
-            name=system.name,
-            numbers=tuple(frozen_array(x, complex if np.iscomplexobj(x) else float) for x in numbers),
-        )
+        frozen = tuple(frozen_array(x, complex if np.iscomplexobj(x) else float) for x in numbers)
+        return cls(name=system.name, numbers=frozen)
 
     @cached_property
     def system(self) -> control.LTI:

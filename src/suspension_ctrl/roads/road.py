@@ -81,8 +81,9 @@ class Road(Checked, ABC):
         if frequency.ndim != 1:
             raise ValueError(f"f must be one-dimensional, got shape {frequency.shape}")
         if points.ndim != 2 or points.shape[1] != 2 or not (len(points) and np.isfinite(points).all()):
-            got = points.tolist()
-            raise ValueError(f"contact_points must be finite and of shape (r, 2), r > 0 [m], got {got}")
+            raise ValueError(
+                f"contact_points must be finite and of shape (r, 2), r > 0 [m], got {points.tolist()}"
+            )
         x, y = points.T
         lead = np.exp(2j * np.pi / speed * frequency[:, None, None] * (x[:, None] - x))
         return spectrum[:, None, None] * lead * coherence_matrix(self._between(), frequency / speed, y)

@@ -120,23 +120,17 @@ class Payload(Part):
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class FlexibleBody(Part):
-    """Elastic modes of a free body, beside its rigid motion; put it on a vehicle before seats.
+    """Elastic modes of a free body, beside its rigid motion; put it on a rigid vehicle before seats.
 
     Parameters
     ----------
     frequencies, damping_ratios : (k,) sequence of float
-        Natural frequencies [Hz] and damping ratios [-].
+        Natural frequencies, > 0 [Hz], and as many damping ratios, 0 to 1 [-].
     shapes : mapping of (float, float) to (k,) sequence of float
         Vertical displacement in each mode at a modal mass of 1 [kg^-1/2], by point of the body, x forward and y
         to the left of its centre of gravity [m]: all struts, further seats, payloads and points of acceleration.
         Free elastic modes do not move the centre of gravity and the principal axes of the body: the rigid
         coordinates stay those of the mean motion.
-
-    Raises
-    ------
-    ValueError
-        If the lengths differ, a frequency is not above zero or a damping ratio not from 0 to 1; from `on`, if
-        the vehicle is flexible already or the mode shapes at a strut are unknown.
     """
 
     frequencies: tuple[float, ...] = field(metadata=unit("Hz"))
