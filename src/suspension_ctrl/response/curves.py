@@ -29,7 +29,7 @@ def weighted_name(response: str) -> str:
 
 
 def frequencies(band: tuple[float, float], points: int) -> Real:
-    """Return logarithmically spaced frequencies [Hz], of a band from 0 on those above 0.1 Hz."""
+    """Return logarithmically spaced frequencies [Hz]; a band from 0 on begins at 0.1 Hz or a tenth of its end."""
     low, high = band
     return np.geomspace(low or min(0.1, high / 10), high, points)
 
