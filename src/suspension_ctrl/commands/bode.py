@@ -34,14 +34,13 @@ def bode(
     import pandas as pd
 
     from .. import checks
-    from ..paper import figures
-    from ..paper.experiment import chosen
+    from ..paper import experiment, figures
     from ..response import curves
     from ..tables import write_csv, write_figure
     from . import results, terminal
 
     checks.at_least("points", points, 2)
-    problem, own = chosen(vehicle, road, speed, **o.settings(weighting, band))
+    problem, own = experiment.chosen(vehicle, road, speed, **o.settings(weighting, band))
     labelled = labelled_designs(problem, design or [], designs, vehicle, own)
     case, (low, high) = problem.cases[0], problem.band
     shown = response or [next(r for r in case.vehicle.responses if r.endswith(last)) for last in SHOWN]

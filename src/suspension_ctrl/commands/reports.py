@@ -22,9 +22,7 @@ SHORT = {
     "published_seconds": "publ. [s]", "seconds": "here [s]", "microseconds_per_evaluation": "µs/eval",
     "published_ratio_percent": "publ. [%]", "ratio_percent": "here [%]", "hypervolume": "HV", "igd_plus": "IGD+",
 }  # fmt: skip
-DECIMALS = {
-    "publ. [s]": 1, "here [s]": 4, "µs/eval": 2, "publ. [%]": 0, "here [%]": 0, "HV": 4, "IGD+": 5,
-}  # fmt: skip
+DECIMALS = {"publ. [s]": 1, "here [s]": 4, "µs/eval": 2, "publ. [%]": 0, "here [%]": 0, "HV": 4, "IGD+": 5}
 
 
 def write(request: "Request", store: Store, timed: pd.DataFrame) -> None:
