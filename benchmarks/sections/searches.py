@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from peers import Contenders, Prepare, Task
 from sections.timing import take_turns, timed
 from suspension_ctrl import Problem, RideProblem
-from suspension_ctrl.search.compiled import call
+from suspension_ctrl.compiled import call
 from suspension_ctrl.search.indicators import ReferenceFront
 from suspension_ctrl.search.problem import Minimisable
 
@@ -124,7 +124,7 @@ class ScaledKernel(NamedTuple):
     span: NDArray[np.float64]
 
     @register_jitable
-    def function(self, design: NDArray[np.float64]) -> NDArray[np.float64]:
+    def __call__(self, design: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the scaled objectives (3,) of a design (2,)."""
         return scaled(call(self.kernel, (design,)), self.ideal, self.span)
 

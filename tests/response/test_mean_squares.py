@@ -44,7 +44,7 @@ def test_travel_crosses_its_mean_as_often_whatever_the_strut(design):
     road = PowerLawRoad(roughness=1e-6, exponent=2.0)
     wide = case(car, terms, SETTING, ["spring", "damper"], road=road, band=(0.0, 2000.0), nodes=4096)
     assert isinstance(wide, OneStrut)
-    zeroth, second = wide.mean_squares(np.array([design]))[0]
+    zeroth, second = wide(np.array([design]))[0]
     expected = np.sqrt(car.tyre_stiffness / (car.body_mass + car.wheel_mass)) / (2 * np.pi)
     assert np.sqrt(second / zeroth) / (2 * np.pi) == pytest.approx(expected, rel=1e-6)
     assert expected == pytest.approx(3.66, abs=0.005)
@@ -60,7 +60,7 @@ def test_moments_are_those_of_the_spectrum(vehicle):
     h = from_roads(vehicle, setting, [name], f)
     spectrum = np.einsum("nmi,nij,nmj->n", h, ROAD.cross_spectrum(f, SPEED, vehicle.contact_points), h.conj()).real
     expected = [((2 * np.pi * f) ** n * spectrum) @ w for n in (0, 2, 4)]
-    np.testing.assert_allclose(found.mean_squares(np.array([list(setting.values())]))[0], expected, rtol=1e-9)
+    np.testing.assert_allclose(found(np.array([list(setting.values())]))[0], expected, rtol=1e-9)
 
 
 def inerter_car() -> Assembled:
@@ -94,7 +94,7 @@ def test_an_inerter_is_a_coefficient_of_second_order(variables):
     for inertance in (0.0, 15.0, 80.0):
         middle = {**SETTING, "inerter": 40.0 if "inerter" in variables else inertance}
         design = [{**SETTING, "inerter": inertance}[name] for name in variables]
-        found = case(inerter_car(), terms, middle, variables).mean_squares(np.array([design]))[0]
+        found = case(inerter_car(), terms, middle, variables)(np.array([design]))[0]
         responses = by_hand(inertance, f)
         expected = [(np.abs(responses[name]) ** 2 * ROAD.psd(f, SPEED)) @ w for name in QUARTER.responses]
         np.testing.assert_allclose(found, expected, rtol=1e-9)
@@ -117,7 +117,7 @@ def test_a_change_of_a_mass_is_a_port():
         )
     )
     terms = [Term(name) for name in QUARTER.responses]
-    found = case(car, terms, {**SETTING, "load": 0.0}, ["load"]).mean_squares(np.array([[0.0], [50.0], [-20.0]]))
+    found = case(car, terms, {**SETTING, "load": 0.0}, ["load"])(np.array([[0.0], [50.0], [-20.0]]))
     for change, row in zip((0.0, 50.0, -20.0), found, strict=True):
         changed: QuarterCar = replace(QUARTER, body_mass=QUARTER.body_mass + change)
         expected = mean_squares(changed, SETTING, [(name, None) for name in QUARTER.responses], BAND, 256)

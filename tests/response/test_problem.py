@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from suspension_ctrl import PowerLawRoad, QuarterCar, RideProblem, weighting
+from suspension_ctrl.compiled import call_compiled
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.response import weightings
-from suspension_ctrl.search.compiled import call_compiled
 
 springs, dampers = st.floats(1e3, 30e3), st.floats(1e3, 5e3)
 

@@ -23,7 +23,7 @@ def scores(*each: Score) -> Scores:
 def mean_squares() -> np.ndarray:
     """Mean squares (c, p, 2) of A and B without their factors."""
     measured = scores(Score((CaseMeasure("x", "", (A, B)),) * 2, False))
-    return np.array([case.mean_squares(DESIGNS) for case in measured.kernel(256).cases])
+    return np.array([case(DESIGNS) for case in measured.kernel(256).cases])
 
 
 @pytest.mark.parametrize("worst_case", [False, True])
@@ -67,7 +67,7 @@ def test_the_same_integral_is_taken_once():
 def test_errors_are_the_changes_by_twice_the_nodes():
     measure = CaseMeasure("x", "", (A,))
     judged = scores(Score((measure, measure), False))
-    coarse, fine = (np.array([case.mean_squares(DESIGNS) for case in judged.kernel(n).cases]) for n in (24, 48))
+    coarse, fine = (np.array([case(DESIGNS) for case in judged.kernel(n).cases]) for n in (24, 48))
     expected = np.abs(np.sqrt(coarse / fine) - 1).max(axis=1)
     np.testing.assert_allclose(np.array(judged.errors(DESIGNS, 24)), expected, rtol=1e-9)
     assert max(error.max() for error in judged.errors(DESIGNS, 256)) < 1e-9

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from suspension_ctrl.compiled import call_compiled
 from suspension_ctrl.search import decomposition
-from suspension_ctrl.search.compiled import call_compiled
 
 
 @pytest.mark.parametrize("m", [2, 3, 4])
@@ -62,8 +62,8 @@ vectors = st.lists(st.floats(0, 100), min_size=3, max_size=3).map(np.array)
 
 @given(vectors, vectors, vectors)
 def test_tchebycheff_is_equation_14(f, weight, ideal):
-    g = decomposition.tchebycheff(f, weight, ideal)
-    assert g == max(w * abs(a - z) for w, a, z in zip(weight, f, ideal, strict=True))
+    g = decomposition.tchebycheff(np.stack([f, ideal]), np.stack([weight, weight]), ideal)
+    assert g.tolist() == [max(w * abs(a - z) for w, a, z in zip(weight, f, ideal, strict=True)), 0.0]
 
 
 @given(st.integers(15, 120), st.integers(0, 2**32))
@@ -100,7 +100,8 @@ def test_everyone_can_be_chosen():
 def test_mating_range_is_the_neighbourhood_with_its_probability():
     near = decomposition.neighbourhoods(50, 3, 5)
     rng = np.random.default_rng(1)
-    sizes = np.array([call_compiled(decomposition.MatingRange(0.9), rng, 7, near).size for _ in range(4000)])
+    mating_range = decomposition.MatingRange(0.9, np.arange(50))
+    sizes = np.array([call_compiled(mating_range, rng, 7, near).size for _ in range(4000)])
     assert set(sizes) == {5, 50}
     assert (sizes == 5).mean() == pytest.approx(0.9, abs=5 * np.sqrt(0.09 / 4000))
 

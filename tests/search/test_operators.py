@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import ks_2samp, kstest
 
+from suspension_ctrl.compiled import call_compiled
 from suspension_ctrl.search import operators
-from suspension_ctrl.search.compiled import call_compiled
 
 LOWER, UPPER = np.array([-1.0, 0.0, 10.0]), np.array([1.0, 5.0, 11.0])
 P_LIMIT = 1e-4  # of a test with a fixed seed, which so fails only when the code or numpy's stream changes

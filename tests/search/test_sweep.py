@@ -9,7 +9,7 @@ from numba import njit
 from functions import c2dtlz2, dtlz2, srn, zdt1
 from suspension_ctrl import MoeadDra, minimise
 from suspension_ctrl.paper import experiment as paper
-from suspension_ctrl.search import sweep
+from suspension_ctrl.search import decomposition, sweep
 
 
 def halfway(rng, child, parent, lower, upper):
@@ -41,18 +41,16 @@ def bad_kernel(design):
     [dtlz2(4), paper.ride_problem(), c2dtlz2(4, compiled=False), srn()],
     ids=["no kernel", "kernel", "constraints, no kernel", "constraints, kernel"],
 )
-def test_compiled_and_plain_sweeps_make_the_same_run(problem):
+def test_compiled_and_plain_sweeps_make_the_same_run(problem, monkeypatch):
     """The compiled loop, the same function as plain Python, and every step of it as plain Python."""
     optimiser = MoeadDra(population=30, utility_period=3)
     runs = [minimise(problem, optimiser, iterations=8, seed=2)]
     toolbox = optimiser.toolbox(problem)
     toolbox.register("evaluate", lambda designs: problem.evaluate(designs))
     runs.append(minimise(problem, optimiser, iterations=8, seed=2, toolbox=toolbox))
-    for name in ("choose_subproblems", "update_utility"):
-        compiled = getattr(toolbox, name)
-        toolbox.register(name, compiled.func.py_func, **compiled.keywords)
+    monkeypatch.setattr(decomposition, "chosen_by", decomposition.chosen_by.py_func)
     for name in sweep.VERBS:
-        toolbox.register(name, getattr(toolbox, name).args[0].function)
+        toolbox.register(name, getattr(toolbox, name).args[0].__call__)
     runs.append(minimise(problem, optimiser, iterations=8, seed=2, toolbox=toolbox))
     for other in runs[1:]:
         np.testing.assert_array_equal(runs[0].designs, other.designs)

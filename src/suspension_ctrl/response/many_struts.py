@@ -3,9 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
-from numba.extending import register_jitable
 
+from ..compiled import compilable, compiled
 from ..quantities import Bool, Integer, Real
 
 
@@ -27,8 +26,8 @@ class ManyStruts(NamedTuple):
     order: Integer  # (v,), 0 of springs, 1 of dampers, 2 of inerters and masses
     origin: Real  # (v,), values of the variables around which the plant is closed already
 
-    @njit(cache=True)
-    def mean_squares(self, designs: Real) -> Real:
+    @compiled()
+    def __call__(self, designs: Real) -> Real:
         """Return the mean squares (p, k) of designs (p, v), each as if alone.
 
         Struts of dynamic stiffness D and deflections e carry tensions D e, with e = S + P D e for the sources S:
@@ -72,7 +71,7 @@ class ManyStruts(NamedTuple):
         return result
 
 
-@register_jitable
+@compilable()
 def fill_stiffness(added: Real, struts: ManyStruts, entry: int, stiffness: Real) -> Bool:
     """Fill in the dynamic stiffness D (q q, 2, n) of coefficients (v,), and tell which entries are not zero.
 
@@ -97,7 +96,7 @@ def fill_stiffness(added: Real, struts: ManyStruts, entry: int, stiffness: Real)
     return present
 
 
-@register_jitable
+@compilable()
 def fill_loop(q: int, s: int, present: Bool, stiffness: Real, feedback: Real, sources: Real, loop: Real) -> None:
     """Put 1 - P D beside the sources into the loop (q (q + s), 2, n)."""
     for i in range(q):
@@ -113,7 +112,7 @@ def fill_loop(q: int, s: int, present: Bool, stiffness: Real, feedback: Real, so
             loop[i * (q + s) + q + source] = sources[i * s + source]
 
 
-@register_jitable
+@compilable()
 def eliminate(q: int, columns: int, loop: Real) -> None:
     """Solve the linear equations (q columns, 2, n) in place: solutions replace the right-hand sides."""
     for c in range(q):
@@ -132,7 +131,7 @@ def eliminate(q: int, columns: int, loop: Real) -> None:
 # Rows of frequencies: products may be fused and sums taken in whatever order suits the processor, the same for
 # every design; numpy's error model leaves out a check for division by zero that would keep a loop from being
 # vectorised.
-@register_jitable(fastmath={"contract", "nsz"}, error_model="numpy")
+@compilable(fastmath={"contract", "nsz"}, error_model="numpy")
 def invert(value: Real) -> None:
     """Replace a complex row (2, n) by its reciprocal."""
     a, b = value[0], value[1]
@@ -142,7 +141,7 @@ def invert(value: Real) -> None:
         b[t] /= -size
 
 
-@register_jitable(fastmath={"contract", "nsz"})
+@compilable(fastmath={"contract", "nsz"})
 def multiply(factor: Real, value: Real) -> None:
     """Multiply a complex row (2, n) by another in place."""
     a, b, x, y = factor[0], factor[1], value[0], value[1]
@@ -152,7 +151,7 @@ def multiply(factor: Real, value: Real) -> None:
         x[t] = real
 
 
-@register_jitable(fastmath={"contract", "nsz"})
+@compilable(fastmath={"contract", "nsz"})
 def add_product(sign: float, left: Real, right: Real, total: Real) -> None:
     """Add the product of two complex rows (2, n), times `sign`, to a third."""
     a, b, x, y, re, im = left[0], left[1], right[0], right[1], total[0], total[1]
@@ -161,7 +160,7 @@ def add_product(sign: float, left: Real, right: Real, total: Real) -> None:
         im[t] += sign * (a[t] * y[t] + b[t] * x[t])
 
 
-@register_jitable(fastmath={"reassoc", "contract", "nsz"})
+@compilable(fastmath={"reassoc", "contract", "nsz"})
 def sum_of_squares(value: Real) -> float:
     """Return the sum of the squared magnitudes of a complex row (2, n)."""
     total = 0.0

@@ -1,15 +1,12 @@
 """Mean squares of a load case's responses over designs: one interface, in Python and in compiled code.
 
 A case is a named tuple of arrays with a compiled method ``mean_squares`` from designs (p, v) to mean squares
-(p, k): `OneStrut` for a single spring and damper, `ManyStruts` for the rest.
+(p, k), the ``function`` of compiled loops: `OneStrut` for a single spring and damper, `ManyStruts` for the rest.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
 
 import numpy as np
-from numba import types
-from numba.extending import overload_method
 
 from ..quantities import Real
 from . import weightings
@@ -24,15 +21,24 @@ from .quadrature import frequency_nodes
 Case = OneStrut | ManyStruts
 
 
-@overload_method(types.BaseNamedTuple, "mean_squares", inline="always")
-def _of_its_class(self: Any, designs: Any) -> Callable[..., Any]:  # noqa: ARG001  # numba matches names
-    """Call the method of a case's class in compiled code, which knows no methods of named tuples."""
-    method = self.instance_class.mean_squares
+def cases_of(
+    load_cases: Sequence[LoadCase],
+    terms: Sequence[Sequence[Term]],
+    settings: Sequence[Mapping[str, float]],
+    variables: Sequence[str],
+    band: tuple[float, float],
+    nodes: int,
+) -> tuple[Case, ...]:
+    """Return load cases, with terms and setting of each, as `case_of` does, of one class for compiled loops."""
+    each = zip(load_cases, terms, settings, strict=True)
+    one_strut = all(fits_one_strut(case, variables) for case in load_cases)
+    return tuple(case_of(*case, variables, band, nodes, one_strut=one_strut) for case in each)
 
-    def compiled(self: Any, designs: Any) -> Any:
-        return method(self, designs)
 
-    return compiled
+def fits_one_strut(load_case: LoadCase, variables: Sequence[str]) -> bool:
+    """Whether there is one wheel, and one strut of a spring and a damper that both vary."""
+    names = [parameter.name for parameter in load_case.vehicle.parameters]
+    return load_case.wheels == 1 and names == list(variables) == ["spring", "damper"]
 
 
 def case_of(
@@ -43,11 +49,12 @@ def case_of(
     band: tuple[float, float],
     nodes: int,
     pairs: Callable[[Sequence[str], Real], Pairs] = Pairs.of,
+    one_strut: bool = True,
 ) -> Case:
     """Return a load case ready for the mean squares (k,) of terms over designs of the variables (v,).
 
     The `setting` has every coefficient, of the variables a value in the middle of its range; `pairs` tells by
-    names of struts and contact points which to pair.
+    names of struts and contact points which to pair. `OneStrut` where it fits and `one_strut` allows.
     """
     weights = [term.weighting and weightings.by_name(term.weighting) for term in terms]
     kinks = {f for weighting in weights if weighting for f in weighting.breakpoints}
@@ -60,7 +67,7 @@ def case_of(
         ]
     ).reshape(len(terms), f.size)
     responses = [term.response for term in terms]
-    if load_case.wheels == 1 and [p.name for p in vehicle.parameters] == list(variables) == ["spring", "damper"]:
+    if one_strut and fits_one_strut(load_case, variables):
         return OneStrut.around(Ports.of(vehicle, f, responses), omega, densities * load_case.psd(f))
     ports, roads = Ports.of(vehicle, f, responses, setting), load_case.cross_spectrum(f)
     varied = Variables.of(vehicle.parameters, {name: setting[name] for name in variables})

@@ -3,8 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from ..compiled import compiled
 from ..quantities import Complex, Integer, Real
 from .ports import Ports
 
@@ -26,8 +26,8 @@ class OneStrut(NamedTuple):
 
     # The sums over frequencies may be taken in whatever order suits the processor, the same one for every design;
     # numpy's error model leaves out a check for division by zero that would keep the loop from being vectorised.
-    @njit(cache=True, fastmath={"reassoc", "contract", "nsz"}, error_model="numpy")
-    def mean_squares(self, designs: Real) -> Real:
+    @compiled(fastmath={"reassoc", "contract", "nsz"}, error_model="numpy")
+    def __call__(self, designs: Real) -> Real:
         """Return the mean squares (p, k) of designs (p, 2), K [N/m] and C [N s/m], each as if alone."""
         result = np.empty((designs.shape[0], self.terms))
         gain = np.empty(self.denominator.shape[1])

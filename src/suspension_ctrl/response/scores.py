@@ -2,17 +2,17 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
+from math import sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import literal_unroll
-from numba.extending import register_jitable
 
+from ..compiled import call, compilable
 from ..quantities import Bool, Integer, Real
 from ..vehicles.feedback import gains_by_order
 from ..vehicles.vehicle import assembled
 from .load_case import LoadCase
-from .mean_squares import Case, case_of
+from .mean_squares import Case, cases_of
 from .measures import CaseMeasure, Designs, Term
 from .ports import Ports, dynamic_stiffness
 
@@ -35,8 +35,8 @@ class Score(NamedTuple):
 class Kernel(NamedTuple):
     """Scores of designs as data, of c load cases."""
 
-    cases: tuple[Case, ...]
-    squares: tuple[Real, ...]  # (s, k) in each case, factors of its mean squares
+    cases: tuple[Case, ...]  # of one class
+    squares: Real  # (c, s, k), factors of the mean squares of each case, zeros where it has fewer
     shares: Real  # (c,), sum 1
     worst_term: Bool  # (s,), whether the largest of the terms counts, or their sum
     worst_case: Bool  # (s,), whether the largest of the cases counts, or their mean
@@ -50,7 +50,7 @@ class Kernel(NamedTuple):
         """
         total, any_worst = np.zeros((self.scale.size, designs.shape[0])), self.worst_case.any()
         for case, squares, share in zip(self.cases, self.squares, self.shares, strict=True):
-            found, value = case.mean_squares(designs).T, np.zeros_like(total)
+            found, value = case(designs).T, np.zeros_like(total)
             for s, k in zip(*(index.tolist() for index in squares.nonzero()), strict=True):
                 combine = np.maximum if self.worst_term[s] else np.add
                 combine(value[s], squares[s, k] * found[k], out=value[s])
@@ -58,25 +58,29 @@ class Kernel(NamedTuple):
             total = np.where(self.worst_case[:, None], np.maximum(total, value), mean) if any_worst else mean
         return np.asarray(self.scale * np.sqrt(total.T) + self.offset)
 
-    @register_jitable
-    def function(self, design: Real) -> Real:
+    @compilable()
+    def __call__(self, design: Real) -> Real:
         """Return the scores (s,) of one design (v,), in compiled code."""
         designs = design.reshape(1, design.size)
         total = np.empty(self.scale.size)
         for s in range(total.size):
             total[s] = 0.0
-        c = 0
-        for case in literal_unroll(self.cases):
-            found = case.mean_squares(designs)
+        for c in range(len(self.cases)):
+            found = call(self.cases[c], (designs,))
             for s in range(total.size):
                 value = 0.0
                 for k in range(found.shape[1]):
-                    term = self.squares[c][s, k] * found[0, k]
-                    value = max(value, term) if self.worst_term[s] else value + term
-                total[s] = max(total[s], value) if self.worst_case[s] else total[s] + self.shares[c] * value
-            c += 1  # noqa: SIM113  # compiled loops over tuples of several types have no enumerate
+                    term = self.squares[c, s, k] * found[0, k]
+                    if not self.worst_term[s]:
+                        value += term
+                    elif term > value:
+                        value = term
+                if not self.worst_case[s]:
+                    total[s] += self.shares[c] * value
+                elif value > total[s]:
+                    total[s] = value
         for s in range(total.size):
-            total[s] = self.scale[s] * np.sqrt(total[s]) + self.offset[s]
+            total[s] = self.scale[s] * sqrt(total[s]) + self.offset[s]
         return total
 
 
@@ -109,10 +113,9 @@ class Scores:
     def kernel(self, nodes: int) -> Kernel:
         """Return the scores as data of a compiled function; those of measures with a function are offsets."""
         if nodes not in self._kernels:
-            cases = zip(self.cases, self.terms, self.settings, strict=True)
             self._kernels[nodes] = Kernel(
-                tuple(case_of(*case, list(self.variables), self.band, nodes) for case in cases),
-                tuple(self._squares(c) for c in range(len(self.cases))),
+                cases_of(self.cases, self.terms, self.settings, list(self.variables), self.band, nodes),
+                self._squares,
                 self.shares,
                 np.array([score.measures[0].worst for score in self.scores]),
                 np.array([score.worst_case for score in self.scores]),
@@ -131,7 +134,7 @@ class Scores:
         kernel = self.kernel(nodes)
         if self._simple:
             which, factor = self._simple
-            found = kernel.cases[0].mean_squares(designs).T[which]
+            found = kernel.cases[0](designs).T[which]
             return np.asarray(kernel.scale * np.sqrt(factor * found).T + kernel.offset)
         scores = kernel.scores(designs)
         for column, score in enumerate(self.scores):
@@ -142,23 +145,25 @@ class Scores:
     def errors(self, designs: Real, nodes: int) -> list[Real]:
         """Return, by case, the largest change (k,) of each term's root mean square by twice the nodes."""
         both = zip(self.kernel(nodes).cases, self.kernel(2 * nodes).cases, strict=True)
-        return [_change(*(np.sqrt(case.mean_squares(designs)) for case in pair)) for pair in both]
+        return [_change(*(np.sqrt(case(designs)) for case in pair)) for pair in both]
 
     @cached_property
     def _simple(self) -> tuple[Integer, Real] | None:
         """The mean square (s,) and its factor (s, 1) in each score, if of one case and one term; else None."""
-        squares = self._squares(0)
+        squares = self._squares[0]
         if len(self.cases) > 1 or (np.count_nonzero(squares, axis=1) != 1).any():
             return None
         return squares.argmax(axis=1), squares.max(axis=1, keepdims=True)
 
-    def _squares(self, c: int) -> Real:
-        """Return the factor (s, k) of each mean square of a case in each score."""
-        squares = np.zeros((len(self.scores), len(self.terms[c])))
-        for s, score in enumerate(self.scores):
-            for term in score.measures[c].terms:
-                factor = term.factor / (self._static_load(c, term) if term.relative else 1.0)
-                squares[s, self.terms[c].index(term.integral)] += factor**2
+    @cached_property
+    def _squares(self) -> Real:
+        """The factor (c, s, k) of each mean square of a case in each score."""
+        squares = np.zeros((len(self.cases), len(self.scores), max(map(len, self.terms))))
+        for c, terms in enumerate(self.terms):
+            for s, score in enumerate(self.scores):
+                for term in score.measures[c].terms:
+                    factor = term.factor / (self._static_load(c, term) if term.relative else 1.0)
+                    squares[c, s, terms.index(term.integral)] += factor**2
         return squares
 
     def _static_load(self, c: int, term: Term) -> float:

@@ -6,8 +6,8 @@ efficient constraint handling method for genetic algorithms", Computer Methods i
 """
 
 import numpy as np
-from numba import njit
 
+from ..compiled import compiled
 from ..quantities import Real
 
 
@@ -15,12 +15,13 @@ class InfeasibleWarning(UserWarning):
     """A search ended without a design that meets all constraints."""
 
 
-@njit(cache=True, inline="always")  # MOEA/D-DRA calls it for each comparison
+@compiled(inline="always")  # MOEA/D-DRA calls it for each comparison
 def violation_of(value: Real, m: int) -> float:
     """Return the sum of max(0, g) over the constraints among the values (m + c,) of a design."""
     violation = 0.0
     for j in range(m, value.size):
-        violation += max(0.0, value[j])
+        if value[j] > 0.0:
+            violation += value[j]
     return violation
 
 

@@ -8,12 +8,11 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
-from numba.extending import register_jitable
 from scipy.spatial import cKDTree
 
+from ..compiled import compilable, compiled
 from ..quantities import Integer, Real, frozen_array
-from .constraints import violation_of
+from .constraints import violation_of, violations
 from .operators import draw_below
 
 ZERO_WEIGHT = 1e-4
@@ -54,16 +53,11 @@ def neighbourhoods(size: int, objectives: int, neighbours: int) -> Integer:
     return frozen_array(cKDTree(weights).query(weights, k=neighbours)[1], dtype=np.int64)
 
 
-@njit(cache=True, inline="always")  # a call for each comparison would cost more than what it compares
-def tchebycheff(objectives: Real, weight: Real, ideal: Real) -> float:
-    """Return g(F | lambda) = max_j lambda_j |F_j - z_j|, equation (14), of objectives (m + c,), the first m."""
-    g = 0.0
-    for j in range(ideal.size):
-        g = max(g, weight[j] * abs(objectives[j] - ideal[j]))
-    return g
+def tchebycheff(values: Real, weights: Real, ideal: Real) -> Real:
+    """Return g(F | lambda) = max_j lambda_j |F_j - z_j| (n,), equation (14), of values (n, m + c), the first m."""
+    return np.asarray((weights * np.abs(values[:, : ideal.size] - ideal)).max(axis=1))
 
 
-@njit(cache=True)
 def choose_subproblems(
     rng: np.random.Generator, utility: Real, corners: Integer, size: int, tournament: int
 ) -> Integer:
@@ -71,18 +65,22 @@ def choose_subproblems(
 
     A tournament is held among `tournament` drawn from those not chosen yet; the first drawn wins a tie.
     """
-    open_ = np.arange(utility.size)
-    chosen = np.empty(size, dtype=np.int64)
-    for c in range(size):
-        left = utility.size - c
-        best = 0
+    draws = rng.random((size - corners.size, tournament))
+    return chosen_by(draws, utility, corners, np.arange(utility.size), np.empty(size, dtype=np.int64))
+
+
+@compiled()
+def chosen_by(draws: Real, utility: Real, corners: Integer, open_: Integer, chosen: Integer) -> Integer:
+    """Fill `chosen` (c,) from `open_` (N,), which changes too: corners, then winners by draws from 0 to 1."""
+    for c in range(chosen.size):
+        left, best = open_.size - c, np.int64(0)
         if c < corners.size:
             while open_[best] != corners[c]:
                 best += 1
         else:
-            best = draw_below(rng, left)
-            for _ in range(tournament - 1):
-                rival = draw_below(rng, left)
+            best = np.int64(draws[c - corners.size, 0] * left)
+            for draw in draws[c - corners.size]:
+                rival = np.int64(draw * left)
                 if utility[open_[rival]] > utility[open_[best]]:
                     best = rival
         chosen[c] = open_[best]
@@ -94,13 +92,14 @@ class MatingRange(NamedTuple):
     """Partners of a subproblem in mating and replacement: with `probability` its neighbours, otherwise all."""
 
     probability: float
+    everyone: Integer  # (N,)
 
-    @register_jitable
-    def function(self, rng: np.random.Generator, i: int, neighbours: Integer) -> Integer:
+    @compilable()
+    def __call__(self, rng: np.random.Generator, i: int, neighbours: Integer) -> Integer:
         """Return the partners (T,) or (N,) of subproblem i from the neighbours of each (N, T)."""
         if rng.random() < self.probability:
             return neighbours[i]
-        return np.arange(neighbours.shape[0])
+        return self.everyone
 
 
 class ReplaceWorse(NamedTuple):
@@ -112,8 +111,8 @@ class ReplaceWorse(NamedTuple):
 
     limit: int
 
-    @register_jitable
-    def function(
+    @compilable()
+    def __call__(
         self,
         rng: np.random.Generator,
         child: Real,
@@ -126,16 +125,19 @@ class ReplaceWorse(NamedTuple):
     ) -> None:
         """Replace partners by a child (d,) of values (m + c,), in place, after an update of the ideal point."""
         # Partners are judged one by one: the first `limit` bettered ones of a random order equal as many drawn.
-        lower_ideal(ideal, child_values, values)
         violation = violation_of(child_values, ideal.size)
+        lower_ideal(ideal, child_values, violation == 0.0, values)
         bettered = np.empty_like(partners)
         count = 0
         for p in partners:
-            theirs = violation_of(values[p], ideal.size)
-            better = violation < theirs
-            if violation == 0.0 and theirs == 0.0:
-                better = tchebycheff(child_values, weights[p], ideal) < tchebycheff(values[p], weights[p], ideal)
-            if better:
+            mine, theirs = violation, violation_of(values[p], ideal.size)
+            if mine == 0.0 and theirs == 0.0:
+                for j in range(ideal.size):  # `tchebycheff` of both
+                    g = weights[p, j] * abs(child_values[j] - ideal[j])
+                    mine = g if g > mine else mine
+                    g = weights[p, j] * abs(values[p, j] - ideal[j])
+                    theirs = g if g > theirs else theirs
+            if mine < theirs:
                 bettered[count] = p
                 count += 1
         for left in range(count, max(count - self.limit, 0), -1):
@@ -148,21 +150,18 @@ class ReplaceWorse(NamedTuple):
                 values[p, j] = child_values[j]
 
 
-@register_jitable
-def lower_ideal(ideal: Real, child: Real, values: Real) -> None:
+@compiled(inline="always")
+def lower_ideal(ideal: Real, child: Real, feasible: bool, values: Real) -> None:
     """Update the ideal point (m,) with a child's values (m + c,), in place, as `ideal_with` does."""
-    feasible, found, i = violation_of(child, ideal.size) == 0.0, False, 0
+    found, i = False, 0
     while not found and i < values.shape[0]:
         found = violation_of(values[i], ideal.size) == 0.0
         i += 1
     for j in range(ideal.size):
-        if feasible and not found:
+        if (feasible and not found) or (feasible == found and child[j] < ideal[j]):
             ideal[j] = child[j]
-        elif feasible or not found:
-            ideal[j] = min(ideal[j], child[j])
 
 
-@njit(cache=True)
 def updated_utility(
     utility: Real, before: Real, values: Real, weights: Real, ideal: Real, threshold: float
 ) -> Real:
@@ -171,13 +170,9 @@ def updated_utility(
     Progress is the relative decrease of g, both taken at the present ideal point, or of an infeasible design's
     violation; without progress a utility sinks by 5 %.
     """
-    updated = np.ones_like(utility)
-    for i in range(utility.size):
-        old, new = violation_of(before[i], ideal.size), violation_of(values[i], ideal.size)
-        if old == 0.0:
-            old = tchebycheff(before[i], weights[i], ideal)
-            new = tchebycheff(values[i], weights[i], ideal)
-        progress = max(0.0, (old - new) / old) if old > 0 else 0.0
-        if progress <= threshold:
-            updated[i] = (0.95 + 0.05 * progress / threshold) * utility[i]
-    return updated
+    old, new = violations(before, ideal.size), violations(values, ideal.size)
+    by_value = old == 0.0
+    old = np.where(by_value, tchebycheff(before, weights, ideal), old)
+    new = np.where(by_value, tchebycheff(values, weights, ideal), new)
+    progress = np.maximum(0.0, np.divide(old - new, old, out=np.zeros_like(old), where=old > 0))
+    return np.where(progress > threshold, 1.0, (0.95 + 0.05 * progress / threshold) * utility)

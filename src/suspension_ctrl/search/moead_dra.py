@@ -9,9 +9,9 @@ import numpy as np
 from deap.base import Toolbox
 
 from .. import checks
+from ..compiled import call_compiled
 from ..quantities import Real
 from . import decomposition, operators
-from .compiled import call_compiled
 from .constraints import ideal_with
 from .population import State
 from .problem import Minimisable, evaluate_checked
@@ -114,8 +114,8 @@ class MoeadDra:
         toolbox.register("sample", operators.sample_uniform, lower=lower, upper=upper)
         toolbox.register("evaluate", problem.evaluate)
         toolbox.register("choose_subproblems", decomposition.choose_subproblems, tournament=self.tournament)
-        neighbour_probability = float(self.neighbour_probability)
-        toolbox.register("mating_range", call_compiled, decomposition.MatingRange(neighbour_probability))
+        mating_range = decomposition.MatingRange(float(self.neighbour_probability), np.arange(self.population))
+        toolbox.register("mating_range", call_compiled, mating_range)
         toolbox.register("reproduce", call_compiled, operators.DifferentialChild(float(self.scale_factor)))
         toolbox.register("repair", call_compiled, operators.RedrawOutside(lower, upper))
         eta, p = float(self.mutation_eta), float(probability)

@@ -3,9 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
-from numba.extending import register_jitable
 
+from ..compiled import compilable, compiled
 from ..quantities import Bool, Integer, Real
 
 
@@ -15,10 +14,10 @@ def sample_uniform(rng: np.random.Generator, size: int, lower: Real, upper: Real
     return lower + (upper - lower) * rng.random((size, lower.size))
 
 
-@njit(cache=True, inline="always")
-def draw_below(rng: np.random.Generator, count: int) -> int:
+@compiled(inline="always")
+def draw_below(rng: np.random.Generator, count: int) -> np.int64:
     """Return a whole number drawn uniformly from 0 to count - 1."""
-    return int(rng.random() * count)
+    return np.int64(rng.random() * count)
 
 
 def crowded_tournament(rng: np.random.Generator, objectives: Real, crowding: Real, size: int) -> Integer:
@@ -31,7 +30,7 @@ def crowded_tournament(rng: np.random.Generator, objectives: Real, crowding: Rea
     return crowded_winners(rng.random((passes, n)), rng.random(size), objectives, crowding)
 
 
-@njit(cache=True)
+@compiled()
 def crowded_winners(draws: Real, coins: Real, objectives: Real, crowding: Real) -> Integer:
     """Return the winners (k,) of passes shuffled by draws (p, n); coins (k,) from 0 to 1 decide ties."""
     order = np.arange(objectives.shape[0])
@@ -51,7 +50,7 @@ def crowded_winners(draws: Real, coins: Real, objectives: Real, crowding: Real) 
     return winners
 
 
-@register_jitable
+@compilable()
 def shuffle(values: Integer, draws: Real) -> None:
     """Shuffle `values` (n,) in place by `draws` (n,) from 0 to 1 (Fisher and Yates)."""
     for i in range(values.size - 1, 0, -1):
@@ -72,7 +71,7 @@ def simulated_binary_crossover(
     return recombined(parents, mates, rng.random((pairs, variables, 3)), lower, upper, eta)
 
 
-@njit(cache=True)
+@compiled()
 def recombined(parents: Real, mates: Bool, draws: Real, lower: Real, upper: Real, eta: float) -> Real:
     """Return children (n, d); draws (n // 2, d, 3): whether a variable is recombined, its spread, their order."""
     children = parents.copy()
@@ -96,7 +95,7 @@ def recombined(parents: Real, mates: Bool, draws: Real, lower: Real, upper: Real
     return children
 
 
-@register_jitable
+@compilable()
 def sbx_spread(u: float, room: float, eta: float) -> float:
     """Spread factor of SBX for the draw u, with `room` to the bound in units of the parents' distance."""
     alpha = 2.0 - (1.0 + 2.0 * room) ** -(eta + 1.0)
@@ -116,7 +115,7 @@ def polynomial_mutation(
     return mutated(designs, mutates, rng.random(designs.shape), lower, upper, eta)
 
 
-@njit(cache=True)
+@compiled()
 def mutated(designs: Real, mutates: Bool, draws: Real, lower: Real, upper: Real, eta: float) -> Real:
     """Return mutants (n, d) of designs (n, d), changed where `mutates` (n, d), by draws (n, d)."""
     mutants = designs.copy()
@@ -127,7 +126,7 @@ def mutated(designs: Real, mutates: Bool, draws: Real, lower: Real, upper: Real,
     return mutants
 
 
-@register_jitable
+@compiled(inline="always")
 def mutated_value(value: float, u: float, lower: float, upper: float, eta: float) -> float:
     """Return the polynomial mutation of a value in its bounds for the draw u."""
     width = upper - lower
@@ -137,7 +136,8 @@ def mutated_value(value: float, u: float, lower: float, upper: float, eta: float
     else:
         rest = (1.0 - (upper - value) / width) ** (eta + 1.0)
         step = 1.0 - (2.0 * (1.0 - u) + (2.0 * u - 1.0) * rest) ** (1.0 / (eta + 1.0))
-    return min(max(value + step * width, lower), upper)
+    mutant = value + step * width  # min and max are functions that numba compiles for each caller
+    return lower if mutant < lower else upper if mutant > upper else mutant
 
 
 class MutateDesign(NamedTuple):
@@ -148,8 +148,8 @@ class MutateDesign(NamedTuple):
     eta: float
     probability: float
 
-    @register_jitable
-    def function(self, rng: np.random.Generator, design: Real) -> Real:
+    @compilable()
+    def __call__(self, rng: np.random.Generator, design: Real) -> Real:
         """Return a design (d,) changed in place."""
         for v in range(design.size):
             if rng.random() < self.probability:
@@ -162,8 +162,8 @@ class DifferentialChild(NamedTuple):
 
     scale: float
 
-    @register_jitable
-    def function(self, rng: np.random.Generator, designs: Real, i: int, partners: Integer) -> Real:
+    @compilable()
+    def __call__(self, rng: np.random.Generator, designs: Real, i: int, partners: Integer) -> Real:
         """Return a child (d,) of individual i, with different r2 and r3 drawn from `partners`."""
         first, second = draw_below(rng, partners.size), draw_below(rng, partners.size - 1)
         second += second >= first
@@ -179,8 +179,8 @@ class RedrawOutside(NamedTuple):
     lower: Real
     upper: Real
 
-    @register_jitable
-    def function(self, rng: np.random.Generator, child: Real, parent: Real) -> Real:
+    @compilable()
+    def __call__(self, rng: np.random.Generator, child: Real, parent: Real) -> Real:
         """Return the child (d,) of a parent (d,) changed in place."""
         for v in range(child.size):
             if child[v] < self.lower[v]:

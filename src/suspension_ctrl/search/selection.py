@@ -5,9 +5,9 @@ Ties: of equal values, and of equal crowding distances, the earlier individual o
 
 import moocore
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from ..compiled import compiled
 from ..quantities import Integer, Real
 
 _FEW = 24
@@ -60,7 +60,7 @@ def rising_order(values: Real) -> Integer:
     return order if settle_ties(values, order) else np.argsort(values, kind="stable")
 
 
-@njit(cache=True)
+@compiled()
 def settle_ties(value: Real, order: Integer) -> bool:
     """Sort equal values of a rising `order` (n,) by index, in place; False if they are too many."""
     begin = 0
@@ -77,7 +77,7 @@ def settle_ties(value: Real, order: Integer) -> bool:
     return True
 
 
-@njit(cache=True)
+@compiled()
 def add_gaps(value: Real, order: Integer, rank: NDArray[np.int32], fronts: int, m: int, distance: Real) -> None:
     """Add to `distance` (n,) the share of one of m objectives, of `value` (n,) that rises in `order` (n,)."""
     low, high = np.empty((2, fronts))

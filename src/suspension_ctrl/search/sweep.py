@@ -8,9 +8,9 @@ from deap.base import Toolbox
 from numba import njit
 from numba.extending import is_jitted
 
+from ..compiled import call, call_compiled, compiled, storable, verb_of
 from ..quantities import Integer, Real
 from .clock import untimed
-from .compiled import call, call_compiled, storable, verb_of
 from .constraints import feasible_objectives
 from .population import State
 from .problem import Minimisable, evaluate_checked
@@ -100,7 +100,7 @@ def work_on(
         call(update, (rng, child, value, partners, designs, values, weights, ideal))
 
 
-_STORED, _FRESH = njit(cache=True)(work_on), njit(work_on)
+_STORED, _FRESH = compiled()(work_on), njit(work_on)
 
 
 def compiled_verb(verb: partial[Any]) -> Any:

@@ -5,10 +5,9 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba.extending import register_jitable
 
+from ..compiled import call, compilable, verb_of
 from ..quantities import FrozenMapping, Integer, Real
-from .compiled import call, verb_of
 from .driver import Optimiser
 from .population import Population, State
 from .problem import Kernel, Minimisable
@@ -75,8 +74,8 @@ class KeptKernel(NamedTuple):
     count_so_far: Integer
     kernel: Any
 
-    @register_jitable
-    def function(self, design: Real) -> Real:
+    @compilable()
+    def __call__(self, design: Real) -> Real:
         """Return the kernel's values (m + c,) of a design (d,)."""
         value: Real = call(self.kernel, (design,))
         self.designs[self.count_so_far[0]] = design

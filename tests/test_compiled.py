@@ -12,8 +12,8 @@ from numba.extending import register_jitable
 
 from functions import dtlz2, srn
 from suspension_ctrl import MoeadDra, Nsga2, minimise
+from suspension_ctrl.compiled import call, call_compiled, storable, verb_of
 from suspension_ctrl.paper import experiment as paper
-from suspension_ctrl.search.compiled import call, call_compiled, storable, verb_of
 from suspension_ctrl.search.operators import DifferentialChild, MutateDesign
 from suspension_ctrl.search.trace import KeptKernel
 
@@ -23,7 +23,7 @@ class Line(NamedTuple):
     constant: float
 
     @register_jitable
-    def function(self, x):
+    def __call__(self, x):
         return self.slope * x + self.constant
 
 
@@ -33,7 +33,7 @@ class Doubled(NamedTuple):
     inner: Any
 
     @register_jitable
-    def function(self, x):
+    def __call__(self, x):
         return 2.0 * call(self.inner, (x,))
 
 
