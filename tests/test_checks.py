@@ -16,7 +16,7 @@ LOWER, UPPER = (0.0, -2.0, 1e5), (1.0, 2.0, 3e5)
 SENTENCES = [
     (checks.positive, ("mass", 0.0, "kg"), "mass must be finite and > 0 kg, got 0.0"),
     (checks.positive, ("mass", float("inf"), "kg"), "mass must be finite and > 0 kg, got inf"),
-    (checks.positive, ("mass", 10**400), f"mass must be finite and > 0, got {10**400}"),
+    (checks.positive, ("mass", 10**400), f"mass must be finite and > 0, got 1{'0' * 17}...{'0' * 19}"),
     (checks.positive, ("mass", True), "mass must be finite and > 0, got True"),
     (checks.positive, ("mass", "1"), "mass must be finite and > 0, got '1'"),
     (checks.not_negative, ("damper", -1, "N s/m"), "damper must be finite and >= 0 N s/m, got -1"),

@@ -1,14 +1,20 @@
 """Checks of user input: a ValueError names the parameter, the value and what is allowed."""
 
+import reprlib
+import stat
 import sys
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 _LARGEST = sys.float_info.max
 _SLACK = 1e-9  # share of its range by which a variable may pass a bound
+_SHOWN = 40  # most characters of a value in an error
+_BRIEF = reprlib.Repr()
+_BRIEF.maxstring = _BRIEF.maxother = _BRIEF.maxlong = _SHOWN
 
 
 @contextmanager
@@ -21,55 +27,72 @@ def installed(extra: str) -> Iterator[None]:
         raise ImportError(message, name=error.name) from None
 
 
+def shown(value: object) -> str:
+    """Return the repr of a value for an error: one line without control characters, cut to 40 characters."""
+    try:
+        text = " ".join(_BRIEF.repr(value).split())
+    except ValueError:  # a whole number of thousands of digits
+        text = f"a {type(value).__name__}"
+    return text if len(text) <= _SHOWN else f"{text[: _SHOWN - 3]}..."
+
+
+def regular(path: Path, most: float) -> None:
+    """Raise ValueError unless the file is a regular one of at most `most` MB; OSError if there is none."""
+    status = path.stat()
+    got = f"{status.st_size / 1e6:.6g} MB" if stat.S_ISREG(status.st_mode) else "another kind"
+    if got == "another kind" or status.st_size > most * 1e6:
+        raise ValueError(f"the file must be a regular one of at most {most:g} MB, got {got}")
+
+
 def positive(name: str, value: float, unit: str = "") -> None:
     """Raise ValueError unless `value` is a finite number above zero."""
     if not (_is_real(value) and 0 < value <= _LARGEST):
-        raise ValueError(f"{name} must be finite and > 0{f' {unit}'.rstrip()}, got {value!r}")
+        raise ValueError(f"{name} must be finite and > 0{f' {unit}'.rstrip()}, got {shown(value)}")
 
 
 def not_negative(name: str, value: float, unit: str = "") -> None:
     """Raise ValueError unless `value` is a finite number of zero or more."""
     if not (_is_real(value) and 0 <= value <= _LARGEST):
-        raise ValueError(f"{name} must be finite and >= 0{f' {unit}'.rstrip()}, got {value!r}")
+        raise ValueError(f"{name} must be finite and >= 0{f' {unit}'.rstrip()}, got {shown(value)}")
 
 
 def at_least(name: str, value: int, minimum: int) -> None:
     """Raise ValueError unless `value` is a whole number of at least `minimum`."""
     if not (isinstance(value, int | np.integer) and not isinstance(value, bool) and value >= minimum):
-        raise ValueError(f"{name} must be a whole number >= {minimum}, got {value!r}")
+        raise ValueError(f"{name} must be a whole number >= {minimum}, got {shown(value)}")
 
 
 def within(name: str, value: float, lowest: float, highest: float) -> None:
     """Raise ValueError unless `value` lies in the closed interval from `lowest` to `highest`."""
     if not (_is_real(value) and lowest <= value <= highest):
-        raise ValueError(f"{name} must be a number from {lowest} to {highest}, got {value!r}")
+        raise ValueError(f"{name} must be a number from {lowest} to {highest}, got {shown(value)}")
 
 
 def interval(name: str, value: ArrayLike, unit: str) -> None:
     """Raise ValueError unless `value` is a pair of finite numbers with 0 <= lower < upper."""
     pair = list(value) if isinstance(value, Sequence | np.ndarray) else []
     if not (len(pair) == 2 and all(map(_is_real, pair)) and 0 <= pair[0] < pair[1] <= _LARGEST):
-        raise ValueError(f"{name} must be finite with 0 <= lower < upper [{unit}], got {value!r}")
+        raise ValueError(f"{name} must be finite with 0 <= lower < upper [{unit}], got {shown(value)}")
 
 
 def position(name: str, value: object) -> tuple[float, float]:
     """Return `value` as a pair of floats; ValueError unless it is one of finite numbers."""
     pair = list(value) if isinstance(value, Sequence | np.ndarray) and not isinstance(value, str) else []
     if not (len(pair) == 2 and all(_is_real(x) and abs(x) <= _LARGEST for x in pair)):
-        raise ValueError(f"{name} must be two finite numbers, x and y [m], got {value!r}")
+        raise ValueError(f"{name} must be two finite numbers, x and y [m], got {shown(value)}")
     return float(pair[0]), float(pair[1])
 
 
 def listed(name: str, value: object) -> None:
     """Raise ValueError unless `value` is a collection other than a string."""
     if isinstance(value, str) or not isinstance(value, Iterable):
-        raise ValueError(f"{name} must be a list, got {value!r}")
+        raise ValueError(f"{name} must be a list, got {shown(value)}")
 
 
 def one_of(name: str, value: object, allowed: Collection[object]) -> None:
     """Raise ValueError unless `value` is one of `allowed`."""
     if not any(value == choice for choice in allowed):
-        raise ValueError(f"{name} must be one of {', '.join(map(str, allowed))}, got {value!r}")
+        raise ValueError(f"{name} must be one of {', '.join(map(str, allowed))}, got {shown(value)}")
 
 
 def ordered(lower_name: str, upper_name: str, lower: ArrayLike, upper: ArrayLike) -> None:

@@ -4,6 +4,8 @@ import csv
 from os import PathLike
 from pathlib import Path
 
+from . import checks
+
 _FOLDERS = (Path(__file__).parent / "data", Path(__file__).parents[2] / "data")  # in a wheel, in a checkout
 DATA = next(filter(Path.is_dir, _FOLDERS))
 
@@ -22,7 +24,7 @@ def named(kind: str, folder: str, source: str | PathLike[str]) -> Path:
     known = stems(folder)
     if str(source) not in known:
         allowed = f"one of {', '.join(known)} or the path of a .toml file"
-        raise ValueError(f"{kind} must be {allowed}, got {str(source)!r}")
+        raise ValueError(f"{kind} must be {allowed}, got {checks.shown(str(source))}")
     return path(f"{folder}/{source}.toml")
 
 

@@ -4,7 +4,7 @@ A quantity called ``body_mass`` in kg has the key ``body_mass_kg``; of units, ``
 ``per``: ``pitch_inertia_kg_m2``, ``spring_N_per_m``.
 """
 
-import reprlib
+import re
 import tomllib
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
@@ -13,22 +13,25 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, TypeVar
 
-from . import checks
+from . import checks, escaping
 from .quantities import key_of
 
 T = TypeVar("T")
 
 _SMALLEST, _LARGEST = 1e-12, 1e12  # beyond any vehicle; their squares, products and quotients are finite
 _NUMBER = f"a number from {_SMALLEST:g} to {_LARGEST:g} in size or 0"
+_MEGABYTES, _DOTS = 0.25, 500  # of a file, in a line: tomllib takes quadratic time for a key a.b.c. ...
+_QUOTED = re.compile(r"(character|declare|namespace|key) ['\"(].*(?=\(at )")  # of the file, by tomllib
 
 
 @contextmanager
 def naming(path: str | PathLike[str]) -> Iterator[None]:
-    """Name the file in a ValueError about its content, in one line."""
+    """Name the file in a ValueError about its content, in one line; so too if it nests or overflows too far."""
     try:
         yield
-    except (ValueError, RecursionError) as error:
-        raise ValueError(f"{path}: {' '.join(str(error).split())}") from None
+    except (ValueError, RecursionError, ArithmeticError, MemoryError) as error:
+        said = str(error) if isinstance(error, ValueError) else f"the file must be within reason, got {error!r}"
+        raise ValueError(escaping.terminal(f"{path}: {' '.join(said.split())}")) from None
 
 
 @contextmanager
@@ -52,11 +55,17 @@ def under(key: str) -> Iterator[None]:
 
 
 def read_toml(path: Path) -> "Table":
-    """Read a TOML file in UTF-8; ValueError if it is none."""
+    """Read a TOML file in UTF-8; ValueError if it is none, which quotes nothing of it."""
+    checks.regular(path, _MEGABYTES)
     try:
-        return Table("", tomllib.loads(path.read_bytes().decode("utf-8-sig")))
+        text = path.read_bytes().decode("utf-8-sig")
+        if (dots := max(line.count(".") for line in text.split("\n"))) > _DOTS:
+            raise ValueError(f"a line of {dots} dots, {_DOTS} are the most")
+        return Table("", tomllib.loads(text))
     except ValueError as error:
-        raise ValueError(f"the file must be TOML in UTF-8, got {error}") from None
+        encoded = isinstance(error, UnicodeDecodeError)
+        got = "another encoding" if encoded else _QUOTED.sub(r"\1 ", str(error))
+        raise ValueError(f"the file must be TOML in UTF-8, got {got}") from None
 
 
 @dataclass(frozen=True)
@@ -70,7 +79,8 @@ class Table:
         """Raise ValueError unless all `needed` keys are present and all keys are `allowed` (names by key)."""
         for key, value in self.content.items():
             if key not in allowed:
-                raise ValueError(f"{self.name}{key} must be {_meant(key, allowed)}, got {reprlib.repr(value)}")
+                got = checks.shown(value)
+                raise ValueError(f"{self.name}{checks.shown(key)[1:-1]} must be {_meant(key, allowed)}, got {got}")
         for key in needed:
             if key not in self.content:
                 raise ValueError(f"{self.name}{key} must be given, got none: keys are {', '.join(allowed)}")
@@ -79,12 +89,16 @@ class Table:
         """Return the value of a key; ValueError with the allowed `words` unless it `fits`."""
         value = self.content.get(key, default)
         if not fits(value):
-            raise ValueError(f"{self.name}{key} must be {words}, got {reprlib.repr(value)}")
+            raise ValueError(f"{self.name}{key} must be {words}, got {checks.shown(value)}")
         return value
 
     def text(self, key: str) -> str:
         """Return a text that is not empty."""
         return str(self.value(key, lambda value: isinstance(value, str) and bool(value.strip()), "a text"))
+
+    def texts(self, key: str) -> tuple[str, ...]:
+        """Return an array of texts, empty if there is none."""
+        return tuple(self.value(key, _are_texts, "an array of texts", []))
 
     def choice(self, key: str, choices: Mapping[str, T]) -> T:
         """Return the choice that the key names."""
@@ -148,6 +162,10 @@ def made(table: Table, kind: type[T], beside: Collection[str] = (), **given: obj
 def _is_number(value: Any) -> bool:
     real = isinstance(value, int | float) and not isinstance(value, bool)
     return real and (value == 0 or _SMALLEST <= abs(value) <= _LARGEST)
+
+
+def _are_texts(value: Any) -> bool:
+    return isinstance(value, list) and all(isinstance(text, str) for text in value)
 
 
 def _are_numbers(value: Any) -> bool:

@@ -127,7 +127,6 @@ BAD = [
     (["--fast", "3"], "No such option: --fast", 2),
 ]
 BOUNDS = (["--vehicle", "cantero_2022_half"], "vehicle must be a file with bounds, got 'cantero_2022_half'", 2)
-CSV = "in the columns spring [N/m], damper [N s/m], got"
 OF = {
     "compare": [
         BOUNDS,
@@ -170,19 +169,19 @@ OF = {
         BOUNDS,
         (["--design", "22000"], "design must be 2 numbers separated by commas, got '22000'", 2),
         (["--design", "22000,-1"], "damper must be finite and > 0 N s/m, got -1.0", 2),
-        (["--designs", "columns.csv"], f"{CSV} 'columns.csv': ", 2),
-        (["--designs", "text.csv"], "could not convert string to float: 'soft'", 2),
-        (["--designs", "header.csv"], f"{CSV} 'header.csv' without a row", 2),
-        (["--designs", "empty.csv"], "designs must be a CSV file with numbers", 2),
-        (["--designs", "binary.csv"], "designs must be a CSV file with numbers", 2),
-        (["--designs", "absent.csv"], f"{CSV} 'absent.csv': No such file or directory", 2),
-        (["--designs", "."], "designs must be a CSV file with numbers", 2),
-        (["--designs", "nan.csv"], "damper must be finite and > 0 N s/m, got nan", 2),
+        (["--designs", "columns.csv"], "columns.csv: columns must include 'spring [N/m]', got ['spring', 'damper']", 2),
+        (["--designs", "text.csv"], "text.csv: 'damper [N s/m]' must be a number up to 1e+09, got 'soft' in row 1", 2),
+        (["--designs", "header.csv"], "header.csv: rows of numbers must be 1 or more, got 0", 2),
+        (["--designs", "empty.csv"], "empty.csv: the file must begin with the names of its columns", 2),
+        (["--designs", "binary.csv"], "binary.csv: the file must be CSV in UTF-8, got another encoding", 2),
+        (["--designs", "absent.csv"], "No such file or directory: 'absent.csv'", 1),
+        (["--designs", "."], ".: the file must be a regular one of at most 100 MB, got another kind", 2),
+        (["--designs", "nan.csv"], "nan.csv: 'damper [N s/m]' must be a number up to 1e+09, got '' in row 1", 2),
         (["--points", "1"], "points must be a whole number >= 2, got 1", 2),
         (["--weighting", "Wz"], "weighting must be one of Wk, ", 2),
         (["--response", "pitch_acceleration"], "response must be one of body_acceleration, ", 2),
         (["--vehicle", "minaker_half", "--design", "1,2"], "design must be 4 numbers separated by commas, got", 2),
-        (["--vehicle", "minaker_half", "--designs", "road.csv"], "in the columns front.spring [N/m], front.", 2),
+        (["--vehicle", "minaker_half", "--designs", "road.csv"], "columns must include 'front.spring [N/m]', got", 2),
     ],
     "ride": [
         (["--setting", "spring"], "setting must be like front.spring=1e4,front.damper=2000, got 'spring'", 2),

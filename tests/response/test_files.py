@@ -297,7 +297,7 @@ FIRST = '[[cases]]\nvehicle = "minaker_half"\nroad = "C"\nspeed_m_per_s = 15\n'
     [
         ("", "cases must be given, got none: keys are title, measures, "),
         ("x = ", "the file must be TOML in UTF-8, got Invalid value"),
-        (b"\xff", "the file must be TOML in UTF-8, got 'utf-8' codec"),
+        (b"\xff", "the file must be TOML in UTF-8, got another encoding"),
         ('measures = ["ACC"]\ncases = []', "cases must be an array of tables, one at least, got none"),
         ('measures = ["ACC"]\ncases = 3', "cases must be an array of tables, got 3"),
         ('measures = ["ACC"]\ncases = [3]', r"cases\[1\] must be a table, got 3"),

@@ -98,7 +98,7 @@ def test_simple_models():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Isotropic(0.0), "exponent must be finite and > 0, got 0.0"),
+        (lambda: Isotropic(0.0), "exponent must be a number from 0.01 to 20.0, got 0.0"),
         (lambda: Exponential(-1.0), "decay must be a number from 0.0 to 1000000.0, got -1.0"),
         (lambda: Exponential(np.inf), "decay must be a number from 0.0 to 1000000.0, got inf"),
         (lambda: Constant(1.1), "value must be a number from 0.0 to 1.0, got 1.1"),

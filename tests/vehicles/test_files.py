@@ -248,8 +248,8 @@ def test_keys_end_in_their_units(unit, key):
         (changed(QUARTER, "[struts]", "[strut]"), "strut must be one of the keys body_mass_kg"),
         (changed(QUARTER, "[struts]", "[[struts]]"), r"struts must be a table, got \[\{"),
         (QUARTER + "x = \ny = 1", r"the file must be TOML in UTF-8, got Invalid value \(at line 11, column 5\)"),
-        (QUARTER.encode() + b"\xff", "the file must be TOML in UTF-8, got 'utf-8' codec"),
-        (b"\xff\xfe\x00", "the file must be TOML in UTF-8, got 'utf-8' codec"),
+        (QUARTER.encode() + b"\xff", "the file must be TOML in UTF-8, got another encoding"),
+        (b"\xff\xfe\x00", "the file must be TOML in UTF-8, got another encoding"),
         ("", "kind must be one of quarter-car, half-car, full-car, got None"),
         (
             QUARTER + "[bounds]\nspring_N_per_m = 3",

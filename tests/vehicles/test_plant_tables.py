@@ -64,9 +64,9 @@ def exchanged(name: str, *by: str) -> list[str]:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "must begin with the names of its columns, got nothing"),
-        (b"\xff\xfe", "must be a CSV file in UTF-8"),
-        (rows([F, *PAIRS], GOOD[:1]), "there must be two rows of numbers at least, got 1"),
+        ("", "the file must begin with the names of its columns, got nothing"),
+        (b"\xff\xfe", "the file must be CSV in UTF-8, got another encoding"),
+        (rows([F, *PAIRS], GOOD[:1]), "rows of numbers must be 2 or more, got 1"),
         (rows([F, *PAIRS], GOOD[:3]), "frequency must be 4 finite values or more, got 3"),
         (rows([F, *PAIRS], GOOD[::-1]), "frequency must ascend from 0 Hz in steps >= 1e-06 Hz, got -1 Hz"),
         (rows([F, *PAIRS], [["0", *GOOD[0][1:]], *GOOD]), "frequency must ascend from 0 Hz in .* got 0 Hz"),

@@ -17,6 +17,7 @@ def bode(
     designs: o.Designs = None,
     vehicle: o.Vehicle = None,
     road: o.Road = None,
+    allow_outside: o.AllowOutside = False,
     speed: o.Speed = None,
     band: o.Band = None,
     response: o.Response = None,
@@ -40,7 +41,7 @@ def bode(
     from . import results, terminal
 
     checks.at_least("points", points, 2)
-    problem, own = experiment.chosen(vehicle, road, speed, **o.settings(weighting, band))
+    problem, own = experiment.chosen(vehicle, road, speed, allow_outside=allow_outside, **o.settings(weighting, band))
     labelled = labelled_designs(problem, design or [], designs, vehicle, own)
     case, (low, high) = problem.cases[0], problem.band
     shown = response or [next(r for r in case.vehicle.responses if r.endswith(last)) for last in SHOWN]
@@ -75,20 +76,12 @@ def labelled_designs(
 
 def read_designs(path: Path, problem: "RideProblem") -> list[list[float]]:
     """Return the designs in a CSV file with a column for each variable; ValueError if it is no such file."""
-    import pandas as pd
-
     from ..quantities import column_headers
+    from ..tables import read_table
 
-    columns = column_headers(problem.variables, problem.units)
-    said = f"designs must be a CSV file with numbers in the columns {', '.join(columns)}, got {str(path)!r}"
-    try:
-        values: list[list[float]] = pd.read_csv(path)[columns].astype(float).to_numpy().tolist()
-    except (OSError, KeyError, ValueError) as error:  # pandas' parser errors are ValueErrors
-        reason = error.strerror if isinstance(error, OSError) else error.args[0]
-        raise ValueError(f"{said}: {reason}") from None
-    if not values:
-        raise ValueError(f"{said} without a row")
-    return values
+    _, values = read_table(path, column_headers(problem.variables, problem.units), rows=1)
+    designs: list[list[float]] = values.tolist()
+    return designs
 
 
 def design_label(values: Sequence[float]) -> str:

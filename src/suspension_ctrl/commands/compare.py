@@ -19,6 +19,7 @@ def compare(
     weighting: o.Weighting = None,
     vehicle: o.Vehicle = None,
     road: o.Road = None,
+    allow_outside: o.AllowOutside = False,
     speed: o.Speed = None,
     band: o.Band = None,
     problem: o.Problem = None,

@@ -72,12 +72,12 @@ def chosen_problem(options: Mapping[str, Any]) -> RideProblem:
     named = [options[name] for name in ("vehicle", "road", "speed")]
     settings, file = o.settings(options["weighting"], options["band"]), options["problem"]
     if file is None:
-        return paper.chosen(*named, **settings)[0]
+        return paper.chosen(*named, allow_outside=options["allow_outside"], **settings)[0]
     if settings or any(value is not None for value in named):
         raise ValueError(
             f"problem must stand without weighting, vehicle, road, speed and band, got {str(file)!r} with one"
         )
-    return load_problem(file)
+    return load_problem(file, allow_outside=options["allow_outside"])
 
 
 def carry_out(request: Request, cluster: AbstractContextManager[Any] | None) -> None:

@@ -10,6 +10,7 @@ def optimum(
     sws_limit: o.SwsLimit = 0.0287,
     vehicle: o.Vehicle = None,
     road: o.Road = None,
+    allow_outside: o.AllowOutside = False,
     speed: o.Speed = None,
     population: o.Population = 4000,
     iterations: o.Generations = 25,
@@ -39,7 +40,7 @@ def optimum(
     of_paper = (vehicle, road, speed) == (None, None, None)
     parts = []
     for weighting in terminal.progress(WEIGHTINGS, len(WEIGHTINGS), "weightings"):
-        problem, own = chosen(vehicle, road, speed, **o.settings(weighting, band))
+        problem, own = chosen(vehicle, road, speed, allow_outside=allow_outside, **o.settings(weighting, band))
         with terminal.compiling():
             run = minimise(problem, optimiser, iterations=iterations, seed=seed)
         designs = {} if of_paper else {"its own struts": tuple(own[name] for name in problem.variables)}

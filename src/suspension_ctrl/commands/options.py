@@ -72,6 +72,9 @@ File = Path | None
 
 Vehicle = Annotated[Text, _option("NAME", "TOML file, or name of one in the package.  [default: the paper's car]")]
 Road = Annotated[Text, _option("ROAD", "ISO 8608 class: C, C-lower; CSV or TOML file.  [default: the paper's]")]
+AllowOutside = Annotated[
+    bool, _option(None, "Let a road's TOML file name files outside its folder.", "--allow-outside")
+]
 Speed = Annotated[Real, _real("Speed [m/s].  [default: 20]")]
 Band = Annotated[Text, _option("LOW,HIGH", "Frequencies [Hz].  [default: 0,20]")]
 Weighting = Annotated[Text, _option("NAME", "ISO 2631 weighting of ACC: Wk, Wb, Wb-table, ...  [default: Wk]")]

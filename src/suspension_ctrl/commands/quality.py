@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from .. import escaping
 from ..study import figures, lenses, study
 from ..study.comparison import CONFIGURATION
 from ..study.findings import Findings
@@ -30,7 +31,7 @@ def write(request: "Request", found: Findings, store: Mapping[str, StoredRun]) -
     write_csv(request.campaign.folder / "quality.csv", found.course.drop(columns="seconds"))
     for name, table in (("equal", found.medians), ("differences", found.differences), ("to_reach", found.reached)):
         write_table(request.campaign.folder / name, table.rename(columns=_header))
-    write_text(request.campaign.folder / "verdict.md", "\n\n".join(found.verdict) + "\n")
+    write_text(request.campaign.folder / "verdict.md", "\n\n".join(map(escaping.markdown, found.verdict)) + "\n")
     with terminal.waiting("drawing"):
         for population in request.campaign.comparison.populations:
             _draw(request, found, store, population)

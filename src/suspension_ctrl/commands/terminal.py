@@ -1,6 +1,7 @@
 """The terminal: one-line errors, tables that fit its width, progress."""
 
 import sys
+import warnings
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from io import TextIOWrapper
@@ -12,6 +13,8 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
+
+from .. import escaping
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -33,11 +36,15 @@ def run(app: typer.Typer, *before: str, name: str | None = None) -> NoReturn:
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")  # a symbol that the encoding lacks is no error
     try:
-        sys.exit(app([*before, *sys.argv[1:]], prog_name=name, standalone_mode=False))
+        with warnings.catch_warnings():
+            warnings.filterwarnings("error", "overflow|divide by zero|invalid value", RuntimeWarning)
+            sys.exit(app([*before, *sys.argv[1:]], prog_name=name, standalone_mode=False))
     except typer.TyperException as error:
         message, status = error.format_message(), 2
     except ValueError as error:
         message, status = str(error), 2
+    except (ArithmeticError, RuntimeWarning) as error:
+        message, status = f"numbers must be of less size, got {error.args[-1]}", 2
     except (OSError, ImportError) as error:
         message, status = str(error), 1
     except MemoryError as error:
@@ -57,12 +64,17 @@ def run_script(main: Callable[..., None]) -> NoReturn:
 
 def complain(message: str) -> None:
     """Print one line on standard error."""
-    print(f"error: {' '.join(message.split())}", file=sys.stderr)
+    print(escaping.terminal(f"error: {' '.join(message.split())}"), file=sys.stderr)
 
 
 def progress(items: Iterable[T], total: int, text: str = "") -> Iterator[T]:
     """Pass `items` through with a progress bar, drawn only between them so as not to disturb a timed one."""
-    columns = [bars.TextColumn(text), bars.BarColumn(), bars.MofNCompleteColumn(), bars.TimeElapsedColumn()]
+    columns = [
+        bars.TextColumn(text, markup=False),
+        bars.BarColumn(),
+        bars.MofNCompleteColumn(),
+        bars.TimeElapsedColumn(),
+    ]
     columns += [bars.TextColumn("left"), bars.TimeRemainingColumn()]
     settings: dict[str, Any] = {"transient": True, "auto_refresh": False, "disable": not stderr.is_terminal}
     with bars.Progress(*columns, console=stderr, **settings) as bar:
@@ -98,8 +110,8 @@ def compiling() -> Iterator[None]:
 
 
 def note(text: str) -> None:
-    """Print a paragraph as it is."""
-    console.print(text, markup=False, highlight=False, emoji=False)
+    """Print a paragraph as it is, but for what does not print."""
+    console.print(escaping.terminal(text), markup=False, highlight=False, emoji=False)
 
 
 def show(title: str, table: "pd.DataFrame", digits: dict[str, int] | None = None, keys: int = 1) -> None:
@@ -110,11 +122,13 @@ def show(title: str, table: "pd.DataFrame", digits: dict[str, int] | None = None
     cells = {str(c): [_cell(value, (digits or {}).get(c)) for value in table[c]] for c in table.columns}
     right = {str(c) for c in table.columns if table[c].dtype.kind in "iuf"}
     widths = {name: max(map(len, [name, *column])) + _GAP for name, column in cells.items()}
-    console.print(Text(title, style="bold"))
+    console.print(Text(escaping.terminal(title), style="bold"))
     for block in _blocks(list(cells)[:keys], list(cells)[keys:], widths):
         shown = Table(box=SIMPLE_HEAD, pad_edge=False, show_edge=False)
         for name in block:  # as Text: units in brackets are no markup
-            shown.add_column(Text(name), justify="right" if name in right else "left", no_wrap=True)
+            shown.add_column(
+                Text(escaping.terminal(name)), justify="right" if name in right else "left", no_wrap=True
+            )
         for row in zip(*(cells[name] for name in block), strict=True):
             if any(row[keys:]):
                 shown.add_row(*map(Text, row))
@@ -134,5 +148,5 @@ def _blocks(keys: list[str], others: list[str], widths: dict[str, int]) -> list[
 
 def _cell(value: Any, digits: int | None) -> str:
     if not isinstance(value, float):  # numpy's are floats
-        return str(value)
+        return escaping.terminal(str(value))
     return "" if value != value else f"{value:.6g}" if digits is None else f"{value:.{digits}f}"

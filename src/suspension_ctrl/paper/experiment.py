@@ -7,7 +7,7 @@ suspension optimization", 2010.
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from .. import datafiles
+from .. import checks, datafiles
 from ..response.problem import RideProblem
 from ..roads.files import load_road
 from ..roads.spectra import PowerLawRoad
@@ -67,19 +67,20 @@ def published_seconds() -> "pd.DataFrame":
 
 
 def chosen(
-    vehicle: str | None, road: str | None, speed: float | None, **settings: Any
+    vehicle: str | None, road: str | None, speed: float | None, *, allow_outside: bool = False, **settings: Any
 ) -> tuple[RideProblem, Mapping[str, float]]:
     """Return the paper's problem with another vehicle, road, speed or settings, and the vehicle's own setting.
 
-    Names and files are those of `load_vehicle` and `load_road`, settings further parameters of `RideProblem`.
+    Names, files and `allow_outside` are those of `load_vehicle` and `load_road`, settings further parameters of
+    `RideProblem`.
     """
     papers = ride_problem()
-    settings |= {"road": None if road is None else load_road(road), "speed": speed}
+    settings |= {"road": None if road is None else load_road(road, allow_outside=allow_outside), "speed": speed}
     if vehicle is None:
         return papers.replace(**settings), dict(zip(papers.variables, reference_design(), strict=True))
     file = load_vehicle(vehicle)
     if not file.bounds:
-        raise ValueError(f"vehicle must be a file with bounds, got {vehicle!r}")
+        raise ValueError(f"vehicle must be a file with bounds, got {checks.shown(vehicle)}")
     bounds = settings.pop("bounds", file.bounds)
     struts = file.vehicle.coefficients(file.setting)
     fixed = {name: value for name, value in struts.items() if name not in bounds}

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from .. import escaping
 from ..quantities import Real, column_headers, signal_unit
 from ..response.curves import DesignCurves, weighted_name
 from ..response.responses import phase_degrees
@@ -59,7 +60,8 @@ def final_populations(populations: pd.DataFrame, across: str, up: Sequence[str])
         for ax, objective in zip(axes, up, strict=True):
             (below, width), (beside, height) = _axis(across), _axis(objective)
             for algorithm, found in part.groupby("algorithm", sort=False):
-                ax.scatter(found[across] * width, found[objective] * height, label=algorithm, **styles[algorithm])
+                label = escaping.figure(str(algorithm))
+                ax.scatter(found[across] * width, found[objective] * height, label=label, **styles[algorithm])
             ax.set_ylabel(beside)
         axes[-1].set_xlabel(below)
         axes[0].set_title(f"N = {population}, {iterations} iterations", fontsize=10)
@@ -92,7 +94,7 @@ def spectra(designs: Sequence[DesignCurves], weighting: str) -> Figure:
             _marked_line(ax, design, design.densities[response] * scale**2, colour)
             if weighted in design.densities:
                 ax.plot(design.f, design.densities[weighted], "--", color=colour, lw=1.2)
-                ax.set_title(f"{_title(response)} (dashed: {weighting})")
+                ax.set_title(f"{_title(response)} (dashed: {escaping.figure(weighting)})")
         ax.set(yscale="log", ylabel=f"PSD [{f'({unit})' if '/' in unit else unit}²/Hz]")
     return _finished(figure, axes)
 
@@ -111,11 +113,11 @@ def _axis(header: str) -> tuple[str, float]:
     """Return the label of an axis and the factor of its values, by the header of a column."""
     name, _, unit = header.removesuffix("]").partition(" [")
     shown, factor = _shown(unit)
-    return column_headers([name], {name: shown})[0], factor
+    return escaping.figure(column_headers([name], {name: shown})[0]), factor
 
 
 def _title(response: str) -> str:
-    return _TITLES.get(response, response.replace("_", " "))
+    return _TITLES.get(response, escaping.figure(response.replace("_", " ")))
 
 
 def _columns(designs: Sequence[DesignCurves], rows: int) -> tuple[Figure, NDArray[Any]]:
@@ -130,7 +132,7 @@ def _columns(designs: Sequence[DesignCurves], rows: int) -> tuple[Figure, NDArra
 
 def _marked_line(ax: Axes, design: DesignCurves, values: Real, colour: str) -> None:
     """Draw a curve over frequency with a mark at each natural frequency."""
-    ax.plot(design.f, values, color=colour, lw=1.4, label=design.label)
+    ax.plot(design.f, values, color=colour, lw=1.4, label=escaping.figure(design.label))
     shown = design.natural[(design.natural >= design.f[0]) & (design.natural <= design.f[-1])]
     ax.plot(shown, np.interp(shown, design.f, values), "o", color=colour, ms=4)
 

@@ -18,14 +18,16 @@ def checked_bounds(
         raise ValueError("bounds must hold one coefficient at least, got none")
     for name, pair in (bounds or {}).items():
         if name not in known:
-            raise ValueError(f"bounds must be one of {', '.join(known)}, coefficients of struts, got {name!r}")
+            raise ValueError(
+                f"bounds must be one of {', '.join(known)}, coefficients of struts, got {checks.shown(name)}"
+            )
         checks.interval(f"bounds of {name}", pair, known[name].unit)
     names = [name for name, p in known.items() if p.default is None] if bounds is None else list(bounds)
     low, high = zip(*bounds.values(), strict=True) if bounds else ((), ())
     low, high = (tuple(map(float, x if len(x) else of_pairs)) for x, of_pairs in ((lower, low), (upper, high)))
     checks.ordered("lower", "upper", low, high)
     if len(low) != len(names):
-        raise ValueError(f"lower and upper must bound {', '.join(names)}, got {low!r}")
+        raise ValueError(f"lower and upper must bound {', '.join(names)}, got {checks.shown(low)}")
     for name, value in zip(names, low, strict=True):
         known[name].check(f"lower bound of {name}", value)
     if both := set(names) & fixed.keys():

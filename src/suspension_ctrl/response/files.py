@@ -29,8 +29,8 @@ _KEYS = (
 _CASE = ("vehicle", "road", "speed_m_per_s", "share", "payload", "roll_geometry")
 
 
-def load_problem(path: str | Path) -> RideProblem:
-    """Return the problem of a TOML file.
+def load_problem(path: str | Path, *, allow_outside: bool = False) -> RideProblem:
+    """Return the problem of a TOML file, `allow_outside` as in `load_road`.
 
     Raises
     ------
@@ -46,9 +46,9 @@ def load_problem(path: str | Path) -> RideProblem:
         settings = _settings(table)
         if not (given := table.tables("cases")):
             raise ValueError("cases must be an array of tables, one at least, got none")
-        files, cases = zip(*(_case(table, one, path.parent) for one in given), strict=True)
+        files, cases = zip(*(_case(table, one, path.parent, allow_outside) for one in given), strict=True)
         bounds, struts = _bounds_and_struts(table, files[0], cases[0].vehicle)
-        settings |= {key: _texts(table, key) for key in ("measures", "constraints")}
+        settings |= {key: table.texts(key) for key in ("measures", "constraints")}
         for case in cases:
             _check_texts(case, settings)
         with keyed("", {"band_Hz": "band"}), keyed("", {"band_Hz": "f"}):  # f of a road that is not known there
@@ -84,14 +84,14 @@ def _check_texts(case: LoadCase, settings: Mapping[str, Any]) -> None:
                 meaning(text, case, weighting)
 
 
-def _case(table: Table, case: Table, folder: Path) -> tuple[VehicleFile, LoadCase]:
+def _case(table: Table, case: Table, folder: Path, allow_outside: bool) -> tuple[VehicleFile, LoadCase]:
     """Return the file of a case's vehicle, and the case."""
     case.check_keys(dict(zip(_CASE, _CASE, strict=True)), _CASE[:3])
     names = {key: _beside(folder, case.text(key)) for key in _CASE[:2]}
     with under(f"{case.name}vehicle"):
         file = load_vehicle(names["vehicle"])
     with under(f"{case.name}road"):
-        road = load_road(names["road"])
+        road = load_road(names["road"], allow_outside=allow_outside)
     vehicle = with_seats(file.vehicle, table)
     for load in case.tables("payload"):
         with keyed(load.name, {"position_m": "position"}):
@@ -109,10 +109,3 @@ def _case(table: Table, case: Table, folder: Path) -> tuple[VehicleFile, LoadCas
 def _beside(folder: Path, text: str) -> str:
     """Return a path as seen from the file that names it; a name without an ending is none."""
     return str(folder / text) if Path(text).suffix else text
-
-
-def _texts(table: Table, key: str) -> tuple[str, ...]:
-    value = table.content.get(key, [])
-    if not (isinstance(value, list) and all(isinstance(text, str) for text in value)):
-        raise ValueError(f"{key} must be an array of texts, got {value!r}")
-    return tuple(value)

@@ -77,7 +77,9 @@ class Measure(Record):
 
     def __post_init__(self) -> None:
         if _positional(self.function) not in (1, 2):
-            raise ValueError(f"function must take designs, or frequency and spectra, got {self.function!r}")
+            raise ValueError(
+                f"function must take designs, or frequency and spectra, got {checks.shown(self.function)}"
+            )
 
     def values(self, designs: Designs) -> Real:
         """Return its values (p,) of designs."""
@@ -86,7 +88,9 @@ class Measure(Record):
         else:
             found = np.array([self.function(*one) for one in designs.spectra()], dtype=float)
         if found.shape != (len(designs.values),) or not np.isfinite(found).all():
-            raise ValueError(f"measure {self.name} must return a finite number for each design, got {found!r}")
+            raise ValueError(
+                f"measure {self.name} must return a finite number for each design, got {checks.shown(found)}"
+            )
         return found
 
 
@@ -137,7 +141,9 @@ def name_of(measure: str | Measure) -> str:
         return measure.name
     name = " ".join(measure.split("=", 1)[0].split()) if isinstance(measure, str) else ""
     if not name:
-        raise ValueError(f"measure must be a text such as 'SWS front' or 'name = SWS front', got {measure!r}")
+        raise ValueError(
+            f"measure must be a text such as 'SWS front' or 'name = SWS front', got {checks.shown(measure)}"
+        )
     return name
 
 
@@ -156,9 +162,9 @@ def case_measure(measure: str | Measure, case: LoadCase, weighting: Weighting | 
         return CaseMeasure(name, _KINDS[kind][1], _at_corners(kind, where.strip(), case.vehicle), True, sign)
     if kind == "ACC":
         return CaseMeasure(name, "m/s^2", (Term(_accelerated(where.strip(), case.vehicle), weighting),), sign=sign)
-    terms = tuple(_term(part.strip(), case.vehicle) for part in re.split(r"\+(?![^(]*\))", body))
+    terms = tuple(_term(part.strip(), case.vehicle) for part in re.split(r"\+(?![^(]{0,99}\))", body))
     if len({signal_unit(label(term.response)).removeprefix("rad").removeprefix("m") for term in terms}) > 1:
-        raise ValueError(f"measure must be a sum of responses of one kind, got {body!r}")
+        raise ValueError(f"measure must be a sum of responses of one kind, got {checks.shown(body)}")
     unit = signal_unit(label(terms[0].response))  # factors carry further units
     return CaseMeasure(name, unit, terms, sign=sign)
 
@@ -167,13 +173,17 @@ def case_limit(text: str, case: LoadCase, weighting: Weighting | None, own: Sequ
     """Return a limit in a load case, on a measure written out or one of the user's `own` by its name."""
     found = _LIMIT.fullmatch(text) if isinstance(text, str) else None
     if not found or np.isinf(value := float(found[3])):
-        raise ValueError(f"constraint must be like 'SWS <= 0.03' or 'roll_damping >= 0.2', got {text!r}")
+        raise ValueError(
+            f"constraint must be like 'SWS <= 0.03' or 'roll_damping >= 0.2', got {checks.shown(text)}"
+        )
     by_name = {measure.name: measure for measure in own if isinstance(measure, Measure)}
     limited = case_measure(by_name.get(found[1].strip(), found[1]), case, weighting)
     if limited.sign < 0:
-        raise ValueError(f"constraint must limit a measure without - in front, got {text!r}")
+        raise ValueError(f"constraint must limit a measure without - in front, got {checks.shown(text)}")
     if limited.terms and not (found[2] == "<=" and value > 0):
-        raise ValueError(f"constraint on a measure of the ride must be <= a limit above zero, got {text!r}")
+        raise ValueError(
+            f"constraint on a measure of the ride must be <= a limit above zero, got {checks.shown(text)}"
+        )
     scale = (1.0 if found[2] == "<=" else -1.0) / (abs(value) or 1.0)
     return Limit(limited, scale, -scale * value)
 
@@ -205,7 +215,7 @@ def _at_corners(kind: str, where: str, vehicle: Vehicle) -> tuple[Term, ...]:
         raise ValueError(f"{kind} must be of a vehicle that has it by name, got one without")
     if not chosen:
         known = ", ".join(filter(None, found)) or "all wheels"
-        raise ValueError(f"{kind} must be of one of {known}, got {where!r}")
+        raise ValueError(f"{kind} must be of one of {known}, got {checks.shown(where)}")
     return tuple(Term(name, relative=kind == "DLC") for name in chosen.values())
 
 
@@ -217,7 +227,7 @@ def _accelerated(where: str, vehicle: Vehicle) -> ResponseName:
     vertical = [r for r, m in known if m.kind == "acceleration" and m.where not in ("pitch", "roll")]
     if name not in vertical:
         places = ", ".join(r.removesuffix("_acceleration") for r in vertical)
-        raise ValueError(f"ACC must be of one of {places} or a point (x, y), got {where!r}")
+        raise ValueError(f"ACC must be of one of {places} or a point (x, y), got {checks.shown(where)}")
     return name
 
 
@@ -232,11 +242,11 @@ def _term(text: str, vehicle: Vehicle) -> Term:
     found = re.fullmatch(rf"(?:({_NUMBER})\s+)?(?:(\S+)\s+)?(\w+|acceleration\s*{_POINT})", text)
     if not found:
         known = "ACC, SWS, DTL, DLC, or terms like '0.4 We pitch_acceleration'"
-        raise ValueError(f"measure must be {known}, got {text!r}")
+        raise ValueError(f"measure must be {known}, got {checks.shown(text)}")
     number, weighting, response, *point = found.groups()
     factor = float(number or 1)
     if not 0 < factor <= _LARGEST:
-        raise ValueError(f"factor of a response must be above 0 and up to {_LARGEST:g}, got {number}")
+        raise ValueError(f"factor of a response must be above 0 and up to {_LARGEST:g}, got {factor:g}")
     if weighting is not None:
         weightings.by_name(weighting)
         if "acceleration" not in response:

@@ -226,7 +226,7 @@ class RideProblem(Record):
     @cached_property
     def _scores(self) -> Scores:
         if len(set(self.objectives)) < max(2, len(self.measures)):
-            raise ValueError(f"measures must be 2 or more with different names, got {self.measures!r}")
+            raise ValueError(f"measures must be 2 or more with different names, got {checks.shown(self.measures)}")
         for names, what in ((self.objectives, "measures"), (self.constraints, "constraints")):
             if len({*names, *self.bounds}) < len(names) + len(self.bounds):
                 raise ValueError(f"{what} must have names of their own, got {list(names)}")
@@ -239,7 +239,7 @@ class RideProblem(Record):
             scores.append(Score(tuple(limit.measure for limit in limits), True, *limits[0][1:]))
         own = any(isinstance(measure, Measure) for measure in self.measures)
         if not own and all(score.measures[0].values for score in scores):
-            raise ValueError(f"measures must hold one of the ride, got {self.measures!r}")
+            raise ValueError(f"measures must hold one of the ride, got {checks.shown(self.measures)}")
         middle = {name: (low + high) / 2 for name, (low, high) in self.bounds.items()}
         return Scores(self.cases, scores, middle, self.struts, self.band)
 

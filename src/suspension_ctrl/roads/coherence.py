@@ -10,6 +10,8 @@ from numpy.typing import ArrayLike
 from .. import checks
 from ..quantities import Checked, Real, Record, unit
 
+EXPONENTS = (0.01, 20.0)
+"""Least and largest exponent of a spectrum: far beyond roads, and its powers are finite."""
 _ROUNDING = 1e-9  # magnitude of negative eigenvalues of a matrix of coherences by rounding, per track
 
 
@@ -30,7 +32,7 @@ class Isotropic(Record):
     Parameters
     ----------
     exponent : float, optional
-        Exponent > 0 of the power law for the coherence, in place of the road's own spectrum [-].
+        Exponent from 0.01 to 20 of the power law for the coherence, in place of the road's own spectrum [-].
 
     References
     ----------
@@ -44,7 +46,7 @@ class Isotropic(Record):
 
     def __post_init__(self) -> None:
         if self.exponent is not None:
-            checks.positive("exponent", self.exponent)
+            checks.within("exponent", self.exponent, *EXPONENTS)
 
     def between(self, n: Real, distance: float) -> Real:
         """Return the coherence; see `Coherence`. Without an exponent it is the road's."""

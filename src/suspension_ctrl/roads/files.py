@@ -5,17 +5,20 @@ Keys of a TOML file end in their units; ``kind`` determines the others:
 - ``power-law``: roughness_m3, the density at 1 cycle/m, and exponent;
 - ``two-slope``: roughness_m3, reference_cycle_per_m, lower_exponent, upper_exponent, corner_cycle_per_m;
 - ``iso-8608``: class; level and waviness if they are not ``"geometric mean"`` and 2;
-- ``measured``: file, a CSV file by its path from this one; optional track_width_m of a profile, and segment_m.
+- ``measured``: file, a CSV file by its path from this one, in its folder or below unless others are allowed;
+  optional track_width_m of a profile, and segment_m.
 
 Each may have a table ``[coherence]``, whose ``kind`` is ``isotropic`` (exponent optional), ``exponential``
-(decay), ``constant`` (value) or ``tabulated`` (file, a CSV file by its path from this one, and distance_m).
+(decay), ``constant`` (value) or ``tabulated`` (file, likewise, and distance_m).
 """
 
 import re
 from os import PathLike
+from os.path import realpath
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
+from .. import checks
 from ..documents import Table, keyed, made, naming, read_toml
 from .coherence import Coherence, Constant, Exponential, Isotropic, Tabulated
 from .measured import COHERENCE, MeasuredRoad, read_curve
@@ -34,7 +37,7 @@ _OPTIONS = {"track_width_m": "track_width", "segment_m": "segment"}
 _TABULATED = {"kind": "kind", "file": "file", "distance_m": "distance"}
 
 
-def load_road(source: str | PathLike[str]) -> Road:
+def load_road(source: str | PathLike[str], *, allow_outside: bool = False) -> Road:
     """Return the road of a class or a file.
 
     Parameters
@@ -42,6 +45,8 @@ def load_road(source: str | PathLike[str]) -> Road:
     source : str or path-like
         A class of ISO 8608 at its geometric mean, ``"C"``, or at a limit, ``"C-lower"`` or ``"C-upper"``; or the
         path of a CSV file (see `MeasuredRoad.from_csv`) or of a TOML file.
+    allow_outside : bool
+        Whether a TOML file may name CSV files that are neither beside it nor below, links resolved.
 
     Raises
     ------
@@ -55,29 +60,44 @@ def load_road(source: str | PathLike[str]) -> Road:
         return MeasuredRoad.from_csv(path)
     if path.suffix != ".toml":
         known = "a class of ISO 8608 such as C, C-lower or C-upper, or the path of a .csv or .toml file"
-        raise ValueError(f"road must be {known}, got {str(source)!r}")
+        raise ValueError(f"road must be {known}, got {checks.shown(str(source))}")
     with naming(path):
-        return _road(read_toml(path), path.parent)
+        return _road(read_toml(path), _Beside(path.parent, allow_outside))
 
 
-def _road(table: Table, folder: Path) -> Road:
+class _Beside(NamedTuple):
+    """Where the files are that a road's file names."""
+
+    folder: Path
+    allow_outside: bool
+
+    def file(self, table: Table) -> Path:
+        """Return the path under the key ``file``; ValueError if it is outside and must not."""
+        path = self.folder / table.text("file")
+        if not (self.allow_outside or Path(realpath(path)).is_relative_to(realpath(self.folder))):
+            needed = "beside this file or below it, unless outside is allowed"
+            raise ValueError(f"{table.name}file must be {needed}, got {checks.shown(table.text('file'))}")
+        return path
+
+
+def _road(table: Table, beside: _Beside) -> Road:
     kind = table.choice("kind", _ROADS)
     given: dict[str, Any] = {}
     if "coherence" in table.content:
-        given["coherence"] = _coherence(table.table("coherence"), folder)
+        given["coherence"] = _coherence(table.table("coherence"), beside)
     if kind is not MeasuredRoad:
         return made(table, kind, beside=("kind", "coherence"), **given)
     table.check_keys(_MEASURED | _OPTIONS, ["file"])
     options: dict[str, Any] = {name: table.number(key) for key, name in _OPTIONS.items() if key in table.content}
     with keyed("", _OPTIONS):
-        return MeasuredRoad.from_csv(folder / table.text("file"), **options, **given)
+        return MeasuredRoad.from_csv(beside.file(table), **options, **given)
 
 
-def _coherence(table: Table, folder: Path) -> Coherence:
+def _coherence(table: Table, beside: _Beside) -> Coherence:
     kind = table.choice("kind", _COHERENCES)
     if kind is not Tabulated:
         return made(table, kind, beside=("kind",))
     table.check_keys(_TABULATED, ["file", "distance_m"])
-    n, coherence = read_curve(folder / table.text("file"), COHERENCE)
+    n, coherence = read_curve(beside.file(table), COHERENCE)
     with keyed(table.name, _TABULATED):
         return Tabulated(tuple(n.tolist()), tuple(coherence.tolist()), table.number("distance_m"))

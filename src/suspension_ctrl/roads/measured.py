@@ -4,6 +4,7 @@ CSV files over wavenumber have the columns ``wavenumber [cycle/m]`` and ``psd [m
 that start with ``#`` name the source.
 """
 
+from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from os import PathLike
 
@@ -12,9 +13,9 @@ import numpy as np
 from .. import checks
 from ..documents import naming
 from ..quantities import Complex, Integer, Real, frozen_array, unit
-from ..tables import read_table, table_rows
+from ..tables import read_table
 from .coherence import Coherence, Isotropic, Tabulated
-from .profiles import DISTANCE, Profile, read_profile
+from .profiles import DISTANCE, Profile, profile_of
 from .road import Road
 
 WAVENUMBER, PSD, COHERENCE = "wavenumber [cycle/m]", "psd [m^3]", "coherence [-]"
@@ -126,12 +127,15 @@ class MeasuredRoad(Road):
             Naming the file: if its table is neither, the road is not as above, or a spectrum comes with a
             `track_width` or `segment`; OSError if it cannot be read.
         """
-        if table_rows(path)[0][0] == DISTANCE:
-            profile = read_profile(path, track_width)
-            with naming(path):
-                return cls.from_profile(profile, segment=segment, coherence=coherence, source=str(path))
-        n, density = read_curve(path, PSD)
+        names, values = read_table(path)
         with naming(path):
+            if not names and (values > 0).all():
+                needed = f"{WAVENUMBER!r} and {PSD!r}, or {DISTANCE!r} and heights"
+                raise ValueError(f"columns must have names, {needed}, got none")
+            if names[:1] in ([], [DISTANCE]):  # without names no spectrum, as that is above zero
+                profile = profile_of(names, values, track_width)
+                return cls.from_profile(profile, segment=segment, coherence=coherence, source=str(path))
+            n, density = curve_of(names, values, PSD)
             if track_width is not None or segment is not None:
                 raise ValueError("a spectrum takes neither track_width nor segment")
             return cls(n, density, coherence=coherence or Isotropic(), source=str(path))
@@ -171,14 +175,20 @@ class MeasuredRoad(Road):
 
 def read_curve(path: str | PathLike[str], quantity: str) -> tuple[Real, Real]:
     """Read wavenumbers (k,), ascending and above zero [cycle/m], and a `quantity` (k,), `PSD` or `COHERENCE`."""
-    names, values = read_table(path)
-    if names != [WAVENUMBER, quantity]:
-        raise ValueError(f"{path}: columns must be {WAVENUMBER!r} and {quantity!r}, got {names}")
+    table = read_table(path)
+    with naming(path):
+        return curve_of(*table, quantity)
+
+
+def curve_of(names: Sequence[str], values: Real, quantity: str) -> tuple[Real, Real]:
+    """Return wavenumbers and a quantity of a table, see `read_curve`."""
+    if list(names or [WAVENUMBER, quantity]) != [WAVENUMBER, quantity] or values.shape[1] != 2:
+        raise ValueError(f"columns must be {WAVENUMBER!r} and {quantity!r}, got {checks.shown(names)}")
     n, curve = values.T
     ascends = np.diff(n, prepend=0.0) > 0
     if not ascends.all():
         got = f"{n[ascends.argmin()]} in row {ascends.argmin() + 1}"
-        raise ValueError(f"{path}: {WAVENUMBER} must be above zero and ascend, got {got}")
+        raise ValueError(f"{WAVENUMBER} must be above zero and ascend, got {got}")
     return n, curve
 
 

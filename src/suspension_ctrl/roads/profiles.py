@@ -86,12 +86,22 @@ def _check_even(distance: Real) -> None:
 
 
 def read_profile(path: str | PathLike[str], track_width: float | None = None) -> Profile:
-    """Read a profile from a CSV file; columns ``left [m]`` and ``right [m]`` need the track width [m]."""
-    names, values = read_table(path)
-    if names[:1] != [DISTANCE] or len(names) < 2:
-        raise ValueError(f"{path}: first column must be {DISTANCE!r} and then heights, got {names}")
+    """Read a profile from a CSV file; columns ``left [m]`` and ``right [m]`` need the track width [m].
+
+    Two columns without names are distance and height.
+    """
+    table = read_table(path)
     with naming(path):
-        return Profile(values[:, 0], values[:, 1:], _tracks(names[1:], track_width))
+        return profile_of(*table, track_width)
+
+
+def profile_of(names: Sequence[str], values: Real, track_width: float | None = None) -> Profile:
+    """Return the profile of a table (n, c) with columns of these names, see `read_profile`."""
+    names = names or [DISTANCE, HEIGHT][: values.shape[1]]
+    if names[:1] != [DISTANCE] or len(names) != values.shape[1] or len(names) < 2:
+        got = checks.shown(names)
+        raise ValueError(f"first column must be {DISTANCE!r} and then heights, got {got} of {values.shape[1]}")
+    return Profile(values[:, 0], values[:, 1:], _tracks(names[1:], track_width))
 
 
 def write_profile(path: str | PathLike[str], profile: Profile) -> None:
@@ -111,11 +121,11 @@ def _tracks(names: Sequence[str], width: float | None) -> tuple[float, ...]:
         checks.positive("track width", width, "m")
         return width / 2, -width / 2
     if width is not None:
-        raise ValueError(f"a track width goes with {LEFT!r} and {RIGHT!r} only, got {list(names)}")
+        raise ValueError(f"a track width goes with {LEFT!r} and {RIGHT!r} only, got {checks.shown(names)}")
     if names == [HEIGHT]:
         return (0.0,)
     for name in names:
         if not _TRACK.fullmatch(name):
             known = f"{HEIGHT!r}, or {LEFT!r} and {RIGHT!r}, or all like {_TRACK_COLUMN.format(0.75)!r}"
-            raise ValueError(f"columns after {DISTANCE!r} must be {known}, got {name!r}")
+            raise ValueError(f"columns after {DISTANCE!r} must be {known}, got {checks.shown(name)}")
     return tuple(float(y) for name in names for y in _TRACK.findall(name))

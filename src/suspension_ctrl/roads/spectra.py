@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import checks, datafiles
 from ..quantities import Real, unit
-from .coherence import power_law_coherence, two_slope_coherence
+from .coherence import EXPONENTS, power_law_coherence, two_slope_coherence
 from .road import Road
 
 
@@ -21,13 +21,13 @@ class PowerLawRoad(Road):
     roughness : float
         One-sided spectral density at 1 cycle/m, G > 0 [m^(3 - exponent) cycle^(exponent - 1)].
     exponent : float
-        Waviness kappa > 0 [-].
+        Waviness kappa from 0.01 to 20 [-].
     coherence : Coherence
         Model of the coherence of parallel tracks.
     """
 
     roughness: float = field(metadata=unit("m^3"))
-    exponent: float = field(metadata=unit(""))
+    exponent: float = field(metadata=unit("", *EXPONENTS))
 
     def describe(self) -> str:
         """Return a line that identifies the road."""
@@ -50,7 +50,7 @@ class TwoSlopeRoad(Road):
     roughness, reference : float
         One-sided spectral density Gd(n0) > 0 [m^3] at a wavenumber n0 > 0 [cycle/m], on either side of the corner.
     lower_exponent, upper_exponent : float
-        Waviness below and above the corner, > 0 [-].
+        Waviness below and above the corner, from 0.01 to 20 [-].
     corner : float
         Wavenumber > 0 at which the exponent changes [cycle/m]; the spectrum is continuous there.
     coherence : Coherence
@@ -59,8 +59,8 @@ class TwoSlopeRoad(Road):
 
     roughness: float = field(metadata=unit("m^3"))
     reference: float = field(metadata=unit("cycle/m"))
-    lower_exponent: float = field(metadata=unit(""))
-    upper_exponent: float = field(metadata=unit(""))
+    lower_exponent: float = field(metadata=unit("", *EXPONENTS))
+    upper_exponent: float = field(metadata=unit("", *EXPONENTS))
     corner: float = field(metadata=unit("cycle/m"))
 
     def describe(self) -> str:
@@ -97,7 +97,7 @@ class Iso8608Road(Road):
     level : str
         ``"geometric mean"`` of the class, or its ``"lower"`` or ``"upper"`` limit. A has no lower, H no upper one.
     waviness : float
-        Exponent w > 0 [-]; 2 in the standard's classes.
+        Exponent w from 0.01 to 20 [-]; 2 in the standard's classes.
     coherence : Coherence
         Model of the coherence of parallel tracks.
     """
@@ -106,7 +106,7 @@ class Iso8608Road(Road):
     road_class: str = field(metadata={"key": "class"})
     _: KW_ONLY
     level: str = "geometric mean"
-    waviness: float = field(default=2.0, metadata=unit(""))
+    waviness: float = field(default=2.0, metadata=unit("", *EXPONENTS))
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -12,6 +12,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
+from .. import escaping
 from ..quantities import Real
 from ..search.indicators import best_of
 
@@ -34,7 +35,7 @@ def anytime(ax: Axes, quality: pd.DataFrame, over: str = "evaluations") -> None:
     by_algorithm = quality.groupby("algorithm", sort=False)
     for colour, style, (algorithm, part) in zip(COLOURS, STYLES, by_algorithm, strict=False):
         low, middle, high = (part.groupby(over)[value].quantile(q) for q in (0.25, 0.5, 0.75))
-        ax.plot(middle.index, middle, color=colour, ls=style, lw=1.4, label=algorithm)
+        ax.plot(middle.index, middle, color=colour, ls=style, lw=1.4, label=escaping.figure(str(algorithm)))
         ax.fill_between(middle.index, low, high, color=colour, alpha=0.2, lw=0)
     ax.set(xscale="log", xlabel=LABELS[over], ylabel=LABELS[value])
     ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
@@ -48,7 +49,7 @@ def anytime_panels(quality: pd.DataFrame, sets: Sequence[str]) -> Figure:
     figure, axes = panels(2 * len(sets), columns=2)
     for ax, (chosen, over) in zip(axes, product(sets, ("evaluations", "seconds")), strict=True):
         anytime(ax, quality[quality.set == chosen], over)
-        ax.set_title(f"{chosen}, N = {quality.population.iloc[0]}", fontsize=10)
+        ax.set_title(f"{escaping.figure(chosen)}, N = {quality.population.iloc[0]}", fontsize=10)
     axes[0].legend(frameon=False, fontsize=8)
     return figure
 
@@ -60,7 +61,7 @@ def box_panels(runs: pd.DataFrame, values: Sequence[str]) -> Figure:
     for ax, value in zip(axes, values, strict=True):
         groups = {str(name): part[value] for name, part in runs.groupby("algorithm", sort=False)}
         finite = [found[np.isfinite(found)] for found in groups.values()]
-        box = ax.boxplot(finite, tick_labels=list(groups), patch_artist=True, **style)
+        box = ax.boxplot(finite, tick_labels=list(map(escaping.figure, groups)), patch_artist=True, **style)
         for colour, patch in zip(COLOURS, box["boxes"], strict=False):
             patch.set(facecolor=colour, alpha=0.5)
         ax.set_ylabel(LABELS[value])
@@ -77,7 +78,7 @@ def attainment_panels(
     figure, axes = panels(len(pairs))
     for ax, pair in zip(axes, pairs, strict=True):
         drawn = attainment_differences(ax, first, second, pair)
-    figure.colorbar(drawn, ax=axes, label=f"share of runs attaining: {names[0]} less {names[1]}")
+    figure.colorbar(drawn, ax=axes, label=escaping.figure(f"share of runs attaining: {names[0]} less {names[1]}"))
     return figure
 
 
@@ -103,7 +104,7 @@ def attainment_differences(
     patches = PolyCollection(list(corners), array=found[:, 4] / len(seeds), **style)
     ax.add_collection(patches)
     xlim, ylim = np.transpose([low - 0.02 * (high - low), high + 0.02 * (high - low)])
-    ax.set(xlim=xlim, ylim=ylim, xlabel=objectives[0], ylabel=objectives[1])
+    ax.set(xlim=xlim, ylim=ylim, xlabel=escaping.figure(objectives[0]), ylabel=escaping.figure(objectives[1]))
     return patches
 
 

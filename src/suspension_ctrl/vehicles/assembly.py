@@ -47,7 +47,7 @@ def check_strut_names(parameter: str, names: Iterable[str]) -> None:
     """Raise ValueError if a strut has the name of another keyword."""
     for name in names:
         if name in _RESERVED:
-            raise ValueError(f"{parameter} must not be called {', '.join(_RESERVED)}, got {name!r}")
+            raise ValueError(f"{parameter} must not be called {', '.join(_RESERVED)}, got {checks.shown(name)}")
 
 
 class Link(NamedTuple):

@@ -71,7 +71,7 @@ class Seat(Part):
         super().__post_init__()
         self._keep(position=checks.position("position", self.position))
         if not (isinstance(self.name, str) and self.name.isidentifier()):
-            raise ValueError(f"name must be of letters, digits and underscores, got {self.name!r}")
+            raise ValueError(f"name must be of letters, digits and underscores, got {checks.shown(self.name)}")
         check_strut_names("name", [self.name])
 
     def added_to(self, assembly: Assembly) -> Assembly:
@@ -79,7 +79,7 @@ class Seat(Part):
         coefficients = (parameter.name.split(".")[0] for parameter in assembly.parameters)
         struts = [strut.name for strut in assembly.struts]
         if self.name in {"pitch", "roll", *assembly.coordinates, *assembly.roads, *struts, *coefficients}:
-            raise ValueError(f"name must be one that the vehicle does not have yet, got {self.name!r}")
+            raise ValueError(f"name must be one that the vehicle does not have yet, got {checks.shown(self.name)}")
         parameters = [replace(p, gain=np.pad(p.gain, (0, 1))) for p in assembly.parameters]
         own = spring_and_damper(self.name, [*[0.0] * len(struts), 1.0], (self.spring, self.damper))
         kinds = {"acceleration": "acceleration", "suspension_travel": "travel"}

@@ -145,7 +145,7 @@ def _check_lines(system: control.FrequencyResponseData) -> None:
 
 def _checked_contacts(contacts: Mapping[str, Position]) -> FrozenMapping[str, Position]:
     if not (isinstance(contacts, Mapping) and contacts and all(isinstance(wheel, str) for wheel in contacts)):
-        raise ValueError(f"contacts must be a mapping of wheels to points, got {contacts!r}")
+        raise ValueError(f"contacts must be a mapping of wheels to points, got {checks.shown(contacts)}")
     return FrozenMapping({w: checks.position(f"contact of {w or 'the wheel'}", contacts[w]) for w in contacts})
 
 
@@ -162,7 +162,9 @@ def _check_signals(system: System, roads: Sequence[str], struts: Sequence[str], 
                 raise ValueError(f"system must have the {kind} {name!r}, got {', '.join(labels)}")
     for name in system.input_labels:
         if name.removesuffix("_rate") not in roads and name not in tensions:
-            raise ValueError(f"input must be {', '.join(roads)}, its rate, or like 'front_strut', got {name!r}")
+            raise ValueError(
+                f"input must be {', '.join(roads)}, its rate, or like 'front_strut', got {checks.shown(name)}"
+            )
     if not all(np.isfinite(array).all() for array in numbers_of(system)):
         raise ValueError("system must hold finite values throughout, got others")
 

@@ -210,13 +210,14 @@ def _by_name(setting: Setting | None, struts: Mapping[str, Any]) -> dict[str, fl
     if isinstance(setting, Sequence | np.ndarray) and not isinstance(setting, str):
         setting = {"": setting}  # of the one strut that has no name
     if not isinstance(setting, Mapping | None):
-        raise ValueError(f"setting must be a mapping of values by name, got {setting!r}")
+        raise ValueError(f"setting must be a mapping of values by name, got {checks.shown(setting)}")
     given: dict[str, float] = {}
     for name, value in (struts if setting is None else setting).items():
         pair: dict[str, Any] = {name: value}
         if isinstance(value, Sequence | np.ndarray) and not isinstance(value, str):
             if len(value) != 2:
-                raise ValueError(f"setting must have two numbers, spring and damper, for {name}, got {value!r}")
+                got = checks.shown(value)
+                raise ValueError(f"setting must have two numbers, spring and damper, for {name}, got {got}")
             prefix = f"{name}." if name else ""
             pair = {f"{prefix}spring": value[0], f"{prefix}damper": value[1]}
         if twice := given.keys() & pair:
