@@ -53,6 +53,47 @@ def test_sentences(check, arguments, sentence):
         check(*arguments)
 
 
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (-1.5, "-1.5"),
+        ("x" * 50, f"'{'x' * 17}...{'x' * 18}'"),
+        ("\x1b[31m\u202e", r"'\x1b[31m\u202e'"),
+        (np.zeros((9, 9)), "array([[0., 0., 0...., 0., 0., 0., 0.]])"),
+        (list(range(99)), "[0, 1, 2, 3, 4, 5, ...]"),
+    ],
+)
+def test_a_value_is_shown_in_40_printable_characters(value, text):
+    shown = checks.shown(value)
+    assert shown.isprintable()
+    assert len(shown) <= 40
+    assert shown == text
+
+
+def test_a_number_that_python_does_not_spell_is_shown_in_words():
+    assert checks.shown(16**9999) == "a number of thousands of digits"
+
+
+@given(st.text(max_size=99))
+def test_any_text_is_shown_in_40_printable_characters(text):
+    shown = checks.shown(text)
+    assert shown.isprintable()
+    assert len(shown) <= 40
+    assert shown == repr(text) or len(repr(text)) > 40
+
+
+def test_a_regular_file_has_a_size(tmp_path):
+    path = tmp_path / "a"
+    path.write_bytes(bytes(2000))
+    checks.regular(path, 0.002)
+    with pytest.raises(ValueError, match=r"^the file must be a regular one of at most 0.001 MB, got 0.002 MB$"):
+        checks.regular(path, 0.001)
+    with pytest.raises(ValueError, match=r"^the file must be a regular one of at most 1 MB, got another kind$"):
+        checks.regular(tmp_path, 1)
+    with pytest.raises(FileNotFoundError):
+        checks.regular(tmp_path / "b", 1)
+
+
 def test_whatever_is_allowed_passes():
     checks.positive("mass", np.float64(1e-300))
     checks.not_negative("damper", 0)

@@ -100,5 +100,55 @@ def test_a_file_is_toml_in_utf_8_with_or_without_a_mark(tmp_path):
     path.write_bytes(b"\xef\xbb\xbfx = 1")
     assert read_toml(path).content == {"x": 1}
     path.write_bytes(b"x = ")
-    with pytest.raises(ValueError, match=r"^the file must be TOML in UTF-8, got Invalid value"):
+    with pytest.raises(
+        ValueError, match=r"^the file must be TOML in UTF-8, got Invalid value \(at end of document\)$"
+    ):
         read_toml(path)
+
+
+@pytest.mark.parametrize(
+    ("content", "got"),
+    [
+        ("root:x:0:0", "Expected '=' after a key in a key/value pair (at line 1, column 5)"),
+        ("x = 'secret\x01'", "Found invalid character (at line 1, column 12)"),
+        ("x = {secret = 1, secret = 2}", "Duplicate inline table key (at line 1, column 28)"),
+        ("[secret]\n[secret]", "Cannot declare (at line 2, column 8)"),
+        ("secret = {}\n[secret.x]", "Cannot declare (at line 2, column 10)"),
+        (f"x = 1{'0' * 5000}", "Exceeds the limit (4300 digits) for integer string conversion"),
+        (f"x{'.x' * 501} = 1", "a line of 501 dots, 500 are the most"),
+        (b"secret\xff", "another encoding"),
+    ],
+)
+def test_an_error_about_a_file_that_is_no_toml_quotes_nothing_of_it(tmp_path, content, got):
+    path = tmp_path / "a.toml"
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    with pytest.raises(ValueError, match="^the file must be TOML in UTF-8, got " + re.escape(got)) as error:
+        read_toml(path)
+    assert "secret" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    "error", [RecursionError("x"), OverflowError(34, "x"), MemoryError(), ZeroDivisionError("x")]
+)
+def test_tables_and_numbers_that_go_too_far_are_one_line(error):
+    kind = type(error).__name__
+    far = f"^a.toml: the file must have tables of less depth and numbers of less size, got a {kind}$"
+    with pytest.raises(ValueError, match=far), naming("a.toml"):
+        raise error
+
+
+def test_deep_tables_are_one_line(tmp_path):
+    path = tmp_path / "a.toml"
+    path.write_text(f"x = {'[' * 5000}")
+    with pytest.raises(ValueError, match=r"got a RecursionError$"), naming(path):
+        read_toml(path)
+
+
+def test_keys_values_and_paths_are_printable_and_values_short():
+    table = Table("x.", {"\x1b[31m" + "k" * 99: "\u202e" + "v" * 99})
+    with pytest.raises(ValueError, match=r"^[^\n]*$") as error, naming("\x1b]0;.toml"):
+        table.check_keys({"a": "a"})
+    said = str(error.value)
+    assert said.isprintable()
+    assert said.startswith(rf"\x1b]0;.toml: x.\x1b[31m{'k' * 32} must be one of the keys a, got '\u202e")
+    assert len(said.partition(", got ")[2]) <= 40

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 
 import numpy as np
 import pandas as pd
@@ -48,6 +49,35 @@ def test_a_table_with_a_mistake_is_told_by_file_place_and_value(tmp_path, text, 
 def test_another_encoding_is_told(tmp_path):
     with pytest.raises(ValueError, match=r": the file must be CSV in UTF-8, got another encoding$"):
         tables.read_table(written(tmp_path, "Höhe\n1\n2\n", "cp1252"))
+
+
+SPECIAL = "must be a regular one of at most 100 MB, got another kind"
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes and devices are those of Unix")
+@pytest.mark.parametrize("name", ["pipe", "zero", "folder"])
+def test_what_is_no_regular_file_is_refused_unread(tmp_path, name):
+    path = tmp_path / name
+    {"pipe": os.mkfifo, "zero": lambda path: path.symlink_to("/dev/zero"), "folder": os.mkdir}[name](path)
+    with pytest.raises(ValueError, match=f"^{re.escape(str(path))}: the file {SPECIAL}$"):
+        tables.read_table(path)
+
+
+def test_a_file_beyond_the_limit_is_refused_unread(tmp_path):
+    path = tmp_path / "large.csv"
+    with path.open("wb") as file:
+        file.truncate(200_000_000)
+    with pytest.raises(ValueError, match=r"the file must be a regular one of at most 100 MB, got 200 MB$"):
+        tables.read_table(path)
+
+
+def test_chosen_columns_and_the_least_number_of_rows(tmp_path):
+    path = written(tmp_path, "name;b;a\nfirst;0,5;2\n")
+    names, values = tables.read_table(path, ["a", "b"], rows=1)
+    assert names == ["a", "b"]
+    assert values.tolist() == [[2.0, 0.5]]
+    with pytest.raises(ValueError, match=r"rows of numbers must be 2 or more, got 1$"):
+        tables.read_table(path, ["a", "b"])
 
 
 def test_a_file_appears_whole_or_not_at_all(tmp_path):
@@ -99,6 +129,19 @@ def test_any_text_makes_a_name_that_stays_in_its_folder(text):
     assert name == tables.file_name(name)
     assert not name.endswith(".")
     assert not name.startswith(".")
+
+
+def test_a_hostile_name_is_harmless_in_every_table_and_comes_back(tmp_path):
+    """A spreadsheet, a Markdown reader and LaTeX get a text; `read_csv` gets the name."""
+    name = "=cmd|'/C calc'!A0 <b>_x_</b> $\x1b[31m"
+    frame = pd.DataFrame({name: [name, "plain"], "n": [-1.5, 2.0]})
+    tables.write_table(tmp_path / "table", frame)
+    pd.testing.assert_frame_equal(tables.read_csv(tmp_path / "table.csv"), frame)
+    text, markdown, latex = ((tmp_path / f"table.{ending}").read_text() for ending in ("csv", "md", "tex"))
+    assert text.splitlines()[0] == "'" + name.replace("\x1b", r"\x1b") + ",n"
+    assert r"=cmd\|'/C calc'!A0 &lt;b&gt;\_x\_&lt;/b&gt; \$\\x1b[31m" in markdown
+    assert len({line.replace(r"\|", "").count("|") for line in markdown.splitlines()}) == 1
+    assert r"=cmd\textbar{}'/C calc'!A0 \textless{}b\textgreater{}\_x\_" in latex
 
 
 def test_tables_are_written_as_csv_markdown_and_latex(tmp_path):

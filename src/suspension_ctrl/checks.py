@@ -31,8 +31,8 @@ def shown(value: object) -> str:
     """Return the repr of a value for an error: one line without control characters, cut to 40 characters."""
     try:
         text = " ".join(_BRIEF.repr(value).split())
-    except ValueError:  # a whole number of thousands of digits
-        text = f"a {type(value).__name__}"
+    except ValueError:  # Python spells no whole number of more than 4300 digits
+        text = "a number of thousands of digits"
     return text if len(text) <= _SHOWN else f"{text[: _SHOWN - 3]}..."
 
 

@@ -26,11 +26,12 @@ _QUOTED = re.compile(r"(character|declare|namespace|key) ['\"(].*(?=\(at )")  # 
 
 @contextmanager
 def naming(path: str | PathLike[str]) -> Iterator[None]:
-    """Name the file in a ValueError about its content, in one line; so too if it nests or overflows too far."""
+    """Name the file in a ValueError about its content, in one line; likewise if tables or numbers go too far."""
     try:
         yield
     except (ValueError, RecursionError, ArithmeticError, MemoryError) as error:
-        said = str(error) if isinstance(error, ValueError) else f"the file must be within reason, got {error!r}"
+        far = "the file must have tables of less depth and numbers of less size, got a"
+        said = str(error) if isinstance(error, ValueError) else f"{far} {type(error).__name__}"
         raise ValueError(escaping.terminal(f"{path}: {' '.join(said.split())}")) from None
 
 
@@ -80,7 +81,8 @@ class Table:
         for key, value in self.content.items():
             if key not in allowed:
                 got = checks.shown(value)
-                raise ValueError(f"{self.name}{checks.shown(key)[1:-1]} must be {_meant(key, allowed)}, got {got}")
+                named = self.name + escaping.terminal(key)[:40]
+                raise ValueError(f"{named} must be {_meant(key, allowed)}, got {got}")
         for key in needed:
             if key not in self.content:
                 raise ValueError(f"{self.name}{key} must be given, got none: keys are {', '.join(allowed)}")

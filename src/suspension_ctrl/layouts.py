@@ -68,7 +68,7 @@ class Layout(NamedTuple):
 
         kinds = {i: float if i in wanted else str for i in range(max(self.width, len(self.row)))}
         separator = r"\s+" if self.separator == " " else self.separator
-        signs = {"sep": separator, "decimal": self.decimal, "comment": self.comment}
+        signs: dict[str, Any] = {"sep": separator, "decimal": self.decimal, "comment": self.comment}
         options: dict[str, Any] = {
             "names": list(kinds),
             "header": None,

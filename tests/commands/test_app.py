@@ -125,6 +125,13 @@ BAD = [
     (["--out", "."], "out must be a folder that is absent or empty, got '.', which is not empty", 2),
     (["--out", "/proc/results"], "out must be a folder that can be written, got '/proc/results'", 2),
     (["--fast", "3"], "No such option: --fast", 2),
+    (["--road", "steep.toml"], "steep.toml: exponent must be a number from 0.01 to 20.0, got 2500000.0", 2),
+    (
+        ["--road", "outside.toml"],
+        "file must be beside this file or below it, unless outside is allowed, got '../no",
+        2,
+    ),
+    (["--road", "outside.toml", "--allow-outside"], "No such file or directory: ", 1),
 ]
 BOUNDS = (["--vehicle", "cantero_2022_half"], "vehicle must be a file with bounds, got 'cantero_2022_half'", 2)
 OF = {
@@ -184,6 +191,9 @@ OF = {
         (["--vehicle", "minaker_half", "--designs", "road.csv"], "columns must include 'front.spring [N/m]'", 2),
     ],
     "ride": [
+        (["--speed", "1e300"], "numbers must be of less size, got Numerical result out of range", 2),
+        (["--band", "0,1e300"], "numbers must be of less size, got overflow encountered in multiply", 2),
+        (["--vehicle", "\x1b[31m.toml"], r"No such file or directory: '\x1b[31m.toml'", 1),
         (["--setting", "spring"], "setting must be like front.spring=1e4,front.damper=2000, got 'spring'", 2),
         (["--setting", "spring=soft"], "setting must be like front.spring=1e4,front.damper=2000, got", 2),
         (["--setting", "front.spring=1e4"], "must be one of spring, damper, got 'front.spring'", 2),
@@ -207,7 +217,8 @@ def test_bad_input_is_one_line(called, tmp_path, name, arguments, message, statu
     texts = {
         "road.csv": MEASURED, "bad.csv": "a,b\n1,2\n", "bad.toml": 'kind = "sledge"',
         "columns.csv": "spring,damper\n1,2\n", "text.csv": f"{header}22000,soft\n", "nan.csv": f"{header}22000,\n",
-        "header.csv": header, "empty.csv": "",
+        "header.csv": header, "empty.csv": "", "outside.toml": 'kind = "measured"\nfile = "../no.csv"',
+        "steep.toml": 'kind = "power-law"\nroughness_m3 = 5e-6\nexponent = 2.5e6',
     }  # fmt: skip
     for file, text in texts.items():
         (tmp_path / file).write_text(text, encoding="utf-8")

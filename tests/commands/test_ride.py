@@ -46,6 +46,16 @@ def test_ride_of_a_quarter_car_by_flags(called, tmp_path):
     np.testing.assert_allclose(table.value, wanted.value, rtol=1e-12)
 
 
+def test_a_hostile_name_of_a_vehicle_is_printed_as_text(called, tmp_path, checkout):
+    text = (checkout / "data/vehicles/yuen_ramli_2010.toml").read_text(encoding="utf-8")
+    name = text.partition('name = "')[2].partition('"')[0]
+    (tmp_path / "car.toml").write_text(text.replace(f'"{name}"', r'"\u001b[31m[bold]\u202e"'), encoding="utf-8")
+    done = called("ride", "--vehicle", "car.toml", "--out", "out")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith(r"\x1b[31m[bold]\u202e: spring ")
+    assert "\x1b" not in done.stdout
+
+
 def test_without_flags_it_is_the_papers_reference_car(called, tmp_path, table1_problem):
     """As a new folder below results, with the folder last."""
     done = called("ride")

@@ -63,6 +63,25 @@ def test_a_legacy_console_in_cp1252_is_printed_to(printed, legacy):
     assert "[N/m] of a road :car:" in text
 
 
+def test_hostile_names_are_printed_as_text(printed, capsys):
+    """Escape sequences and marks of writing direction by their escapes, markup of rich as it is."""
+    name = "\x1b[31m[bold]x[/bold]\u202e\n"
+    raw = printed(130)
+    terminal.note(name)
+    terminal.show(name, pd.DataFrame({name: [name], "n": [1.5]}))
+    assert raw.getvalue().decode().count(r"\x1b[31m[bold]x[/bold]\u202e\n") == 4
+    assert "\x1b" not in raw.getvalue().decode()
+    terminal.complain(f"{name} is none")
+    assert capsys.readouterr().err == "error: \\x1b[31m[bold]x[/bold]\\u202e is none\n"
+
+
+def test_a_terminal_gets_the_text_of_a_progress_bar_without_markup(monkeypatch):
+    stream = io.StringIO()
+    monkeypatch.setattr(terminal, "stderr", Console(file=stream, force_terminal=True, width=80))
+    list(terminal.progress("a", 1, "[bold]runs"))
+    assert "[bold]runs" in stream.getvalue()
+
+
 def test_in_a_pipe_nothing_is_said_of_progress(capfd):
     assert list(terminal.progress("abc", 3, "runs")) == ["a", "b", "c"]
     with terminal.waiting("drawing"):

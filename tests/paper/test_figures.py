@@ -1,15 +1,17 @@
 """Figures by their data: each curve beside python-control's own response in the unit that its axis names."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from garage import FULL, ROAD, SPEED, struts_of
-from suspension_ctrl import QuarterCar, RideProblem
+from suspension_ctrl import QuarterCar, RideProblem, escaping
 from suspension_ctrl.paper import figures
 from suspension_ctrl.response import weightings
 from suspension_ctrl.response.curves import DesignCurves, design_curves
@@ -151,6 +153,18 @@ def test_figure_5_shows_every_design_in_the_units_of_its_axes():
                 part = table[(table.algorithm == name) & (table.population == n)]
                 expected = np.stack([part["SWS [m]"], factor * part[column]], axis=1)
                 np.testing.assert_allclose(marks.get_offsets(), expected, rtol=1e-14)
+
+
+def test_hostile_names_are_no_formulas_and_stand_in_the_legends(curves):
+    """Names of designs, algorithms and objectives; a formula with a mistake would raise as it is drawn."""
+    name = r"_$x$ \frac{ <b>"
+    bode = figures.bode([replace(curves[0], label=name)])
+    table = populations().replace({"algorithm": {"a": name}}).rename(columns={"DTL [N]": f"{name} [N]"})
+    populated = figures.final_populations(table, "SWS [m]", [f"{name} [N]"])
+    for figure in (bode, populated):
+        FigureCanvasAgg(figure).draw()
+        assert figure.legends[0].get_texts()[0].get_text() == escaping.figure(name)
+    assert populated.subfigs[0].axes[0].yaxis.label.get_text() == escaping.figure(f"{name} [kN]")
 
 
 def test_figure_5_is_of_two_algorithms_at_most():

@@ -278,6 +278,20 @@ def test_paths_are_from_the_file_that_names_them(tmp_path):
     assert problem.cases[0].road == paper.ride_problem().road
 
 
+def test_a_road_of_a_case_names_files_outside_its_folder_if_that_is_allowed(tmp_path):
+    (tmp_path / "roads").mkdir()
+    written(tmp_path, "wavenumber [cycle/m],psd [m^3]\n1e-3,1e-1\n10,1e-9\n", "s.csv")
+    written(tmp_path, 'kind = "measured"\nfile = "../s.csv"', "roads/r.toml")
+    text = (
+        'measures = ["ACC", "SWS"]\nband_Hz = [0.5, 20]\n[[cases]]\nvehicle = "yuen_ramli_2010"\n'
+        'road = "roads/r.toml"\nspeed_m_per_s = 15'
+    )
+    path = written(tmp_path, text)
+    with pytest.raises(ValueError, match=r"cases\[1\].road: .*r.toml: file must be beside this file or below it"):
+        load_problem(path)
+    assert load_problem(path, allow_outside=True).cases[0].road.band == (1e-3, 10.0)
+
+
 def test_roll_geometry_of_a_case_stands_in_place_of_the_vehicles(checkout, tmp_path):
     text = (checkout / "data/studies/full_car.toml").read_text()
     text += (

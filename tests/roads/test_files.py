@@ -114,6 +114,50 @@ def test_measured_roads_by_toml(tmp_path):
     assert road.coherence == there.coherence
 
 
+TABULATED = ISO + '[coherence]\nkind = "tabulated"\nfile = "{}"\ndistance_m = 1.5'
+MEASURED = 'kind = "measured"\nfile = "{}"'
+
+
+@pytest.mark.parametrize(("text", "key"), [(TABULATED, "coherence.file"), (MEASURED, "file")])
+@pytest.mark.parametrize("place", ["../other/{}", "{}/other/{}", "link/{}", "link.csv"])
+def test_a_file_names_others_beside_or_below_itself_unless_outside_is_allowed(tmp_path, text, key, place):
+    (tmp_path / "roads" / "below").mkdir(parents=True)
+    (tmp_path / "other").mkdir()
+    name = "c.csv" if text is TABULATED else "s.csv"
+    content = "wavenumber [cycle/m],coherence [-]\n0.1,0.5\n0.2,0.25\n" if text is TABULATED else SPECTRUM
+    for folder in ("other", "roads", "roads/below"):
+        written(tmp_path / folder, name, content)
+    (tmp_path / "roads" / "link").symlink_to(tmp_path / "other")
+    (tmp_path / "roads" / "link.csv").symlink_to(tmp_path / "other" / name)
+    outside = place.format(name) if place.count("{}") < 2 else place.format(tmp_path, name)
+    path = written(tmp_path / "roads", "r.toml", text.format(outside))
+    needed = f"{key} must be beside this file or below it, unless outside is allowed, got '"
+    with pytest.raises(ValueError, match=f"^{re.escape(f'{path}: {needed}')}"):
+        load_road(path)
+    road = load_road(path, allow_outside=True)
+    for inside in (name, f"below/{name}", f"../roads/{name}"):
+        inner = load_road(written(tmp_path / "roads", "r.toml", text.format(inside)))
+        np.testing.assert_array_equal(inner.psd([1.0], 20.0), road.psd([1.0], 20.0))
+        assert inner.coherence == road.coherence
+
+
+def test_a_table_without_names_is_a_profile_where_it_can_be_no_spectrum(tmp_path):
+    profile = Iso8608Road("C").profile(102.4, 0.1, 1)
+    rows = np.column_stack([profile.distance, profile.height]).tolist()
+    path = written(tmp_path, "p.csv", "\n".join(f"{x!r} {z!r}" for x, z in rows))
+    np.testing.assert_array_equal(load_road(path).density, MeasuredRoad.from_profile(profile).density)
+    path = written(tmp_path, "p.csv", "\n".join(f"{x + 1!r} {z + 1!r}" for x, z in rows))
+    with pytest.raises(
+        ValueError, match=r"p.csv: columns must have names, 'wavenumber .* or 'distance .*, got none$"
+    ):
+        load_road(path)
+
+
+def test_a_curve_without_names_is_what_is_asked_for(tmp_path):
+    path = written(tmp_path, "c.csv", "0,1;0,5\n0,2;0,25\n")
+    assert [one.tolist() for one in read_curve(path, COHERENCE)] == [[0.1, 0.2], [0.5, 0.25]]
+
+
 def rows(header: str, *lines: str) -> str:
     return "\n".join([header, *lines])
 
@@ -127,7 +171,7 @@ P, S = "distance [m],height [m]", "wavenumber [cycle/m],psd [m^3]"
         ("", "the file must begin with the names of its columns, got nothing"),
         ("# only this", "the file must begin with the names of its columns, got nothing"),
         (b"\xff\xfe\x00", "the file must be CSV in UTF-8, got another encoding"),
-        ('"', "the file must be CSV in UTF-8, got quotes that do not end"),
+        (f'{P}\n0,1\n"', "the file must be CSV in UTF-8, got quotes that do not end"),
         (P, "rows of numbers must be 2 or more, got 0"),
         (rows(P, "0,1"), "rows of numbers must be 2 or more, got 1"),
         (rows(P, "0,1", "1,nan"), r"'height \[m\]' must be a number up to 1e\+09, got 'nan' in row 2"),

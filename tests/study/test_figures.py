@@ -3,8 +3,10 @@
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from suspension_ctrl import escaping
 from suspension_ctrl.study import figures
 
 ALGORITHMS = ("a", "b")
@@ -110,6 +112,21 @@ def test_box_panels_are_one_per_indicator(quality):
         "hypervolume / reference [-]",
         "generalised spread [-]",
     ]
+
+
+def test_hostile_names_are_no_formulas_and_stand_in_the_legends(quality):
+    name = r"_$x$ \frac{ <b>"
+    sets = [quality.assign(set="s", population=10).replace({"algorithm": {"a": name}})]
+    anytime = figures.anytime_panels(sets[0], ("s",))
+    sides = [fronts(shift, SEEDS).rename(columns={"SWS [m]": name}) for shift in (0.0, 0.2)]
+    attained = figures.attainment_panels(*sides, [name, "DTL [N]"], (name, "b"))
+    boxes = figures.box_panels(sets[0], ["seconds"])
+    for figure in (anytime, attained, boxes):
+        FigureCanvasAgg(figure).draw()
+    assert anytime.axes[0].get_legend().get_texts()[0].get_text() == escaping.figure(name)
+    assert [attained.axes[0].get_xlabel(), boxes.axes[0].get_xticklabels()[0].get_text()] == [
+        escaping.figure(name)
+    ] * 2
 
 
 def test_attainment_panels_are_of_every_two_objectives():

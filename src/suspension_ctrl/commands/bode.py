@@ -41,7 +41,8 @@ def bode(
     from . import results, terminal
 
     checks.at_least("points", points, 2)
-    problem, own = experiment.chosen(vehicle, road, speed, allow_outside=allow_outside, **o.settings(weighting, band))
+    settings = o.settings(weighting, band)
+    problem, own = experiment.chosen(vehicle, road, speed, allow_outside=allow_outside, **settings)
     labelled = labelled_designs(problem, design or [], designs, vehicle, own)
     case, (low, high) = problem.cases[0], problem.band
     shown = response or [next(r for r in case.vehicle.responses if r.endswith(last)) for last in SHOWN]

@@ -97,10 +97,10 @@ def read_profile(path: str | PathLike[str], track_width: float | None = None) ->
 
 def profile_of(names: Sequence[str], values: Real, track_width: float | None = None) -> Profile:
     """Return the profile of a table (n, c) with columns of these names, see `read_profile`."""
-    names = names or [DISTANCE, HEIGHT][: values.shape[1]]
-    if names[:1] != [DISTANCE] or len(names) != values.shape[1] or len(names) < 2:
-        got = checks.shown(names)
-        raise ValueError(f"first column must be {DISTANCE!r} and then heights, got {got} of {values.shape[1]}")
+    if not names and values.shape[1] == 2:
+        names = [DISTANCE, HEIGHT]
+    if names[:1] != [DISTANCE] or len(names) < 2:
+        raise ValueError(f"first column must be {DISTANCE!r} and then heights, got {checks.shown(names)}")
     return Profile(values[:, 0], values[:, 1:], _tracks(names[1:], track_width))
 
 
