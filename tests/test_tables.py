@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from suspension_ctrl import tables
+from suspension_ctrl import escaping, tables
 
 
 def written(folder, text: str, encoding: str = "utf-8"):
@@ -132,11 +132,12 @@ def test_any_text_makes_a_name_that_stays_in_its_folder(text):
 
 
 def test_a_hostile_name_is_harmless_in_every_table_and_comes_back(tmp_path):
-    """A spreadsheet, a Markdown reader and LaTeX get a text; `read_csv` gets the name."""
+    """A spreadsheet, a Markdown reader and LaTeX get a text; `from_csv` makes the name of it again."""
     name = "=cmd|'/C calc'!A0 <b>_x_</b> $\x1b[31m"
     frame = pd.DataFrame({name: [name, "plain"], "n": [-1.5, 2.0]})
     tables.write_table(tmp_path / "table", frame)
-    pd.testing.assert_frame_equal(tables.read_csv(tmp_path / "table.csv"), frame)
+    back = escaping.frame(pd.read_csv(tmp_path / "table.csv"), escaping.from_csv)
+    pd.testing.assert_frame_equal(back, frame)
     text, markdown, latex = ((tmp_path / f"table.{ending}").read_text() for ending in ("csv", "md", "tex"))
     assert text.splitlines()[0] == "'" + name.replace("\x1b", r"\x1b") + ",n"
     assert r"=cmd\|'/C calc'!A0 &lt;b&gt;\_x\_&lt;/b&gt; \$\\x1b[31m" in markdown

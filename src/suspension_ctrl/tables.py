@@ -71,13 +71,6 @@ def write_csv(path: Path, frame: "pd.DataFrame") -> None:
     write_whole(path, lambda temporary: harmless.to_csv(temporary, index=False))
 
 
-def read_csv(path: Path) -> "pd.DataFrame":
-    """Read a table that `write_csv` wrote."""
-    import pandas as pd
-
-    return escaping.frame(pd.read_csv(path), escaping.from_csv)
-
-
 def write_text(path: Path, text: str) -> None:
     """Write a text file."""
     write_whole(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))

@@ -43,10 +43,8 @@ def ride(
     strut = {name: value for name, value in {"spring": spring, "damper": damper}.items() if value is not None}
     values = car.coefficients({**own, **o.by_name("setting", setting or ""), **strut})
     problem = paper.ride_problem(**o.settings(weighting, band))
-    on, at = (
-        (problem.road if road is None else load_road(road, allow_outside=allow_outside)),
-        (problem.speed if speed is None else speed),
-    )
+    on = problem.road if road is None else load_road(road, allow_outside=allow_outside)
+    at = problem.speed if speed is None else speed
     case, (low, high) = LoadCase(vehicle=car, road=on, speed=at), problem.band
     found = ride(car, values, on, speed=at, weighting=problem.weighting, band=problem.band)
     table = (found if found.note.any() else found.drop(columns="note")).reset_index()

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, MutableMapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .. import tables
+from .. import escaping, tables
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -64,7 +64,8 @@ class FolderStore(MutableMapping[str, StoredRun]):
 
         if name not in self:
             raise KeyError(name)
-        return StoredRun(*(pd.read_csv(part / f"{name}.csv") for part in (self._course, self._final)))
+        parts = (pd.read_csv(part / f"{name}.csv") for part in (self._course, self._final))
+        return StoredRun(*(escaping.frame(part, escaping.from_csv) for part in parts))
 
     def __setitem__(self, name: str, run: StoredRun) -> None:
         tables.write_csv(self._final / f"{name}.csv", run.final)
