@@ -42,8 +42,8 @@ KEYS = "mass_kg, place_m, called, camber_rad, slip, spokes"
         ({"mass_kg": True}, f"wheel.mass_kg must be {NUMBER}, got True"),
         ({"mass_kg": 1e13}, f"wheel.mass_kg must be {NUMBER}, got 10000000000000.0"),
         ({"place_m": [1]}, "wheel.place_m must be an array of two numbers, got [1.0]"),
-        ({"place_m": 1}, f"wheel.place_m must be an array, each {NUMBER}, got 1"),
-        ({"place_m": []}, f"wheel.place_m must be an array, each {NUMBER}, got []"),
+        ({"place_m": 1}, f"wheel.place_m must be an array of up to 100, each {NUMBER}, got 1"),
+        ({"place_m": []}, f"wheel.place_m must be an array of up to 100, each {NUMBER}, got []"),
         ({"called": " "}, "wheel.called must be a text, got ' '"),
         ({"camber_rad": -0.1}, "wheel.camber_rad must be finite and >= 0 rad, got -0.1"),
         ({"mass_t": 1}, "wheel.mass_t must be mass_kg, got 1"),
@@ -75,7 +75,7 @@ def test_tables_in_tables():
     ("read", "message"),
     [
         (lambda table: table.table("number"), "x.number must be a table, got 3"),
-        (lambda table: table.tables("number"), "x.number must be an array of tables, got 3"),
+        (lambda table: table.tables("number"), "x.number must be an array of up to 100 tables, got 3"),
         (lambda table: table.tables("numbers"), "x.numbers[1] must be a table, got 1"),
         (lambda table: table.boolean("number"), "x.number must be true or false, got 3"),
         (lambda table: table.choice("number", {"a": 1, "b": 2}), "x.number must be one of a, b, got 3"),
@@ -85,6 +85,17 @@ def test_tables_in_tables():
 def test_values_of_another_kind_are_one_line(read, message):
     with pytest.raises(ValueError, match="^" + re.escape(message) + "$"):
         read(Table("x.", {"number": 3, "numbers": [1]}))
+
+
+def test_arrays_have_an_end():
+    table = Table("", {"tables": [{}] * 3, "numbers": [1.0] * 101})
+    assert len(table.tables("tables", most=3)) == 3
+    with pytest.raises(ValueError, match=r"^tables must be an array of up to 2 tables, got \[\{\}, \{\}, \{\}\]$"):
+        table.tables("tables", most=2)
+    with pytest.raises(
+        ValueError, match=f"^numbers must be an array of up to 100, each {re.escape(NUMBER)}, got "
+    ):
+        table.numbers("numbers")
 
 
 def test_errors_name_the_file_and_the_key(tmp_path):

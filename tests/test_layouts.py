@@ -101,3 +101,15 @@ def test_the_first_mistake_is_one_line(text, message):
 def test_a_column_that_is_absent_is_named():
     with pytest.raises(ValueError, match=r"^columns must include 'z', got \['x', 'y'\]$"):
         read("x,y\n1,2\n", ["x", "z"])
+
+
+def test_a_mistake_far_down_is_named_by_its_row():
+    """Rows are read 100,000 at a time."""
+    rows = [f"{i},{i / 8}" for i in range(250_000)]
+    np.testing.assert_array_equal(read("\n".join(["x,y", *rows])), [[i, i / 8] for i in range(250_000)])
+    rows[240_000] = "# no row\n5,x"
+    with pytest.raises(ValueError, match=r"^'y' must be a number up to 1e\+09, got 'x' in row 240001$"):
+        read("\n".join(["x,y", *rows]))
+    rows[240_000] = "5"
+    with pytest.raises(ValueError, match=r"^row 240001 must have 2 cells, got 1$"):
+        read("\n".join(["x,y", *rows]))

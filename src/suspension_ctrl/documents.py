@@ -20,6 +20,7 @@ T = TypeVar("T")
 
 _SMALLEST, _LARGEST = 1e-12, 1e12  # beyond any vehicle; their squares, products and quotients are finite
 _NUMBER = f"a number from {_SMALLEST:g} to {_LARGEST:g} in size or 0"
+_MOST = 100  # numbers or tables in an array: equations of motion of more take gigabytes
 _MEGABYTES, _DOTS = 0.25, 500  # of a file, in a line: tomllib takes quadratic time for a key a.b.c. ...
 _QUOTED = re.compile(r"(character|declare|namespace|key) ['\"(].*(?=\(at )")  # of the file, by tomllib
 
@@ -117,7 +118,7 @@ class Table:
 
     def numbers(self, key: str) -> tuple[float, ...]:
         """Return an array of finite numbers, one or more."""
-        return tuple(map(float, self.value(key, _are_numbers, f"an array, each {_NUMBER}")))
+        return tuple(map(float, self.value(key, _are_numbers, f"an array of up to {_MOST}, each {_NUMBER}")))
 
     def pair(self, key: str) -> tuple[float, float]:
         """Return an array of two finite numbers."""
@@ -130,9 +131,10 @@ class Table:
         """Return a table in this one, empty if there is none."""
         return Table(f"{self.name}{key}.", self.value(key, lambda value: isinstance(value, dict), "a table", {}))
 
-    def tables(self, key: str) -> "list[Table]":
+    def tables(self, key: str, most: int = _MOST) -> "list[Table]":
         """Return an array of tables, numbered from 1 in errors, empty if there is none."""
-        array = self.value(key, lambda value: isinstance(value, list), "an array of tables", [])
+        words = f"an array of up to {most} tables"
+        array = self.value(key, lambda value: isinstance(value, list) and len(value) <= most, words, [])
         numbered = Table(self.name, {f"{key}[{i}]": one for i, one in enumerate(array, start=1)})
         return [numbered.table(one) for one in numbered.content]
 
@@ -171,7 +173,7 @@ def _are_texts(value: Any) -> bool:
 
 
 def _are_numbers(value: Any) -> bool:
-    return isinstance(value, list) and len(value) > 0 and all(map(_is_number, value))
+    return isinstance(value, list) and 0 < len(value) <= _MOST and all(map(_is_number, value))
 
 
 def _meant(key: str, allowed: Mapping[str, str]) -> str:

@@ -6,16 +6,23 @@ start with ``#`` or ``%`` are comments.
 
 import csv
 from collections.abc import Iterator, Sequence
+from itertools import islice
 from math import isnan, nan
-from typing import Any, NamedTuple, Self, TextIO
+from typing import TYPE_CHECKING, Any, NamedTuple, Self, TextIO
+
+import numpy as np
 
 from . import checks
 from .quantities import Real
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 LARGEST = 1e9
 """Of numbers in a table: beyond roads and vehicles, and its square is finite."""
 HEAD = 65536
 """Characters of the first lines, and most of a line."""
+_ROWS = 100_000  # at a time
 _SIGNS = {".": str.maketrans("_", " "), ",": str.maketrans(",._", ".  ")}  # float() takes 1_0 for 10
 
 
@@ -67,29 +74,36 @@ class Layout(NamedTuple):
         import pandas as pd
 
         kinds = {i: float if i in wanted else str for i in range(max(self.width, len(self.row)))}
-        separator = r"\s+" if self.separator == " " else self.separator
-        signs: dict[str, Any] = {"sep": separator, "decimal": self.decimal, "comment": self.comment}
         options: dict[str, Any] = {
-            "names": list(kinds),
-            "header": None,
-            "na_filter": False,
-            "skipinitialspace": True,
-        }
+            "sep": r"\s+" if self.separator == " " else self.separator, "decimal": self.decimal,
+            "comment": self.comment, "names": list(kinds), "header": None, "dtype": kinds,
+            "na_filter": False, "skipinitialspace": True, "chunksize": _ROWS,
+        }  # fmt: skip
+        values = np.empty((0, len(wanted)))
         self._begin(file)
         try:
-            table = pd.read_csv(file, dtype=kinds, **signs, **options)
+            for part in pd.read_csv(file, **options):
+                numbers, start = self._numbers(part, wanted), len(values)
+                # in place: no copy of a large table
+                values.resize((start + len(part), len(wanted)), refcheck=False)
+                values[start:] = numbers
         except (ValueError, OverflowError):
-            raise ValueError(self._mistake(file, wanted)) from None
-        values = table[list(wanted)].to_numpy(dtype=float)
-        beyond = any((table[i] != "").any() for i in kinds if i >= self.width)
-        if values.size and (beyond or not self._are_numbers(values, wanted)):
-            raise ValueError(self._mistake(file, wanted))
+            raise ValueError(self._mistake(file, wanted, len(values))) from None
         return values
 
-    def _are_numbers(self, values: Real, wanted: Sequence[int]) -> bool:
-        """Whether none is NaN or too large, or a column of True and False, which pandas takes for 1 and 0."""
-        numbers = not any(isnan(_number(self.row[i], self.decimal)) for i in wanted)
-        return bool(numbers and values.min() >= -LARGEST and values.max() <= LARGEST)
+    def _numbers(self, part: "pd.DataFrame", wanted: Sequence[int]) -> Real:
+        """Return the values of rows; ValueError if one is NaN or too large, or a cell stands beyond the columns.
+
+        The first row must have numbers: of True and False alone pandas makes 1 and 0.
+        """
+        values: Real = part[list(wanted)].to_numpy(dtype=float)
+        if not values.size:
+            return values
+        beyond = any((part[i] != "").any() for i in part.columns[self.width :])
+        named = any(isnan(_number(self.row[i], self.decimal)) for i in wanted)
+        if beyond or named or not (values.min() >= -LARGEST and values.max() <= LARGEST):
+            raise ValueError
+        return values
 
     def _begin(self, file: TextIO) -> None:
         """Go to the first row."""
@@ -97,10 +111,10 @@ class Layout(NamedTuple):
         for _ in range(self.header):
             file.readline()
 
-    def _mistake(self, file: TextIO, wanted: Sequence[int]) -> str:
-        """Return a sentence about the first row that is wrong."""
+    def _mistake(self, file: TextIO, wanted: Sequence[int], good: int) -> str:
+        """Return a sentence about the first row that is wrong after a number of good ones."""
         self._begin(file)
-        for number, row in enumerate(self._rows(file), start=1):
+        for number, row in enumerate(self._rows(file, good), start=good + 1):
             cells = _without_last(row) if len(row) > self.width else row
             if len(cells) != self.width:
                 return f"row {number} must have {self.width} cells, got {len(cells)}"
@@ -112,9 +126,9 @@ class Layout(NamedTuple):
                     )
         return "the file must be CSV, got rows that cannot be told apart"
 
-    def _rows(self, file: TextIO) -> Iterator[list[str]]:
+    def _rows(self, file: TextIO, first: int) -> Iterator[list[str]]:
         texts = (line.partition(self.comment)[0] for line in file)
-        lines = (text for text in texts if text.strip())
+        lines = islice((text for text in texts if text.strip()), first, None)
         if self.separator == " ":
             return map(str.split, lines)
         rows = csv.reader(lines, delimiter=self.separator, strict=True)

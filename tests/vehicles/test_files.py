@@ -253,7 +253,7 @@ def test_keys_end_in_their_units(unit, key):
         ("", "kind must be one of quarter-car, half-car, full-car, got None"),
         (
             QUARTER + "[bounds]\nspring_N_per_m = 3",
-            "bounds.spring_N_per_m must be an array, each a number .* got 3",
+            "bounds.spring_N_per_m must be an array of up to 100, each a number .* got 3",
         ),
         (
             QUARTER + "[bounds]\nspring_N_per_m = [1]",
@@ -274,7 +274,7 @@ def test_keys_end_in_their_units(unit, key):
             "wheel_centre_m = 0.3",
             "roll_geometry.roll_arm_m must be finite and > 0 m, got 0.0",
         ),
-        (QUARTER + "[seats]", r"seats must be an array of tables, got \{\}"),
+        (QUARTER + "[seats]", r"seats must be an array of up to 50 tables, got \{\}"),
         (changed(QUARTER, "300", "300\nseats = [3]"), r"seats\[1\] must be a table, got 3"),
         (QUARTER + "[[seats]]", r"seats\[1\].mass_kg must be given, got none"),
         (

@@ -82,7 +82,7 @@ def _read(table: Table) -> VehicleFile:
 
 def with_seats(vehicle: AssembledVehicle, table: Table) -> AssembledVehicle:
     """Return the vehicle with the seats of the array ``seats`` in a table."""
-    for seat in table.tables("seats"):
+    for seat in table.tables("seats", most=50):
         with keyed(seat.name, {"name": "name", "position_m": "position"}):
             vehicle = made(seat, Seat).on(vehicle)
     return vehicle
@@ -95,7 +95,7 @@ def read_roll_geometry(table: Table) -> RollGeometry | None:
 
 def _shapes(body: Table) -> dict[Position, tuple[float, ...]]:
     shapes: dict[Position, tuple[float, ...]] = {}
-    for point in body.tables("shapes"):
+    for point in body.tables("shapes", most=1000):
         point.check_keys(_SHAPE, _SHAPE)
         position = point.pair("position_m")
         if position in shapes:
