@@ -34,7 +34,6 @@ def ride(
     from ..paper import experiment as paper
     from ..response.load_case import LoadCase
     from ..response.responses import ride
-    from ..roads.files import load_road
     from ..tables import write_csv
     from . import results, terminal
 
@@ -42,11 +41,10 @@ def ride(
     title, car, own = chosen_vehicle(vehicle, masses)
     strut = {name: value for name, value in {"spring": spring, "damper": damper}.items() if value is not None}
     values = car.coefficients({**own, **o.by_name("setting", setting or ""), **strut})
-    problem = paper.ride_problem(**o.settings(weighting, band))
-    on = problem.road if road is None else load_road(road, allow_outside=allow_outside)
-    at = problem.speed if speed is None else speed
-    case, (low, high) = LoadCase(vehicle=car, road=on, speed=at), problem.band
-    found = ride(car, values, on, speed=at, weighting=problem.weighting, band=problem.band)
+    settings = o.settings(weighting, band)
+    problem, _ = paper.chosen(None, road, speed, allow_outside=allow_outside, **settings)
+    case, (low, high) = LoadCase(vehicle=car, road=problem.road, speed=problem.speed), problem.band
+    found = ride(car, values, case.road, speed=case.speed, weighting=problem.weighting, band=problem.band)
     table = (found if found.note.any() else found.drop(columns="note")).reset_index()
     modes = car.modes(values)
     modes = modes[["name", *(column for column in modes.columns if column.endswith("]"))]]  # no amplitudes
