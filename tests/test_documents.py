@@ -143,7 +143,7 @@ def test_an_error_about_a_file_that_is_no_toml_quotes_nothing_of_it(tmp_path, co
 )
 def test_tables_and_numbers_that_go_too_far_are_one_line(error):
     kind = type(error).__name__
-    far = f"^a.toml: the file must have tables of less depth and numbers of less size, got a {kind}$"
+    far = f"^a.toml: the file must have tables of moderate depth and numbers of moderate size, got a {kind}$"
     with pytest.raises(ValueError, match=far), naming("a.toml"):
         raise error
 

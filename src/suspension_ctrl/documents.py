@@ -31,7 +31,7 @@ def naming(path: str | PathLike[str]) -> Iterator[None]:
     try:
         yield
     except (ValueError, RecursionError, ArithmeticError, MemoryError) as error:
-        far = "the file must have tables of less depth and numbers of less size, got a"
+        far = "the file must have tables of moderate depth and numbers of moderate size, got a"
         said = str(error) if isinstance(error, ValueError) else f"{far} {type(error).__name__}"
         raise ValueError(escaping.terminal(f"{path}: {' '.join(said.split())}")) from None
 

@@ -191,8 +191,8 @@ OF = {
         (["--vehicle", "minaker_half", "--designs", "road.csv"], "columns must include 'front.spring [N/m]'", 2),
     ],
     "ride": [
-        (["--speed", "1e300"], "numbers must be of less size, got Numerical result out of range", 2),
-        (["--band", "0,1e300"], "numbers must be of less size, got overflow encountered in multiply", 2),
+        (["--speed", "1e300"], "numbers must be of moderate size, got Numerical result out of range", 2),
+        (["--band", "0,1e300"], "numbers must be of moderate size, got overflow encountered in multiply", 2),
         (["--vehicle", "\x1b[31m.toml"], r"No such file or directory: '\x1b[31m.toml'", 1),
         (["--setting", "spring"], "setting must be like front.spring=1e4,front.damper=2000, got 'spring'", 2),
         (["--setting", "spring=soft"], "setting must be like front.spring=1e4,front.damper=2000, got", 2),

@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from suspension_ctrl import escaping
 from suspension_ctrl.commands import comparing
 from suspension_ctrl.paper.experiment import chosen
 
@@ -134,3 +135,25 @@ def test_runs_without_a_feasible_design_are_counted(called, tmp_path):
     empty = sum(pd.read_csv(path).empty for path in (tmp_path / "out" / "fronts").iterdir())
     assert 0 < empty < 3
     assert f"{empty} of 3 timed runs found no design within the limits." in done.stdout
+
+
+def test_hostile_names_are_harmless_in_all_that_is_written_and_printed(called, tmp_path):
+    """Measures of another's file: terminal, figures and CSV; the comparison resumes by them too."""
+    names = ["@a|<b>_$x$ \x1b[31m\u202e[bold]x", "-b", "+c\\"]
+    measures = [f"{name} = {kind}" for name, kind in zip(names, ("ACC", "SWS", "DTL"), strict=True)]
+    case = 'vehicle = "minaker_half"\nroad = "C"\nspeed_m_per_s = 20'
+    (tmp_path / "p.toml").write_text(f"measures = {json.dumps(measures)}\n[[cases]]\n{case}", encoding="utf-8")
+    command = ("compare", "--problem", "p.toml", "--populations", 20, "--iterations", 2, "--repeats", 1,
+               "--algorithms", "sobol,random", "--out", "out")  # fmt: skip
+    first, again = called(*command), called(*command)
+    assert (first.returncode, first.stderr) == (0, "")
+    assert again.stdout == first.stdout
+    assert "\x1b" not in first.stdout + first.stderr
+    files = [*(tmp_path / "out" / "fronts").iterdir()]
+    assert len(files) == 2
+    for file in files:
+        header = file.read_text(encoding="utf-8").splitlines()[0]
+        assert header.isprintable()
+        assert all(f",'{start}" in header for start in "@-+")
+        columns = [escaping.from_csv(name) for name in pd.read_csv(file).columns]
+        assert columns[-3:] == [f"{name} [{unit}]" for name, unit in zip(names, ("m/s^2", "m", "N"), strict=True)]

@@ -44,7 +44,7 @@ def run(app: typer.Typer, *before: str, name: str | None = None) -> NoReturn:
     except ValueError as error:
         message, status = str(error), 2
     except (ArithmeticError, RuntimeWarning) as error:
-        message, status = f"numbers must be of less size, got {error.args[-1]}", 2
+        message, status = f"numbers must be of moderate size, got {error.args[-1]}", 2
     except (OSError, ImportError) as error:
         message, status = str(error), 1
     except MemoryError as error:
