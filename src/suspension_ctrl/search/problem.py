@@ -118,7 +118,7 @@ def _is_kernel(kernel: Any) -> bool:
     match kernel:
         case (function, tuple()) if is_jitted(function):
             return True
-    return hasattr(kernel, "function")
+    return isinstance(kernel, tuple) and callable(kernel)
 
 
 def headers_of(problem: Minimisable) -> tuple[str, ...]:
