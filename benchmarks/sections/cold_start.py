@@ -62,7 +62,6 @@ def goals(timings: pd.DataFrame) -> list[tuple[str, float, float]]:
     beyond = table[FILLED]["MoeadDra"] - table[FILLED]["evaluate"]
     return [
         ("import", 0.1, float(table[FILLED]["import"])),
-        ("import of names", 0.1, float(table[FILLED]["names"])),  # the former alone does next to nothing
         ("first evaluate", 1.2, float(table[EMPTY]["evaluate"])),
         ("first Nsga2", 3.0, float(table[EMPTY]["Nsga2"])),
         ("first MoeadDra", 3.0, float(table[EMPTY]["MoeadDra"])),
