@@ -7,7 +7,7 @@ writing) as Python's escape of it: ``\x1b``, ``\u202e``.
 import html as _html
 import re
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -62,8 +62,12 @@ def latex(text: str) -> str:
 
 def frame(table: "pd.DataFrame", medium: Callable[[str], str]) -> "pd.DataFrame":
     """Return a table with the texts of its cells and headers for a medium."""
-    texts = table.map(lambda cell: medium(cell) if isinstance(cell, str) else cell)
-    return texts.rename(columns=lambda name: medium(str(name)))
+
+    def escaped(column: "pd.Series[Any]") -> "pd.Series[Any]":
+        numbers = column.dtype.kind in "biufc"  # left alone: a profile has millions
+        return column if numbers else column.map(lambda cell: medium(cell) if isinstance(cell, str) else cell)
+
+    return table.apply(escaped).rename(columns=lambda name: medium(str(name)))
 
 
 def _is_number(text: str) -> bool:
