@@ -46,21 +46,14 @@ class Layout(NamedTuple):
         texts = [(i, line) for i, line in enumerate(lines) if line.strip() and line.lstrip()[0] not in "#%"]
         if not texts:
             raise ValueError("the file must begin with the names of its columns, got nothing")
-        first, top = texts[0]
-        if bare := _separator(top):
-            return cls._told([], _cells(top, bare), first, bare, comment, texts)
-        row = texts[min(1, len(texts) - 1)][1].partition(comment)[0]
-        separator = _separator(row) or next((one for one in "\t;," if one in top), ",")
-        names, cells = _without_last(_cells(top, separator)), _cells(row, separator)
-        return cls._told(names, cells, first + 1, separator, comment, texts[1:])
-
-    @classmethod
-    def _told(
-        cls, names: list[str], row: list[str], header: int, separator: str, comment: str, texts: Sequence[Any]
-    ) -> Self:
-        comma = separator != "," and any("," in line for _, line in texts)
-        width = len(names) or len(_without_last(row))
-        return cls(names, width, row, header, separator, "," if comma else ".", comment)
+        (first, top), row = texts[0], texts[min(1, len(texts) - 1)][1].partition(comment)[0]
+        if bare := _separator(top.partition(comment)[0]):
+            row = top.partition(comment)[0]
+        separator = bare or _separator(row) or next((one for one in "\t;," if one in top), ",")
+        names, cells = [] if bare else _without_last(_cells(top, separator)), _cells(row, separator)
+        width, after = len(names) or len(_without_last(cells)), 0 if bare else 1
+        comma = separator != "," and any("," in line for _, line in texts[after:])
+        return cls(names, width, cells, first + after, separator, "," if comma else ".", comment)
 
     def places(self, columns: Sequence[str] | None) -> list[int]:
         """Return the places of the columns, by default of all; ValueError if one is absent."""

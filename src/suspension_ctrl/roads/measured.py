@@ -134,6 +134,7 @@ class MeasuredRoad(Road):
                 raise ValueError(f"columns must have names, {needed}, got none")
             if names[:1] in ([], [DISTANCE]):  # without names no spectrum, as that is above zero
                 profile = profile_of(names, values, track_width)
+                del values  # of a large profile, before its spectrum takes memory
                 return cls.from_profile(profile, segment=segment, coherence=coherence, source=str(path))
             n, density = curve_of(names, values, PSD)
             if track_width is not None or segment is not None:
