@@ -124,7 +124,7 @@ class Table:
         """Return an array of two finite numbers."""
         value = self.numbers(key)
         if len(value) != 2:
-            raise ValueError(f"{self.name}{key} must be an array of two numbers, got {list(value)}")
+            raise ValueError(f"{self.name}{key} must be an array of two numbers, got {checks.shown(list(value))}")
         return value[0], value[1]
 
     def table(self, key: str) -> "Table":

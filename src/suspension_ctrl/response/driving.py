@@ -91,7 +91,7 @@ def _drive(
 
     checks.positive("speed", speed, "m/s")
     if not isinstance(profile, Profile):
-        raise ValueError(f"profile must be a Profile, such as road.profile(...), got {profile!r}")
+        raise ValueError(f"profile must be a Profile, such as road.profile(...), got {checks.shown(profile)}")
     model = _Model.of(closed)
     points = _checked_points(contact_points, model.roads)
     profile = _refined(profile, _coarsest(closed, speed), periodic)

@@ -46,11 +46,13 @@ class LoadCase(Record):
 
     def __post_init__(self) -> None:
         if not isinstance(self.vehicle, Vehicle):
-            raise ValueError(f"vehicle must be a Vehicle such as a QuarterCar, got {self.vehicle!r}")
+            raise ValueError(f"vehicle must be a Vehicle such as a QuarterCar, got {checks.shown(self.vehicle)}")
         if not hasattr(self.road, "psd"):
-            raise ValueError(f"road must be a road such as Iso8608Road('C'), got {self.road!r}")
+            raise ValueError(f"road must be a road such as Iso8608Road('C'), got {checks.shown(self.road)}")
         if self.wheels > 1 and not hasattr(self.road, "cross_spectrum"):
-            raise ValueError(f"road must have a cross_spectrum for {self.wheels} wheels, got {self.road!r}")
+            raise ValueError(
+                f"road must have a cross_spectrum for {self.wheels} wheels, got {checks.shown(self.road)}"
+            )
         checks.positive("speed", self.speed, "m/s")
         checks.positive("share", self.share)
 
@@ -97,5 +99,5 @@ def load_cases(cases: Sequence[LoadCase], **given: Any) -> tuple[LoadCase, ...]:
             raise ValueError("vehicle, road and speed must be given, or cases in their place, got neither")
         return (LoadCase(**given),)
     if not all(isinstance(case, LoadCase) for case in cases):
-        raise ValueError(f"cases must be a list of load cases, got {list(cases)!r}")
+        raise ValueError(f"cases must be a list of load cases, got {checks.shown(list(cases))}")
     return tuple(replace(case, **given) for case in cases)

@@ -229,7 +229,7 @@ class RideProblem(Record):
             raise ValueError(f"measures must be 2 or more with different names, got {checks.shown(self.measures)}")
         for names, what in ((self.objectives, "measures"), (self.constraints, "constraints")):
             if len({*names, *self.bounds}) < len(names) + len(self.bounds):
-                raise ValueError(f"{what} must have names of their own, got {list(names)}")
+                raise ValueError(f"{what} must have names of their own, got {checks.shown(list(names))}")
         scores = []
         for measure in self.measures:
             judged = tuple(case_measure(measure, case, self.weighting) for case in self.cases)

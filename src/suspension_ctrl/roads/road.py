@@ -30,7 +30,9 @@ class Road(Checked, ABC):
     def __post_init__(self) -> None:
         super().__post_init__()
         if isinstance(self.coherence, type) or not callable(getattr(self.coherence, "between", None)):
-            raise ValueError(f"coherence must be a model such as Exponential(decay=3.0), got {self.coherence!r}")
+            raise ValueError(
+                f"coherence must be a model such as Exponential(decay=3.0), got {checks.shown(self.coherence)}"
+            )
 
     def psd(self, f: ArrayLike, speed: float) -> Real:
         """Return the elevation spectrum met at `speed`; at 1 m/s that over wavenumber [m^3].
@@ -115,7 +117,7 @@ class Road(Checked, ABC):
             checks.at_least("seed", seed, 0)
         y = np.asarray(tracks, dtype=float)
         if y.ndim != 1 or y.size == 0 or not np.isfinite(y).all():
-            raise ValueError(f"tracks must be finite and one-dimensional, got {tracks!r}")
+            raise ValueError(f"tracks must be finite and one-dimensional, got {checks.shown(tracks)}")
         points = round(length / step)
         if points < 4 or abs(length / step - points) > 1e-6:
             raise ValueError(f"length must be a whole number of steps of {step} m, four at least, got {length} m")

@@ -175,7 +175,9 @@ class Assembly(Record):
         motion, tension = self._motion()
         rows = {label(name): self._row(name, motion, tension) for name in responses}
         if len(rows) < len(responses):
-            raise ValueError(f"responses must differ, points by a millimetre or more, got {list(responses)}")
+            raise ValueError(
+                f"responses must differ, points by a millimetre or more, got {checks.shown(list(responses))}"
+            )
         p, _ = self.elongations(self.struts)
         z, rate = np.eye(n, 2 * n + 2 * r + q), np.eye(n, 2 * n + 2 * r + q, n)
         moved, read = np.vstack([rate, motion]), np.vstack([*rows.values(), p @ z, p @ rate])

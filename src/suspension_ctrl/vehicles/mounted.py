@@ -146,7 +146,7 @@ class FlexibleBody(Part):
             checks.positive("frequencies", frequency, "Hz")
             checks.within("damping_ratios", ratio, 0, 1)
         if not isinstance(self.shapes, Mapping):
-            raise ValueError(f"shapes must be a mapping of points to amplitudes, got {self.shapes!r}")
+            raise ValueError(f"shapes must be a mapping of points to amplitudes, got {checks.shown(self.shapes)}")
         shapes = {checks.position("shapes", at): tuple(map(float, shape)) for at, shape in self.shapes.items()}
         for place, shape in shapes.items():
             if np.shape(shape) != modes or not np.isfinite(shape).all():
