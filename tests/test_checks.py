@@ -35,8 +35,13 @@ SENTENCES = [
     (checks.one_of, ("road", "E", ("A", "B")), "road must be one of A, B, got 'E'"),
     (
         checks.ordered,
-        ("lower", "upper", [0, 2], [1, 2]),
-        "lower must be finite and below upper in every variable, got [0.0, 2.0] and [1.0, 2.0]",
+        ("lower", "upper", [0, 3], [1, 2]),
+        "lower must be finite, <= upper in every variable and < upper in one, got [0.0, 3.0] and [1.0, 2.0]",
+    ),
+    (
+        checks.ordered,
+        ("lower", "upper", [0, 2], [0, 2]),
+        "lower must be finite, <= upper in every variable and < upper in one, got [0.0, 2.0] and [0.0, 2.0]",
     ),
     (
         checks.ordered,
@@ -103,7 +108,9 @@ def test_whatever_is_allowed_passes():
     assert checks.position("place", [0, -1.5]) == (0.0, -1.5)
     for names in ([], ("ACC", "DTL"), {"ACC": 1}.keys(), np.array(["ACC"])):
         checks.listed("measures", names)
+    checks.interval("bounds", (1.0, 1.0), "N/m", equal=True)
     checks.ordered("lower", "upper", LOWER, UPPER)
+    checks.ordered("lower", "upper", [0, 2], [1, 2])
     assert checks.designs([[1, 2]], 2).dtype == float
 
 
@@ -129,6 +136,14 @@ def test_rounding_may_pass_a_bound():
     checks.rows_within("designs", np.array([[0.5, 2 + 3.9e-9, 2e5]]), LOWER, UPPER)
     with pytest.raises(ValueError, match=r"^designs must lie within"):
         checks.rows_within("designs", np.array([[0.5, 2 + 8e-9, 2e5]]), LOWER, UPPER)
+
+
+def test_a_held_variable_has_its_value_alone():
+    bounds = (0.0, 18e3), (1.0, 18e3)
+    checks.rows_within("designs", np.array([[0.5, 18e3]]), *bounds)
+    for value in (np.nextafter(18e3, 0), np.nextafter(18e3, 2e4)):
+        with pytest.raises(ValueError, match=r"^designs must lie within"):
+            checks.rows_within("designs", np.array([[0.5, value]]), *bounds)
 
 
 def test_a_missing_package_names_its_extra():

@@ -3,8 +3,10 @@
 import reprlib
 import stat
 import sys
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from math import ceil, floor
+from operator import eq
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +15,14 @@ from numpy.typing import ArrayLike, NDArray
 _LARGEST = sys.float_info.max
 _SLACK = 1e-9  # share of its range by which a variable may pass a bound
 _SHOWN = 40  # most characters of a value in an error
+_KINDS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
+    "integer": (
+        "hold a whole number of at most 1e15",
+        lambda low, high: -1e15 <= ceil(low) <= floor(high) <= 1e15,
+    ),
+    "log": ("be above 0", lambda low, _: low > 0),
+    "fixed": ("be equal", eq),
+}
 _BRIEF = reprlib.Repr()
 _BRIEF.maxstring = _BRIEF.maxother = _BRIEF.maxlong = _SHOWN
 
@@ -68,11 +78,13 @@ def within(name: str, value: float, lowest: float, highest: float) -> None:
         raise ValueError(f"{name} must be a number from {lowest} to {highest}, got {shown(value)}")
 
 
-def interval(name: str, value: ArrayLike, unit: str) -> None:
-    """Raise ValueError unless `value` is a pair of finite numbers with 0 <= lower < upper."""
+def interval(name: str, value: ArrayLike, unit: str, *, equal: bool = False) -> None:
+    """Raise ValueError unless `value` is a pair of finite numbers with 0 <= lower < upper, or `equal` ones."""
     pair = list(value) if isinstance(value, Sequence | np.ndarray) else []
-    if not (len(pair) == 2 and all(map(_is_real, pair)) and 0 <= pair[0] < pair[1] <= _LARGEST):
-        raise ValueError(f"{name} must be finite with 0 <= lower < upper [{unit}], got {shown(value)}")
+    real = len(pair) == 2 and all(map(_is_real, pair)) and 0 <= pair[0] <= pair[1] <= _LARGEST
+    if not real or (pair[0] == pair[1] and not equal):
+        needed = f"0 <= lower {'<=' if equal else '<'} upper"
+        raise ValueError(f"{name} must be finite with {needed} [{unit}], got {shown(value)}")
 
 
 def position(name: str, value: object) -> tuple[float, float]:
@@ -96,14 +108,49 @@ def one_of(name: str, value: object, allowed: Collection[object]) -> None:
 
 
 def ordered(lower_name: str, upper_name: str, lower: ArrayLike, upper: ArrayLike) -> None:
-    """Raise ValueError unless both are finite, one-dimensional, of one length and lower < upper throughout."""
+    """Raise ValueError unless both are finite, one-dimensional, of one length, lower <= upper, and < somewhere."""
     low, high = np.asarray(lower, dtype=float), np.asarray(upper, dtype=float)
     if low.ndim != 1 or low.shape != high.shape or low.size == 0:
         needed, got = "one-dimensional and of one length", f"{lower!r} and {upper!r}"
         raise ValueError(f"{lower_name} and {upper_name} must be {needed}, got {got}")
-    if not (np.isfinite(low).all() and np.isfinite(high).all() and (low < high).all()):
-        needed, got = f"finite and below {upper_name} in every variable", f"{low.tolist()} and {high.tolist()}"
-        raise ValueError(f"{lower_name} must be {needed}, got {got}")
+    if not (np.isfinite(low).all() and np.isfinite(high).all() and (low <= high).all() and (low < high).any()):
+        needed = f"finite, <= {upper_name} in every variable and < {upper_name} in one"
+        raise ValueError(f"{lower_name} must be {needed}, got {low.tolist()} and {high.tolist()}")
+
+
+def kinds(
+    given: Mapping[str, object], variables: Sequence[str], lower: Sequence[float], upper: Sequence[float]
+) -> dict[str, str | tuple[float, ...]]:
+    """Return the kinds of variables by name, catalogues sorted; ValueError unless they fit the bounds (d,)."""
+    if not isinstance(given, Mapping):
+        raise ValueError(f"kinds must be a mapping by variable, got {shown(given)}")
+    found: dict[str, str | tuple[float, ...]] = {}
+    for name, kind in given.items():
+        one_of("kinds", name, variables)
+        low, high = (bound[variables.index(name)] for bound in (lower, upper))
+        if isinstance(kind, str) and kind in _KINDS:
+            needed, fits = _KINDS[kind]
+            if not fits(low, high):
+                raise ValueError(f"bounds of {name} must {needed}, got {low} and {high}")
+            found[name] = kind
+            continue
+        listed = kind.tolist() if isinstance(kind, np.ndarray) else kind
+        values = list(listed) if isinstance(listed, Iterable) and not isinstance(listed, str) else []
+        if not values or not all(_is_real(value) and low <= value <= high for value in values):
+            allowed = f"{', '.join(_KINDS)} or values from {low:g} to {high:g}"
+            raise ValueError(f"kinds of {name} must be {allowed}, got {shown(kind)}")
+        found[name] = tuple(sorted({float(value) for value in values}))
+    ends = [kind_ends(found.get(name, ""), *pair) for name, *pair in zip(variables, lower, upper, strict=True)]
+    if all(first == last for first, last in ends):
+        raise ValueError(f"kinds must leave a variable that is not held, got {shown(given)}")
+    return found
+
+
+def kind_ends(kind: str | tuple[float, ...], lower: float, upper: float) -> tuple[float, float]:
+    """Return the least and the greatest value of a variable of a kind within bounds."""
+    if isinstance(kind, tuple):
+        return kind[0], kind[-1]
+    return (float(ceil(lower)), float(floor(upper))) if kind == "integer" else (lower, upper)
 
 
 def designs(values: ArrayLike, variables: int) -> NDArray[np.float64]:
@@ -117,9 +164,10 @@ def designs(values: ArrayLike, variables: int) -> NDArray[np.float64]:
 def rows_within(name: str, rows: NDArray[np.float64], lower: ArrayLike, upper: ArrayLike) -> None:
     """Raise ValueError unless every row (n, d) lies between `lower` and `upper` (d,), but for rounding."""
     low, high = np.asarray(lower, dtype=float), np.asarray(upper, dtype=float)
-    share = (rows.T.copy() - low[:, None]) / (high - low)[:, None]  # (d, n): numpy is slow along short rows
-    if not (share.min(initial=0) >= -_SLACK and share.max(initial=1) <= 1 + _SLACK):
-        inside = ((share >= -_SLACK) & (share <= 1 + _SLACK)).all(axis=0)
+    least, most = low - _SLACK * (high - low), high + _SLACK * (high - low)
+    columns = rows.T.copy()  # (d, n): numpy is slow along short rows
+    if not ((columns.min(axis=1, initial=np.inf) >= least) & (columns.max(axis=1, initial=-np.inf) <= most)).all():
+        inside = ((rows >= least) & (rows <= most)).all(axis=1)
         got = rows[inside.argmin()].tolist()
         raise ValueError(f"{name} must lie within {low.tolist()} and {high.tolist()}, got {got}")
 

@@ -1,5 +1,6 @@
 """Problem files: what is read is the problem made by hand, and whatever is wrong with a file is one line."""
 
+import re
 import tomllib
 from copy import deepcopy
 from dataclasses import replace
@@ -251,6 +252,32 @@ def test_what_a_file_leaves_out(tmp_path):
     assert load_problem(written(tmp_path, text)) == RideProblem(
         cases=(case,), bounds=file.bounds, measures=("ACC", "SWS")
     )
+
+
+def test_kinds_have_the_keys_of_bounds(tmp_path):
+    kinds = "[kinds]\ndriver.damper_N_s_per_m = [500, 300.0]\nfront.spring_N_per_m = 'log'\n[struts.front]"
+    problem = load_problem(written(tmp_path, study("[struts.front]", kinds)))
+    assert dict(problem.kinds) == {"front.spring": "log", "driver.damper": (300.0, 500.0)}
+    assert not load_problem(written(tmp_path, STUDY)).kinds
+
+
+@pytest.mark.parametrize(
+    ("kinds", "message"),
+    [
+        ("damper = 'log'", "kinds.damper must be one of the keys "),
+        (
+            "front.spring_N_per_m = 'integral'",
+            "kinds of front.spring must be integer, log, fixed or values from 20000",
+        ),
+        ("front.spring_N_per_m = [1e3]", "kinds of front.spring must be integer, log, fixed or values from 20000"),
+        ("front.spring_N_per_m = 2", "kinds.front.spring_N_per_m must be an array of up to 100, each a number"),
+        ("front.damper_N_s_per_m = 'log'", "kinds must be one of front.spring, driver.damper, got 'front.damper'"),
+    ],
+)
+def test_kinds_of_a_file_that_do_not_fit_are_named(tmp_path, kinds, message):
+    path = written(tmp_path, study("[struts.front]", f"[kinds]\n{kinds}\n[struts.front]"))
+    with pytest.raises(ValueError, match="^" + re.escape(f"{path}: {message}")):
+        load_problem(path)
 
 
 def test_struts_and_bounds_stand_in_place_of_the_vehicles(tmp_path):

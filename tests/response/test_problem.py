@@ -157,7 +157,7 @@ def test_any_layout_of_designs_is_taken():
         ({"band": (20.0, 0.0)}, "band must be finite with 0 <= lower < upper [Hz], got (20.0, 0.0)"),
         ({"band": (0.0, 1.0, 2.0)}, "band must be finite with 0 <= lower < upper [Hz], got (0.0, 1.0, 2.0)"),
         ({"band": None}, "band must be finite with 0 <= lower < upper [Hz], got None"),
-        ({"lower": (30e3, 1e3)}, "lower must be finite and below upper in every variable"),
+        ({"lower": (31e3, 1e3)}, "lower must be finite, <= upper in every variable and < upper in one"),
         ({"lower": (0.0, 1e3)}, "lower bound of spring must be finite and > 0 N/m, got 0.0"),
         ({"lower": (1e3,), "upper": (3e4,)}, "lower and upper must bound spring, damper, got (1000.0,)"),
         ({"nodes": 1}, "nodes must be a whole number >= 2, got 1"),
@@ -259,3 +259,19 @@ def test_weighting_is_used_by_measures_that_depend_on_it(table1_problem, measure
 
 def test_without_a_weighting_none_is_used(table1_problem):
     assert not table1_problem.replace(weighting=None).weighted
+
+
+def test_kinds_are_part_of_a_problem():
+    problem = paper.ride_problem(kinds={"spring": [20e3, 18e3], "damper": "log"})
+    assert dict(problem.kinds) == {"spring": (18e3, 20e3), "damper": "log"}
+    assert "spring 18000, 20000 N/m; damper 1000 to 5000 N s/m, log;" in " ".join(repr(problem).split())
+    assert pickle.loads(pickle.dumps(problem)) == problem == problem.replace()
+    assert problem.replace(kinds={}) == paper.ride_problem() != problem
+    with pytest.raises(
+        ValueError, match=r"^kinds of spring must be integer, log, fixed or values from 1000 to 30000"
+    ):
+        problem.replace(kinds={"spring": (18e3, 40e3)})
+    held = paper.ride_problem(lower=(20e3, 1e3), upper=(20e3, 5e3))
+    assert held.evaluate([[20e3, 2e3]]) == pytest.approx(paper.ride_problem().evaluate([[20e3, 2e3]]), rel=1e-12)
+    with pytest.raises(ValueError, match=r"^designs must lie within"):
+        held.evaluate([[20.001e3, 2e3]])

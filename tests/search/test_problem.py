@@ -25,11 +25,11 @@ def test_headers_carry_units():
     ("change", "message"),
     [
         (
-            {"lower": (1.0, 0.0)},
-            "lower must be finite and below upper in every variable, got [1.0, 0.0] and [1.0, 1.0]",
+            {"lower": (2.0, 0.0)},
+            "lower must be finite, <= upper in every variable and < upper in one, got [2.0, 0.0] and [1.0, 1.0]",
         ),
         ({"lower": (0.0,)}, "lower and upper must be one-dimensional and of one length"),
-        ({"upper": (1.0, float("inf"))}, "lower must be finite and below upper"),
+        ({"upper": (1.0, float("inf"))}, "lower must be finite, <= upper"),
         ({"lower": (), "upper": ()}, "lower and upper must be one-dimensional and of one length"),
         ({"objectives": ("a",)}, "objectives must be 2 or more different names, got ('a',)"),
         ({"objectives": ("a", "a")}, "objectives must be 2 or more different names, got ('a', 'a')"),

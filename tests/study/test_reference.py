@@ -34,6 +34,20 @@ def test_refined_front_has_the_hypervolume_of_the_true_one():
     assert found.points == 400  # 200 values change by 3.5e-3
 
 
+def test_a_grid_has_the_values_of_discrete_variables_and_none_of_a_held_one():
+    kinds = {"x1": (0.0, 0.25, 1.0), "x2": "integer"}
+    line = Problem(
+        evaluate=lambda x: np.stack([x[:, 0], 1 - x[:, 0] + x[:, 1] + x[:, 2]], axis=1),
+        lower=(0, 0, 0.5), upper=(1, 3, 0.5), objectives=("f1", "f2"), kinds=kinds,
+    )  # fmt: skip
+    found = references.refined(line)
+    np.testing.assert_array_equal(np.unique(found.front.objectives, axis=0), [[0, 1.5], [0.25, 1.25], [1, 0.5]])
+    assert found.points == 200
+    plain = Line().problem()
+    keys = {references.key(problem, 1e-2) for problem in (plain, plain.replace(kinds={"x1": (0, 0.5, 1)}))}
+    assert len(keys) == 2
+
+
 def test_a_front_is_made_once(tmp_path):
     line = Line()
     first = references.kept(tmp_path / "front.npz", line.problem(), 1e-2)

@@ -261,7 +261,7 @@ def test_keys_end_in_their_units(unit, key):
         ),
         (
             QUARTER + "[bounds]\nspring_N_per_m = [3, 1]",
-            r"bounds.spring_N_per_m must be finite with 0 <= lower < upper \[N/m\], got \(3.0, 1.0\)",
+            r"bounds.spring_N_per_m must be finite with 0 <= lower <= upper \[N/m\], got \(3.0, 1.0\)",
         ),
         (
             QUARTER + "[bounds]\nspring_N_per_m = [0, 1]",

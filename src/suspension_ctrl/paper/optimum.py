@@ -36,6 +36,8 @@ def least_within_limit(
     from scipy.optimize import minimize
 
     checks.positive("sws_limit", limit, "m")
+    if problem.kinds:
+        raise ValueError(f"kinds must be none where a search descends, got {checks.shown(problem.kinds)}")
     wheels = problem.cases[0].vehicle.tyres
     least = [objective] if objective == "ACC" else [f"{objective} {wheel}".strip() for wheel in wheels]
     smooth = problem.replace(measures=(*least, *(f"SWS {wheel}".strip() for wheel in wheels)))
@@ -61,7 +63,9 @@ def least_within_limit(
     limits = [{"type": "ineq", "fun": room}, {"type": "eq" if at_limit else "ineq", "fun": spare_travel}]
     settings: dict[str, Any] = {"method": "SLSQP", "jac": "3-point", "constraints": limits}
     settings |= {"bounds": [(0, 1)] * len(lower) + [(0, None)], "options": {"ftol": 1e-12, "maxiter": 200}}
-    units = np.column_stack([(starts - lower) / width, smooth.evaluate(starts)[:, :most].max(axis=1) / scale])
+    units = np.column_stack(
+        [(starts - lower) / np.where(width > 0, width, 1.0), smooth.evaluate(starts)[:, :most].max(axis=1) / scale]
+    )
     ends = [end for end in (minimize(itemgetter(-1), unit, **settings).x for unit in units) if held(end)]
     if not ends:
         raise ValueError(f"sws_limit must be a travel that a design within the bounds has, got {limit} m")

@@ -21,7 +21,7 @@ def checked_bounds(
             raise ValueError(
                 f"bounds must be one of {', '.join(known)}, coefficients of struts, got {checks.shown(name)}"
             )
-        checks.interval(f"bounds of {name}", pair, known[name].unit)
+        checks.interval(f"bounds of {name}", pair, known[name].unit, equal=True)
     names = [name for name, p in known.items() if p.default is None] if bounds is None else list(bounds)
     low, high = zip(*bounds.values(), strict=True) if bounds else ((), ())
     low, high = (tuple(map(float, x if len(x) else of_pairs)) for x, of_pairs in ((lower, low), (upper, high)))

@@ -2,7 +2,8 @@
 
 A file holds ``measures`` and, as wanted, ``constraints`` (see those modules), ``weighting``, ``band_Hz``,
 ``worst_case`` and ``title``; ``[bounds]`` and ``[struts]`` as the file of a vehicle has them, in place of those of
-the first case's vehicle; ``[[seats]]`` that are put on the vehicle of every case; and ``[[cases]]``, each with
+the first case's vehicle; ``[kinds]`` with the keys of ``[bounds]``, each "integer", "log", "fixed" or an array of
+values; ``[[seats]]`` that are put on the vehicle of every case; and ``[[cases]]``, each with
 
 - vehicle: the path of a file from this one, or the name of one that comes with the package (see `vehicle_files`);
 - road: a class of ISO 8608 or the path of a file from this one (see `road_files`), and speed_m_per_s;
@@ -15,7 +16,15 @@ from typing import Any
 
 from ..documents import Table, keyed, made, naming, read_toml, under
 from ..roads.files import load_road
-from ..vehicles.files import VehicleFile, load_vehicle, read_bounds, read_roll_geometry, read_setting, with_seats
+from ..vehicles.files import (
+    VehicleFile,
+    load_vehicle,
+    read_bounds,
+    read_kinds,
+    read_roll_geometry,
+    read_setting,
+    with_seats,
+)
 from ..vehicles.mounted import Payload
 from ..vehicles.vehicle import Vehicle
 from . import weightings
@@ -24,7 +33,8 @@ from .measures import case_limit, case_measure
 from .problem import RideProblem
 
 _KEYS = (
-    "title", "measures", "constraints", "weighting", "band_Hz", "worst_case", "bounds", "struts", "seats", "cases",
+    "title", "measures", "constraints", "weighting", "band_Hz", "worst_case", "bounds", "kinds", "struts", "seats",
+    "cases",
 )  # fmt: skip
 _CASE = ("vehicle", "road", "speed_m_per_s", "share", "payload", "roll_geometry")
 
@@ -48,6 +58,7 @@ def load_problem(path: str | Path, *, allow_outside: bool = False) -> RideProble
             raise ValueError("cases must be an array of tables, one at least, got none")
         files, cases = zip(*(_case(table, one, path.parent, allow_outside) for one in given), strict=True)
         bounds, struts = _bounds_and_struts(table, files[0], cases[0].vehicle)
+        settings["kinds"] = read_kinds(table.table("kinds").flat(), cases[0].vehicle)
         settings |= {key: table.texts(key) for key in ("measures", "constraints")}
         for case in cases:
             _check_texts(case, settings)

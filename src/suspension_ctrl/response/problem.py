@@ -47,6 +47,9 @@ class RideProblem(Record):
         [N s/m] of a quarter car. Beside `bounds` they take the place of its lower or upper values.
     bounds : mapping of str to (float, float), optional
         Bounds by name of those coefficients that vary, ``{"front.spring": (1e4, 4e4), ...}``.
+    kinds : mapping, optional
+        By name as in `Problem`: ``{"spring": (18e3, 20e3, 22e3), "damper": "log"}`` takes springs from a catalogue
+        and searches the damper by its logarithm.
     struts : mapping of str to float, optional
         Coefficients that do not vary.
     measures : sequence of str or Measure
@@ -65,6 +68,7 @@ class RideProblem(Record):
 
     cases: tuple[LoadCase, ...]
     bounds: Mapping[str, tuple[float, float]]
+    kinds: Mapping[str, str | Sequence[float]]
     struts: Struts
     weighting: Weighting | None
     band: tuple[float, float]
@@ -84,6 +88,7 @@ class RideProblem(Record):
         lower: Sequence[float] = (),
         upper: Sequence[float] = (),
         bounds: Mapping[str, tuple[float, float]] | None = None,
+        kinds: Mapping[str, str | Sequence[float]] | None = None,
         struts: Struts | None = None,
         measures: Sequence[str | Measure] = ("ACC", "SWS", "DTL"),
         constraints: Sequence[str] = (),
@@ -106,6 +111,7 @@ class RideProblem(Record):
             constraints=tuple(constraints),
             worst_case=bool(worst_case),
         )
+        self._keep(kinds=FrozenMapping(checks.kinds(kinds or {}, self.variables, self.lower, self.upper)))
         self._keep(nodes=self._resolving(None if isinstance(nodes, _Found) else nodes))
 
     def replace(self, **changes: Any) -> "RideProblem":
@@ -199,11 +205,18 @@ class RideProblem(Record):
         parts = [
             ", ".join(f"{name} [{units[name]}]" for name in self.objectives),
             *self.constraints,
-            *(f"{name} {low:g} to {high:g} {units[name]}" for name, (low, high) in self.bounds.items()),
+            *(self._shown(name, units[name]) for name in self.variables),
             *(f"{type(case.vehicle).__name__} at {case.speed:g} m/s" for case in self.cases),
             f"{self.band[0]:g} to {self.band[1]:g} Hz, weighting {self.weighting}, {self.nodes} nodes",
         ]
         return wrapped(f"RideProblem({'; '.join(parts)})")
+
+    def _shown(self, name: str, unit: str) -> str:
+        """Return a variable with its bounds or its catalogue in words."""
+        (low, high), kind = self.bounds[name], self.kinds.get(name, "")
+        if isinstance(kind, str):
+            return f"{name} {low:g} to {high:g} {unit}{kind and f', {kind}'}"
+        return f"{name} {', '.join(f'{value:g}' for value in kind)} {unit}"
 
     def _common(self, name: str) -> Any:
         first, *others = (getattr(case, name) for case in self.cases)

@@ -18,6 +18,7 @@ from ..quantities import Real, unit
 from .clock import PhaseClock
 from .constraints import InfeasibleWarning
 from .deap_adapter import with_deap_operators
+from .kinds import Coded, coded, decoded
 from .population import Population, State
 from .problem import Minimisable, headers_of
 
@@ -58,6 +59,8 @@ class Run(Population):
         Wall-clock and processor time of the search alone [s].
     seed : int
         Seed that gives this run again.
+    repeats : int
+        Of the evaluations, those of known designs of a problem without continuous variables (`Problem.kinds`).
     log : Log
         Rows and columns of `history`.
     """
@@ -67,6 +70,7 @@ class Run(Population):
     cpu_seconds: float = field(metadata=unit("s"))
     seed: int
     log: "Log"
+    repeats: int = 0
 
     @cached_property
     def history(self) -> "pd.DataFrame":
@@ -146,17 +150,18 @@ def minimise(
         seed = int(np.random.SeedSequence().generate_state(1)[0])
     checks.at_least("seed", seed, 0)
     toolbox = with_deap_operators(toolbox or optimiser.toolbox(problem), problem)
+    searched = coded(problem)
     if start is not None:
-        _start_from(toolbox, problem, optimiser.population, start)
+        _start_from(toolbox, problem, searched, optimiser.population, start)
     clock = PhaseClock(toolbox, optimiser.phases)
     rows: list[tuple[float, ...]] = []
     end = perf_counter() + (inf if seconds is None else seconds)
-    for state in _timed(optimiser.search(problem, toolbox, np.random.default_rng(seed)), clock, rows):
-        if callback and len(rows) > 1 and callback(_run(problem, state, clock, rows, seed)):
+    for state in _timed(optimiser.search(searched, toolbox, np.random.default_rng(seed)), clock, rows):
+        if callback and len(rows) > 1 and callback(_run(problem, searched, state, clock, rows, seed)):
             break
         if len(rows) > count or perf_counter() >= end:
             break
-    run = _run(problem, state, clock, rows, seed)
+    run = _run(problem, searched, state, clock, rows, seed)
     if problem.constraints and not run.feasible.any():
         warnings.warn(_infeasible(problem.constraints, run), InfeasibleWarning, stacklevel=2)
     return run
@@ -174,20 +179,26 @@ def _timed(search: Iterator[State], clock: PhaseClock, rows: list[tuple[float, .
 
 
 def _run(
-    problem: Minimisable, state: State, clock: PhaseClock, rows: Sequence[tuple[float, ...]], seed: int
+    problem: Minimisable,
+    searched: Minimisable,
+    state: State,
+    clock: PhaseClock,
+    rows: Sequence[tuple[float, ...]],
+    seed: int,
 ) -> Run:
+    """Return the run of a problem so far, from the state of the search on its codes."""
     phases = [f"{phase}_seconds" for phase in clock.seconds]
     ideal = [f"ideal_{name}" for name in problem.objectives]
     log = Log(("iteration", "evaluations", "seconds", "cpu_seconds", *phases, *ideal), tuple(rows))
     return Run(
-        designs=state.designs, objectives=state.objectives, constraints=state.constraints,
+        designs=decoded(searched, state.designs), objectives=state.objectives, constraints=state.constraints,
         headers=headers_of(problem), evaluations=int(state.evaluations), seconds=rows[-1][2],
-        cpu_seconds=rows[-1][3], seed=int(seed), log=log,
+        cpu_seconds=rows[-1][3], seed=int(seed), log=log, repeats=getattr(searched, "repeats", 0),
     )  # fmt: skip
 
 
-def _start_from(toolbox: Toolbox, problem: Minimisable, size: int, start: Any) -> None:
-    """Put the designs of `start` before the samples of the toolbox."""
+def _start_from(toolbox: Toolbox, problem: Minimisable, searched: Minimisable, size: int, start: Any) -> None:
+    """Put the designs of `start`, or their codes, before the samples of the toolbox."""
     if isinstance(start, Population):
         start = start.designs
     elif hasattr(start, "columns"):
@@ -199,6 +210,8 @@ def _start_from(toolbox: Toolbox, problem: Minimisable, size: int, start: Any) -
     if designs.ndim != 2 or designs.shape[1] != len(problem.lower):
         raise ValueError(f"start must have shape (k, {len(problem.lower)}), got {designs.shape}")
     checks.rows_within("start", designs, problem.lower, problem.upper)
+    if isinstance(searched, Coded):
+        designs = searched.encode("start", designs)
     if len(designs) > size:
         raise ValueError(f"start must have no more designs than the population, {size}, got {len(designs)}")
     sample: Callable[..., Real] | None = getattr(toolbox, "sample", None)

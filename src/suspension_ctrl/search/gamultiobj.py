@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from .. import checks
 from ..quantities import Integer, Real
 from .constraints import any_feasible, constrained, ideal_with, violations
+from .kinds import box
 from .operators import sample_uniform
 from .population import Generational, State
 from .problem import Minimisable, evaluate_checked
@@ -65,7 +66,7 @@ class Gamultiobj(Generational):
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
         """Return the verbs of the algorithm, with these settings, for `problem`."""
-        lower, upper = (np.asarray(bound, dtype=float) for bound in (problem.lower, problem.upper))
+        lower, upper = box(problem)
         toolbox = Toolbox()
         toolbox.register("sample", sample_uniform, lower=lower, upper=upper)
         toolbox.register("evaluate", problem.evaluate)

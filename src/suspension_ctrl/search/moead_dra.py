@@ -13,6 +13,7 @@ from ..compiled import call_compiled
 from ..quantities import Real
 from . import decomposition, operators
 from .constraints import ideal_with
+from .kinds import box
 from .population import State
 from .problem import Minimisable, evaluate_checked
 from .sweep import Decomposed, sweep_batch, sweep_sequential
@@ -107,7 +108,7 @@ class MoeadDra:
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
         """Return the verbs of the algorithm, with these settings, for `problem`."""
-        lower, upper = (np.asarray(bound, dtype=float) for bound in (problem.lower, problem.upper))
+        lower, upper = box(problem)
         probability = 1 / lower.size if self.mutation_probability is None else self.mutation_probability
         limit = max(1, int(self.replacement_limit * self.population))
         toolbox = Toolbox()

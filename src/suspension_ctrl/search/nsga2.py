@@ -10,6 +10,7 @@ from deap.base import Toolbox
 from .. import checks
 from .constraints import any_feasible, constrained, ideal_with
 from .deap_adapter import select_with_deap
+from .kinds import box
 from .operators import crowded_tournament, polynomial_mutation, sample_uniform, simulated_binary_crossover
 from .population import Generational, State
 from .problem import Minimisable, evaluate_checked
@@ -68,17 +69,17 @@ class Nsga2(Generational):
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
         """Return the verbs of the algorithm, with these settings, for `problem`."""
-        lower, upper = (np.asarray(bound, dtype=float) for bound in (problem.lower, problem.upper))
+        lower, upper = box(problem)
         probability = 1 / lower.size if self.mutation_probability is None else self.mutation_probability
         select, sorting = _SELECTIONS[self.selection]
         toolbox = Toolbox()
         toolbox.register("sample", sample_uniform, lower=lower, upper=upper)
         toolbox.register("evaluate", problem.evaluate)
         toolbox.register("tournament", crowded_tournament)
-        box = {"lower": lower, "upper": upper}
+        bounds = {"lower": lower, "upper": upper}
         mates = {"eta": self.crossover_eta, "probability": self.crossover_probability}
-        toolbox.register("mate", simulated_binary_crossover, **box, **mates)
-        toolbox.register("mutate", polynomial_mutation, **box, eta=self.mutation_eta, probability=probability)
+        toolbox.register("mate", simulated_binary_crossover, **bounds, **mates)
+        toolbox.register("mutate", polynomial_mutation, **bounds, eta=self.mutation_eta, probability=probability)
         toolbox.register("select", select, **sorting)
         return toolbox
 

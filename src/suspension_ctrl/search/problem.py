@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from .. import checks
 from ..quantities import FrozenMapping, Real, Record, column_headers
+from .kinds import Coded
 
 Kernel = tuple[Any, ...]
 """A compiled function from a design (d,) to values (m + c,) with its further arguments; or a verb (`compiled`)."""
@@ -57,14 +58,14 @@ class Described(Minimisable, Protocol):
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Problem(Record):
-    """Two or more objectives to be minimised over a box of real variables.
+    """Two or more objectives to be minimised over a box.
 
     Parameters
     ----------
     evaluate : callable
         From designs (n, d) to objectives (n, m), row by row; with constraints to (n, m + c).
     lower, upper : (d,) sequence of float
-        Bounds of the variables.
+        Bounds of the variables; equal ones hold a variable at their value.
     objectives : (m,) sequence of str
         Names of the objectives, m >= 2.
     constraints : (c,) sequence of str, optional
@@ -77,11 +78,22 @@ class Problem(Record):
     kernel : (callable, tuple), optional
         Function compiled by numba from a design (d,) to objectives and constraints (m + c,), and its further
         arguments: for optimisers that evaluate designs one by one in compiled code.
+    kinds : mapping of str to str or sequence of float, optional
+        By name ``"integer"``, whole numbers; ``"log"``, searched by the logarithm; ``"fixed"``, held by equal
+        bounds; or the values of a catalogue, within the bounds. Other variables are real.
 
     Raises
     ------
     ValueError
-        If the bounds are not finite or not lower < upper, the names do not fit, or the kernel is not compiled.
+        If the bounds are not finite, not in order or all equal, the names or kinds do not fit, or the kernel is
+        not compiled.
+
+    Notes
+    -----
+    Optimisers search a real box: a variable with a kind has a code there, such as its place in a catalogue
+    (`search.kinds`). Verbs of a toolbox get codes; `evaluate`, `start`, callbacks and results have designs. If all
+    variables are whole numbers, of catalogues or held, a search evaluates a design once: a budget counts all
+    designs asked for, `Run.repeats` those known before. A kernel is called for them again.
     """
 
     evaluate: Callable[[Real], Real]
@@ -92,6 +104,7 @@ class Problem(Record):
     variables: Sequence[str] = ()
     units: Mapping[str, str] = field(default_factory=dict)
     kernel: Kernel | None = None
+    kinds: Mapping[str, str | Sequence[float]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         checks.ordered("lower", "upper", self.lower, self.upper)
@@ -108,6 +121,7 @@ class Problem(Record):
         lower, upper = (tuple(np.asarray(bound, dtype=float).tolist()) for bound in (self.lower, self.upper))
         lists = {name: tuple(getattr(self, name)) for name in ("objectives", "constraints")}
         self._keep(lower=lower, upper=upper, variables=names, units=FrozenMapping(self.units), **lists)
+        self._keep(kinds=FrozenMapping(checks.kinds(self.kinds, names, lower, upper)))
 
     def replace(self, **changes: Any) -> "Problem":
         """Return the problem with other parameters."""
@@ -130,7 +144,9 @@ def headers_of(problem: Minimisable) -> tuple[str, ...]:
 
 
 def evaluate_checked(evaluate: Callable[[Real], ArrayLike], designs: Real, problem: Minimisable) -> Real:
-    """Return the values (n, m + c) of designs (n, d); ValueError if of another shape or not finite."""
+    """Return the values (n, m + c) of designs or codes (n, d); ValueError if of another shape or not finite."""
+    if isinstance(problem, Coded):
+        return problem.values(designs, lambda new: evaluate_checked(evaluate, new, problem.problem))
     # Copies: a user's evaluation may change its argument and reuse its result.
     values = np.array(evaluate(designs.copy()), dtype=float, order="C")
     expected = (designs.shape[0], len(problem.objectives) + len(problem.constraints))

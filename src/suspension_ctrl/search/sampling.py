@@ -11,6 +11,7 @@ from .. import checks
 from ..quantities import Real
 from .constraints import any_feasible, constrained, ideal_with
 from .indicators import non_dominated
+from .kinds import box
 from .population import Generational, State
 from .problem import Minimisable, evaluate_checked
 
@@ -70,14 +71,14 @@ class Sampling(Generational):
     def toolbox(self, problem: Minimisable) -> Toolbox:
         """Return the verbs of the sample, with these settings, for `problem`."""
         toolbox = Toolbox()
-        toolbox.register("points", _POINTS[self.points], variables=len(problem.lower))
+        toolbox.register("points", _POINTS[self.points], variables=box(problem)[0].size)
         toolbox.register("evaluate", problem.evaluate)
         toolbox.register("filter", non_dominated)
         return toolbox
 
     def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:
         """Yield the state after the start and after each iteration, without end."""
-        lower, upper = (np.asarray(bound, dtype=float) for bound in (problem.lower, problem.upper))
+        lower, upper = box(problem)
         m, c = len(problem.objectives), len(problem.constraints)
         kept, values = np.empty((0, lower.size)), np.empty((0, m + c))
         ideal, evaluations = np.full(m, np.inf), 0

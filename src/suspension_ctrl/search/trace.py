@@ -1,7 +1,7 @@
 """Trace of a search: every design it evaluates and its populations at budgets of evaluations."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -9,6 +9,7 @@ import numpy as np
 from ..compiled import call, compilable, verb_of
 from ..quantities import FrozenMapping, Integer, Real
 from .driver import Optimiser
+from .kinds import coded, decoded
 from .population import Population, State
 from .problem import Kernel, Minimisable
 
@@ -18,6 +19,7 @@ class Trace(Population):
     """All evaluated designs of a search, in order."""
 
     states: Mapping[int, State]  # after the last iteration within each budget of evaluations
+    spent: Mapping[int, int]  # designs evaluated until then, fewer than asked for if some were known
 
 
 def trace(problem: Minimisable, optimiser: Optimiser, budgets: Iterable[int], seed: int) -> Trace:
@@ -27,14 +29,19 @@ def trace(problem: Minimisable, optimiser: Optimiser, budgets: Iterable[int], se
     if not ordered or ordered[0] < optimiser.population:
         raise ValueError(f"budgets must be >= {optimiser.population} evaluations, the start, got {ordered}")
     recorded = Recorded(problem, ordered[-1])
-    states: dict[int, State] = {}
-    for state in optimiser.search(recorded, optimiser.toolbox(recorded), np.random.default_rng(seed)):
+    searched = coded(recorded)
+    states, spent = dict[int, State](), dict[int, int]()
+    for state in optimiser.search(searched, optimiser.toolbox(recorded), np.random.default_rng(seed)):
         reached = [b for b in ordered if state.evaluations <= b < state.evaluations + per_iteration]
-        states |= dict.fromkeys(reached, state)
+        states |= dict.fromkeys(reached, replace(state, designs=decoded(searched, state.designs)))
+        spent |= dict.fromkeys(reached, recorded.count)
         if ordered[-1] in states:
             break
     designs, objectives, constraints = recorded.seen()
-    return Trace(designs=designs, objectives=objectives, constraints=constraints, states=FrozenMapping(states))
+    return Trace(
+        designs=designs, objectives=objectives, constraints=constraints,
+        states=FrozenMapping(states), spent=FrozenMapping(spent),
+    )  # fmt: skip
 
 
 class Recorded:
@@ -43,6 +50,7 @@ class Recorded:
     def __init__(self, problem: Minimisable, capacity: int) -> None:
         self.lower, self.upper = problem.lower, problem.upper
         self.objectives, self.constraints = problem.objectives, problem.constraints
+        self.variables, self.kinds = getattr(problem, "variables", ()), getattr(problem, "kinds", {})
         self._evaluate = problem.evaluate
         self._designs = np.empty((capacity, len(problem.lower)))
         self._values = np.empty((capacity, len(problem.objectives) + len(problem.constraints)))
@@ -58,6 +66,11 @@ class Recorded:
         self._values[rows] = values = self._evaluate(designs)
         self._count[0] = rows.stop
         return values
+
+    @property
+    def count(self) -> int:
+        """Evaluations so far."""
+        return int(self._count[0])
 
     def seen(self) -> tuple[Real, Real, Real]:
         """Return the designs (n, d), objectives (n, m) and constraints (n, c) so far."""

@@ -11,6 +11,7 @@ import pandas as pd
 
 from ..search.constraints import InfeasibleWarning
 from ..search.indicators import ReferenceFront
+from ..search.kinds import box
 from . import machine, reference, timing
 from .comparison import Comparison
 from .store import FolderStore
@@ -59,7 +60,7 @@ class Campaign:
         problem = self.comparison.problem
         if grid:
             grid_front = reference.kept(self.folder / "reference.npz", problem, self.tolerance)
-            return grid_front.front, grid_front.describe(len(problem.variables))
+            return grid_front.front, grid_front.describe(len(box(problem)[0]))
         runs = (store[run.name] for run in self.comparison.timed_runs())
         found = [timing.feasible_objectives(problem, run) for run in runs]
         return reference.best_known(found), "the non-dominated designs of all these runs"

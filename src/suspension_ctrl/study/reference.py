@@ -14,6 +14,7 @@ from .. import checks, tables
 from ..quantities import Real
 from ..search.constraints import feasible_objectives
 from ..search.indicators import ReferenceFront, best_of
+from ..search.kinds import box, coded, decoded
 from ..search.problem import Minimisable
 from .machine import provenance
 
@@ -46,7 +47,7 @@ def refined(problem: Minimisable, tolerance: float = TOLERANCE, most: int = MOST
     Half as many points and a second grid change its hypervolume by up to `tolerance`.
     """
     checks.positive("tolerance", tolerance)
-    variables = len(problem.lower)
+    variables = len(box(problem)[0])
     points, before = FIRST, None
     while points**variables <= most:
         objectives = grid_front(problem, points)
@@ -69,13 +70,16 @@ def refined(problem: Minimisable, tolerance: float = TOLERANCE, most: int = MOST
 def grid_front(problem: Minimisable, points: int) -> Real:
     """Return the non-dominated objectives (n, m) of feasible designs on a grid of `points` values per variable."""
     checks.at_least("points", points, 2)
-    axes = [np.linspace(a, b, points) for a, b in zip(problem.lower, problem.upper, strict=True)]
+    searched = coded(problem)
+    axes = [np.linspace(a, b, points) for a, b in zip(*box(searched), strict=True)]
     m, total = len(problem.objectives), points ** len(axes)
     front = np.empty((0, m))
     for start in range(0, total, _CHUNK):
         places = np.unravel_index(np.arange(start, min(start + _CHUNK, total)), [points] * len(axes))
         designs = np.stack([axis[place] for axis, place in zip(axes, places, strict=True)], axis=-1)
-        front = best_of(np.concatenate([front, best_of(feasible_objectives(problem.evaluate(designs), m))]))
+        front = best_of(
+            np.concatenate([front, best_of(feasible_objectives(problem.evaluate(decoded(searched, designs)), m))])
+        )
     return front
 
 
@@ -121,16 +125,18 @@ def _read(path: Path, wanted: str) -> Refined:
 
 
 def key(problem: Minimisable, tolerance: float) -> str:
-    """Return a digest of all that the front depends on: versions, bounds, tolerance, values of 64 designs.
+    """Return a digest of all that the front depends on: versions, bounds, kinds, tolerance, values of 64 designs.
 
     The values identify the function: a parameter or a line of code that changes them changes the key.
     """
     rng = np.random.default_rng(0)
-    lower, upper = (np.asarray(bound, dtype=float) for bound in (problem.lower, problem.upper))
-    probes = problem.evaluate(lower + (upper - lower) * rng.random((64, lower.size)))
+    searched = coded(problem)
+    lower, upper = box(searched)
+    probes = problem.evaluate(decoded(searched, lower + (upper - lower) * rng.random((64, lower.size))))
     settings = {
         "versions": provenance(),
         "outputs": [list(problem.objectives), list(problem.constraints)],
+        "kinds": sorted(getattr(problem, "kinds", {}).items()),
         "bounds": [lower.tolist(), upper.tolist()],
         "grid": [tolerance, FIRST, MOST],
         "front": [ReferenceFront.SAMPLE, ReferenceFront.HYPERVOLUME_REFERENCE],

@@ -183,10 +183,10 @@ def judged_run(
 def _judged(seen: Trace, budget: int, population: int, reference: ReferenceFront) -> Iterator[dict[str, Any]]:
     """Yield a row per set of the state at a budget."""
     state = seen.states[budget]
-    spent = state.evaluations
+    asked, spent = state.evaluations, seen.spent[budget]
     archive = best_of(seen.objectives[:spent][seen.feasible[:spent]])
     best = best_of(state.objectives[state.feasible])
     cut, best = (found[evenly_spread(found, population)] for found in (archive, best))
     for name, objectives in ((POPULATION, best), (ARCHIVE, archive), (CUT_ARCHIVE, cut)):
         indicators = {indicator: getattr(reference, indicator)(objectives) for indicator in INDICATORS}
-        yield {"budget": budget, "evaluations": spent, "set": name, "members": len(objectives), **indicators}
+        yield {"budget": budget, "evaluations": asked, "set": name, "members": len(objectives), **indicators}

@@ -130,4 +130,5 @@ def distributed(problem: Described, client: "Client", chunk: int = 16) -> Proble
         return np.concatenate(client.gather(client.map(problem.evaluate, parts, pure=False)))
 
     names = ("lower", "upper", "objectives", "constraints", "variables", "units")
-    return Problem(evaluate=evaluate, **{name: getattr(problem, name) for name in names})
+    same = {name: getattr(problem, name) for name in names}
+    return Problem(evaluate=evaluate, kinds=getattr(problem, "kinds", {}), **same)

@@ -127,6 +127,14 @@ def read_bounds(table: Table, vehicle: Vehicle) -> dict[str, tuple[float, float]
     table.check_keys({key: parameter.name for key, parameter in known.items()})
     bounds = {key: table.pair(key) for key in known if key in table.content}
     for key, pair in bounds.items():
-        checks.interval(table.name + key, pair, known[key].unit)
+        checks.interval(table.name + key, pair, known[key].unit, equal=True)
         known[key].check(table.name + key, pair[0])
     return {known[key].name: pair for key, pair in bounds.items()}
+
+
+def read_kinds(table: Table, vehicle: Vehicle) -> dict[str, str | tuple[float, ...]]:
+    """Return the kinds in a flat table of coefficients by name: texts, or arrays of a catalogue's values."""
+    known = _by_key(vehicle)
+    table.check_keys({key: parameter.name for key, parameter in known.items()})
+    texts = {key for key, value in table.content.items() if isinstance(value, str)}
+    return {known[key].name: table.text(key) if key in texts else table.numbers(key) for key in table.content}
