@@ -1,8 +1,10 @@
 """Fixtures shared by the tests: the paper's problem, and where the checkout is."""
 
 import os
+import signal
 import subprocess
 import sys
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
@@ -52,9 +54,14 @@ def called(monkeypatch, capsys, tmp_path) -> Script:
     def run(name: str | None, *arguments: object) -> subprocess.CompletedProcess:
         command = [str(name), *map(str, arguments)]
         monkeypatch.setattr(sys, "argv", command)
+        monkeypatch.setattr(warnings, "showwarning", warnings.showwarning)
+        monkeypatch.setattr(sys, "unraisablehook", sys.unraisablehook)
         monkeypatch.chdir(tmp_path)
+        handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
         with pytest.raises(SystemExit) as ended:
             commands.main(*filter(None, [name]))
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
         return subprocess.CompletedProcess(command, ended.value.code or 0, *capsys.readouterr())
 
     return run

@@ -1,14 +1,16 @@
 """CSV files in and out: numbers under the names of their columns, read strictly and written whole."""
 
 import csv
+import errno
 import json
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from os import PathLike
 from pathlib import Path
-from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING, Any
+from uuid import uuid4
 
 from . import checks, escaping
 from .documents import naming
@@ -18,6 +20,9 @@ from .quantities import Real
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
+
+UNFINISHED = ".unfinished-"
+"""Beginning of the name of a file that is being written."""
 
 _MEGABYTES = 100  # of a file
 _DEVICES = r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)"  # reserved names of Windows, with any ending
@@ -52,17 +57,33 @@ def file_name(text: str) -> str:
 
 
 def write_whole(path: Path, write: Callable[[Path], object]) -> None:
-    """Let `write` fill a temporary file beside `path`, of the same ending, then put it in place in one step."""
-    with NamedTemporaryFile(dir=path.parent, prefix=".", suffix=path.suffix, delete=False) as file:
-        temporary = Path(file.name)
+    """Let `write` fill a temporary file beside `path`, of the same ending, then put it in place in one step.
+
+    An OSError names `path`: a full disk has no name of its own.
+    """
+    temporary = path.with_name(f"{UNFINISHED}{uuid4().hex}{path.suffix}")
     try:
         write(temporary)
-        temporary.chmod(0o644)
         with temporary.open("rb+") as written:
             os.fsync(written.fileno())  # the content is on the disk before the name is
         os.replace(temporary, path)
+        sync_folder(path.parent)
+    except OSError as error:
+        raise OSError(error.errno or errno.EIO, error.strerror or str(error), str(path)) from error
     finally:
-        temporary.unlink(missing_ok=True)
+        with suppress(OSError):
+            temporary.unlink(missing_ok=True)
+
+
+def sync_folder(folder: Path) -> None:
+    """Put the names of a folder on the disk, where the system does so by request."""
+    if hasattr(os, "O_DIRECTORY"):  # not Windows
+        number = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+        try:
+            with suppress(OSError):  # some network file systems refuse it
+                os.fsync(number)
+        finally:
+            os.close(number)
 
 
 def write_csv(path: Path, frame: "pd.DataFrame") -> None:
@@ -71,9 +92,14 @@ def write_csv(path: Path, frame: "pd.DataFrame") -> None:
     write_whole(path, lambda temporary: harmless.to_csv(temporary, index=False))
 
 
+def write_bytes(path: Path, content: bytes) -> None:
+    """Write a file."""
+    write_whole(path, lambda temporary: temporary.write_bytes(content))
+
+
 def write_text(path: Path, text: str) -> None:
     """Write a text file."""
-    write_whole(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
+    write_bytes(path, text.encode())
 
 
 def write_json(path: Path, content: Mapping[str, Any]) -> None:

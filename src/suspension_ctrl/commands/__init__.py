@@ -3,11 +3,14 @@
 import sys
 from typing import NoReturn
 
-from ..checks import installed
+from . import signals
 
 
 def main(*command: str) -> NoReturn:
     """Run `suspension-ctrl` with the arguments of this process, after the name of a command if given."""
+    signals.end_at_once()
+    from ..checks import installed
+
     try:
         with installed("cli"):
             from .app import app

@@ -19,12 +19,14 @@ from ..study import machine, reference, timing
 from ..study.campaign import Campaign
 from ..study.comparison import Comparison
 from ..study.findings import findings, last_rows
+from ..study.store import keeping
 from ..tables import write_csv, write_json
 from . import options as o
 from . import quality, reports, results, terminal
 
 QUICK_TOLERANCE = 1e-3
 GRID_VARIABLES = 2  # of more a grid is too coarse, and of several wheels it would take too long
+RECORD = "environment.json"  # the first file of a comparison
 PAPERS = ("vehicle", "road", "speed", "band", "problem")
 """Options without which the problem is the paper's."""
 
@@ -52,7 +54,7 @@ class Request:
             seed=options["seed"],
         )
         tolerance = QUICK_TOLERANCE if options["quick"] else reference.TOLERANCE
-        folder = results.results_folder(options["out"], resumed_by="timed")
+        folder = results.results_folder(options["out"], resumed_by=RECORD)
         return cls(Campaign(comparison, folder, tolerance, terminal.progress), problem, options)
 
     def published(self) -> pd.DataFrame:
@@ -83,7 +85,17 @@ def chosen_problem(options: Mapping[str, Any]) -> RideProblem:
 
 def carry_out(request: Request, cluster: AbstractContextManager[Any] | None) -> None:
     """Time, judge, write and say; with a cluster likewise the runs over many seeds."""
-    campaign, record = request.campaign, request.campaign.folder / "environment.json"
+    with keeping(request.campaign.folder):
+        raised = _carried_out(request, cluster)
+    print(request.campaign.folder)
+    if raised:
+        terminal.complain(f"{raised} runs raised: see the column error of {request.campaign.folder / 'runs.csv'}")
+        raise typer.Exit(1)
+
+
+def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) -> int:
+    """Return the number of runs that raised."""
+    campaign, record = request.campaign, request.campaign.folder / RECORD
     if not record.exists():  # of the command that began the timed runs
         texts = {name: str(value) if isinstance(value, Path) else value for name, value in request.options.items()}
         with machine.single_thread():
@@ -97,17 +109,13 @@ def carry_out(request: Request, cluster: AbstractContextManager[Any] | None) -> 
     timed = timing.tidy(campaign.comparison, store, front).assign(timing=True)
     reports.write(request, store, timed)
     reports.say(request, store, timed, origin)
-    raised = 0
-    if cluster is not None:
-        with cluster as client, terminal.compiling():
-            table, judged = campaign.judge(front, client)
-        write_csv(request.campaign.folder / "runs.csv", pd.concat([timed, last_rows(table)]))
-        clock, target = timing.seconds_by_evaluations(campaign.comparison, store), request.options["target"]
-        if found := findings(campaign.comparison, table, clock, target):
-            quality.write(request, found, judged)
-            quality.say(found, target)
-        raised = int(table.error.ne("").sum())
-    print(request.campaign.folder)
-    if raised:
-        terminal.complain(f"{raised} runs raised: see the column error of {request.campaign.folder / 'runs.csv'}")
-        raise typer.Exit(1)
+    if cluster is None:
+        return 0
+    with cluster as client, terminal.compiling():
+        table, judged = campaign.judge(front, client)
+    write_csv(campaign.folder / "runs.csv", pd.concat([timed, last_rows(table)]))
+    clock, target = timing.seconds_by_evaluations(campaign.comparison, store), request.options["target"]
+    if found := findings(campaign.comparison, table, clock, target):
+        quality.write(request, found, judged)
+        quality.say(found, target)
+    return int(table.error.ne("").sum())

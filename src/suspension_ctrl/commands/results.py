@@ -6,6 +6,8 @@ from itertools import chain, count
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 
+from ..tables import UNFINISHED
+
 
 def results_folder(out: Path | None, resumed_by: str | None = None) -> Path:
     """Make and return the folder for the results of a command: `out`, or a new one ``results/<date-time>``.
@@ -21,7 +23,7 @@ def results_folder(out: Path | None, resumed_by: str | None = None) -> Path:
             raise ValueError(
                 f"out must be a folder that is absent or empty, got {str(folder)!r}, which is not empty"
             )
-        with NamedTemporaryFile(dir=folder, prefix="."):
+        with NamedTemporaryFile(dir=folder, prefix=UNFINISHED):
             return folder
     except OSError as error:
         reason = f"got {str(folder)!r}: {error.strerror}"

@@ -15,6 +15,7 @@ from rich.table import Table
 from rich.text import Text
 
 from .. import escaping
+from . import signals
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -30,29 +31,45 @@ def run(app: typer.Typer, *before: str, name: str | None = None) -> NoReturn:
     """Run an app with the arguments of this process, after those `before`, and end with its exit status.
 
     Bad input ends it with one line on standard error and status 2, a file that cannot be read or written and a
-    package that is not installed with one line and status 1, an interrupt with 130.
+    package that is not installed with one line and status 1, Ctrl-C with 130 and SIGTERM with 143.
     """
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")  # a symbol that the encoding lacks is no error
+    warnings.showwarning = _warn
     try:
+        signals.end_in_order()
         with warnings.catch_warnings():
             warnings.filterwarnings("error", "overflow|divide by zero|invalid value", RuntimeWarning)
-            sys.exit(app([*before, *sys.argv[1:]], prog_name=name, standalone_mode=False))
-    except typer.TyperException as error:
-        message, status = error.format_message(), 2
-    except ValueError as error:
-        message, status = str(error), 2
-    except (ArithmeticError, RuntimeWarning) as error:
-        message, status = f"numbers must be of moderate size, got {error.args[-1]}", 2
-    except (OSError, ImportError) as error:
-        message, status = str(error), 1
-    except MemoryError as error:
-        message, status = f"not enough memory: {error}", 1
-    except (KeyboardInterrupt, typer.Abort):
-        message, status = "interrupted", 130
-    complain(message)
+            result = "", app([*before, *sys.argv[1:]], prog_name=name, standalone_mode=False)
+    except BaseException as error:
+        result = signals.ended() or _ending(error)
+    message, status = signals.ended() or result
+    if message:
+        complain(message)
     sys.exit(status)
+
+
+def _ending(error: BaseException) -> tuple[str, int]:
+    """Return line and exit status for an error; others than those of input and surroundings are raised."""
+    if isinstance(error, typer.TyperException):
+        return error.format_message(), 2
+    if isinstance(error, ValueError):
+        return str(error), 2
+    if isinstance(error, ArithmeticError | RuntimeWarning):
+        return f"numbers must be of moderate size, got {error.args[-1]}", 2
+    if isinstance(error, OSError | ImportError):
+        return str(error), 1
+    if isinstance(error, MemoryError):
+        return f"not enough memory: {error}", 1
+    if isinstance(error, KeyboardInterrupt | typer.Abort):
+        return "interrupted", 130
+    raise error
+
+
+def _warn(message: Warning | str, *_: object, **__: object) -> None:
+    """Print a warning in one line, without the line of code that it came from."""
+    complain(str(message), "warning")
 
 
 def run_script(main: Callable[..., None]) -> NoReturn:
@@ -62,9 +79,9 @@ def run_script(main: Callable[..., None]) -> NoReturn:
     run(app)
 
 
-def complain(message: str) -> None:
+def complain(message: str, kind: str = "error") -> None:
     """Print one line on standard error."""
-    print(escaping.terminal(f"error: {' '.join(message.split())}"), file=sys.stderr)
+    print(escaping.terminal(f"{kind}: {' '.join(message.split())}"), file=sys.stderr)
 
 
 def progress(items: Iterable[T], total: int, text: str = "") -> Iterator[T]:

@@ -3,7 +3,7 @@
 import platform
 import warnings
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +12,7 @@ import pandas as pd
 from ..search.constraints import InfeasibleWarning
 from ..search.indicators import ReferenceFront
 from ..search.kinds import box
-from . import machine, reference, timing
+from . import lock, machine, reference, timing
 from .comparison import Comparison
 from .store import FolderStore
 from .study import PlannedRun
@@ -33,12 +33,21 @@ class Campaign:
         Largest relative change of the reference hypervolume by a finer grid [-].
     watch : callable
         Passes runs through as they are made, from their iterator, their number and a text: a progress bar.
+
+    Raises
+    ------
+    BlockingIOError
+        If another process has a campaign in the folder.
     """
 
     comparison: Comparison
     folder: Path
     tolerance: float = reference.TOLERANCE
     watch: Callable[[Iterator[Any], int, str], Iterator[Any]] = lambda runs, _total, _text: runs
+    _lock: Any = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_lock", lock.hold(self.folder))  # the folder is this process's from here on
 
     def time(self) -> FolderStore:
         """Make the timed runs one after the other on one thread, after a warm-up, and return them."""
@@ -67,7 +76,7 @@ class Campaign:
 
     def judge(self, front: ReferenceFront, client: "Client | None" = None) -> tuple[pd.DataFrame, FolderStore]:
         """Make the runs over many seeds, here or on a cluster; return a row per run, budget and set, and them."""
-        store = self._store("quality", "seeds", reference=reference.digest(front))
+        store = self._store("quality", "seeds", reference=reference.summary(front))
         parts = []
         for population, study in self.comparison.studies(front).items():
             missing = sum(run.name not in store for run in study.runs())
@@ -79,5 +88,6 @@ class Campaign:
         """Return the finished runs in a subfolder that belongs to these settings, values and versions."""
         keys = ("populations", "iterations", "algorithms", "seed", *also)
         plan |= {key: getattr(self.comparison, key) for key in keys}
-        plan["problem"] = reference.key(self.comparison.problem, self.tolerance)
+        problem = self.comparison.problem
+        plan |= {"problem": problem, "values": reference.fingerprint(problem), "tolerance": self.tolerance}
         return FolderStore(self.folder / name, plan | machine.provenance())

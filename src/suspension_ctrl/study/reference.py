@@ -2,11 +2,10 @@
 
 import hashlib
 import json
+import warnings
 from collections.abc import Sequence
-from contextlib import suppress
 from pathlib import Path
-from typing import NamedTuple
-from zipfile import BadZipFile
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from ..search.indicators import ReferenceFront, best_of
 from ..search.kinds import box, coded, decoded
 from ..search.problem import Minimisable
 from .machine import provenance
+from .store import SpoiltRunWarning
 
 TOLERANCE = 1e-4
 FIRST, MOST = 100, 20_000_000
@@ -94,9 +94,11 @@ def best_known(found: Sequence[Real]) -> ReferenceFront:
     return ReferenceFront.of(best)
 
 
-def digest(front: ReferenceFront) -> str:
-    """Return a digest of a front."""
-    return _digest(front.objectives.tobytes() + np.float64(front.volume).tobytes())
+def summary(front: ReferenceFront) -> dict[str, Any]:
+    """Return what tells a front from another: its size, corners and volume, and a digest of all."""
+    digest = _digest(front.objectives.tobytes() + np.float64(front.volume).tobytes())
+    corners = {"ideal": front.ideal.tolist(), "nadir": front.nadir.tolist()}
+    return {"points": len(front.objectives), **corners, "volume": front.volume, "digest": digest}
 
 
 def _digest(content: bytes) -> str:
@@ -104,35 +106,45 @@ def _digest(content: bytes) -> str:
 
 
 def kept(path: Path, problem: Minimisable, tolerance: float = TOLERANCE) -> Refined:
-    """Return `refined` from a file, written anew if it is absent, spoilt or of another `key`."""
+    """Return `refined` from a file, written anew if it is absent, of another `key`, or spoilt, with a warning."""
     wanted = key(problem, tolerance)
-    with suppress(OSError, ValueError, KeyError, EOFError, BadZipFile):
-        return _read(path, wanted)
+    try:
+        found = _read(path, wanted)
+    except FileNotFoundError:
+        found = None
+    except Exception as error:  # numpy, zip and memory have many of them
+        message = f"{path}: must be a reference front as it was stored ({type(error).__name__}); it is made again"
+        warnings.warn(message, SpoiltRunWarning, stacklevel=2)
+        found = None
+    if found is not None:
+        return found
     found = refined(problem, tolerance)
     numbers = dict(zip(found._fields[1:], found[1:], strict=True))
-    content = {"key": wanted, **vars(found.front), **numbers}
+    content = {"key": wanted, "digest": summary(found.front)["digest"], **vars(found.front), **numbers}
     tables.write_whole(path, lambda temporary: np.savez(temporary, **content))
     return found
 
 
-def _read(path: Path, wanted: str) -> Refined:
+def _read(path: Path, wanted: str) -> Refined | None:
+    """Return a stored front, None if it is of another key; an error of any kind if it is spoilt."""
+    if path.exists() and not path.is_file():
+        raise ValueError("must be a regular file")
     with path.open("rb") as file, np.load(file) as there:
-        if there["key"] != wanted:
-            raise ValueError("key must be that of the problem, got another")
+        if there["key"].item() != wanted:
+            return None
         arrays = {name: there[name] for name in ("objectives", "ideal", "nadir")}
-        front = ReferenceFront(**arrays, volume=there["volume"].item())
-        return Refined(front, *(there[name].item() for name in Refined._fields[1:]))
+        volume, points, change, second = (there[name].item() for name in ("volume", *Refined._fields[1:]))
+        front = ReferenceFront(**arrays, volume=volume)
+        if summary(front)["digest"] != there["digest"].item():
+            raise ValueError("must have the digest of its content")
+    if len(front.objectives) == 0 or not all(np.isfinite(value).all() for value in vars(front).values()):
+        raise ValueError("must be finite and not empty")
+    return Refined(front, points, change, second)
 
 
 def key(problem: Minimisable, tolerance: float) -> str:
-    """Return a digest of all that the front depends on: versions, bounds, kinds, tolerance, values of 64 designs.
-
-    The values identify the function: a parameter or a line of code that changes them changes the key.
-    """
-    rng = np.random.default_rng(0)
-    searched = coded(problem)
-    lower, upper = box(searched)
-    probes = problem.evaluate(decoded(searched, lower + (upper - lower) * rng.random((64, lower.size))))
+    """Return a digest of all that the front depends on: versions, bounds, kinds, tolerance, values of 64 designs."""
+    lower, upper = box(coded(problem))
     settings = {
         "versions": provenance(),
         "outputs": [list(problem.objectives), list(problem.constraints)],
@@ -140,5 +152,13 @@ def key(problem: Minimisable, tolerance: float) -> str:
         "bounds": [lower.tolist(), upper.tolist()],
         "grid": [tolerance, FIRST, MOST],
         "front": [ReferenceFront.SAMPLE, ReferenceFront.HYPERVOLUME_REFERENCE],
+        "values": fingerprint(problem),
     }
-    return _digest(json.dumps(settings, sort_keys=True).encode() + probes.tobytes())
+    return _digest(json.dumps(settings, sort_keys=True).encode())
+
+
+def fingerprint(problem: Minimisable) -> str:
+    """Return a digest of the values of 64 designs: a parameter or a line of code that changes them changes it."""
+    rng, searched = np.random.default_rng(0), coded(problem)
+    lower, upper = box(searched)
+    return _digest(problem.evaluate(decoded(searched, lower + (upper - lower) * rng.random((64, lower.size)))).tobytes())

@@ -1,11 +1,16 @@
-"""Finished runs on disk, each file whole or absent: a stopped comparison resumes."""
+"""Finished runs on disk, each whole or absent and checked when it is read: a stopped comparison resumes."""
 
-import json
+import warnings
 from collections.abc import Iterator, Mapping, MutableMapping
+from contextlib import contextmanager
+from hashlib import sha256
+from io import BytesIO
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .. import escaping, tables
+from . import lock, plans
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -13,6 +18,17 @@ if TYPE_CHECKING:
 
 VIOLATION = "violation"
 """Column of a final population's total violations, where the problem has constraints."""
+
+_PARTS = ("final", "runs")  # folders of the tables of a run
+_RECORDS = "records"  # folder of their numbers of rows and digests, each written last
+
+
+class SpoiltRunWarning(UserWarning):
+    """A stored run was cut, changed or only half there, and will be made again."""
+
+
+class NotStoredError(OSError):
+    """A result could not be written; what was finished is kept."""
 
 
 class StoredRun(NamedTuple):
@@ -27,13 +43,28 @@ class StoredRun(NamedTuple):
         return self.final[self.final[VIOLATION] == 0] if VIOLATION in self.final else self.final
 
 
+@contextmanager
+def keeping(folder: Path) -> Iterator[None]:
+    """Say in an OSError of writing results that finished runs are kept, and how to go on."""
+    try:
+        yield
+    except (NotStoredError, BlockingIOError):
+        raise
+    except OSError as error:
+        raise NotStoredError(f"{error}; finished runs are kept: start again with {str(folder)!r} to go on") from error
+
+
 class FolderStore(MutableMapping[str, StoredRun]):
-    """Finished runs by name, as two CSV files each in a folder that belongs to one plan.
+    """Finished runs by name, two CSV files each, in a folder that belongs to one plan and one process at a time.
+
+    A run is stored once its file in ``records`` exists: numbers of rows and digests of its tables, the last one
+    written. Runs whose files do not agree with it are named in a `SpoiltRunWarning` as the folder is opened, and
+    absent; their files are kept beside, as ``*.spoilt``.
 
     Parameters
     ----------
     folder : Path
-        Made if absent. A run is stored once its file in ``runs`` exists, the last one written.
+        Made if absent.
     plan : mapping
         Settings and versions that the results depend on, for ``plan.json``.
 
@@ -41,44 +72,98 @@ class FolderStore(MutableMapping[str, StoredRun]):
     ------
     ValueError
         If the folder holds runs of another plan.
+    BlockingIOError
+        If another process has opened it.
     """
 
     def __init__(self, folder: Path, plan: Mapping[str, Any]) -> None:
-        self._course, self._final = folder / "runs", folder / "final"
-        folder.mkdir(parents=True, exist_ok=True)
-        path = folder / "plan.json"
-        if not path.exists():
-            tables.write_json(path, plan)
-        kept, wanted = json.loads(path.read_text(encoding="utf-8")), json.loads(json.dumps(dict(plan)))
-        for name in wanted | kept:
-            there, here = kept.get(name), wanted.get(name)
-            if there != here:
-                raise ValueError(f"{name} must be {there!r} as in {str(path)!r} to go on there, got {here!r}")
-        for part in (self._course, self._final):
-            part.mkdir(exist_ok=True)
-            for unfinished in part.glob(".*"):  # left by a process that was killed as it wrote
-                unfinished.unlink()
+        self._folder, self._lock = folder, lock.hold(folder)
+        for part in (*_PARTS, _RECORDS):
+            (folder / part).mkdir(exist_ok=True)
+        tables.sync_folder(folder)
+        plans.settle(folder / "plan.json", plan, started=len(self) > 0)
+        self._set_spoilt_aside()
 
     def __getitem__(self, name: str) -> StoredRun:
-        import pandas as pd
-
         if name not in self:
             raise KeyError(name)
-        parts = (pd.read_csv(part / f"{name}.csv") for part in (self._course, self._final))
-        return StoredRun(*(escaping.frame(part, escaping.from_csv) for part in parts))
+        record = _read_record(self._path(_RECORDS, name))
+        final, course = (_read_part(self._path(part, name), record[part]) for part in _PARTS)
+        return StoredRun(course, final)
 
     def __setitem__(self, name: str, run: StoredRun) -> None:
-        tables.write_csv(self._final / f"{name}.csv", run.final)
-        tables.write_csv(self._course / f"{name}.csv", run.course)
+        record = {}
+        with keeping(self._folder):
+            for part, frame in zip(_PARTS, (run.final, run.course), strict=True):
+                content = escaping.frame(frame, escaping.csv).to_csv(index=False, lineterminator="\n").encode()
+                tables.write_bytes(self._path(part, name), content)
+                record[part] = {"rows": len(frame), "sha256": sha256(content).hexdigest()}
+            tables.write_json(self._path(_RECORDS, name), record)
 
     def __delitem__(self, name: str) -> None:
-        (self._course / f"{name}.csv").unlink()
+        self._path(_RECORDS, name).unlink()
 
     def __contains__(self, name: object) -> bool:
-        return (self._course / f"{name}.csv").exists()
+        return self._path(_RECORDS, str(name)).exists()
 
     def __iter__(self) -> Iterator[str]:
-        return (path.stem for path in sorted(self._course.glob("*.csv")))
+        return (path.stem for path in sorted((self._folder / _RECORDS).glob("[!.]*.json")))
 
     def __len__(self) -> int:
         return sum(1 for _ in self)
+
+    def _path(self, part: str, name: str) -> Path:
+        return self._folder / part / f"{name}.{'json' if part == _RECORDS else 'csv'}"
+
+    def _set_spoilt_aside(self) -> None:
+        """Name the runs that are not as they were stored, and move what is wrong with them out of the way."""
+        tables_there = (path for part in _PARTS for path in sorted((self._folder / part).glob("[!.]*.csv")))
+        for name in dict.fromkeys([*self, *(path.stem for path in tables_there)]):
+            record = self._path(_RECORDS, name)
+            try:
+                if not record.exists():
+                    raise _SpoiltError(self._path("runs", name), "only half of the run is there")
+                self[name]
+            except _SpoiltError as spoilt:
+                warnings.warn(f"{spoilt}; the run is made again", SpoiltRunWarning, stacklevel=3)
+                for part in (*_PARTS, _RECORDS):
+                    _move_aside(self._path(part, name))
+
+
+class _SpoiltError(ValueError):
+    def __init__(self, path: Path, reason: str) -> None:
+        super().__init__(f"{path}: {reason}")
+
+
+def _read_record(path: Path) -> dict[str, Any]:
+    """Return rows and digest of each table of a run."""
+    try:
+        record = plans.read(path)
+        return {part: {"rows": int(record[part]["rows"]), "sha256": record[part]["sha256"]} for part in _PARTS}
+    except (OSError, ValueError, KeyError, TypeError):
+        raise _SpoiltError(path, "must hold numbers of rows and digests as they were stored") from None
+
+
+def _read_part(path: Path, record: Mapping[str, Any]) -> "pd.DataFrame":
+    """Return a table of a run that is as it was stored."""
+    import pandas as pd
+
+    if not path.is_file():  # a folder, a pipe
+        raise _SpoiltError(path, "must be a regular file")
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise _SpoiltError(path, f"cannot be read ({error.strerror})") from None
+    if sha256(content).hexdigest() != record["sha256"]:
+        raise _SpoiltError(path, f"must be as it was stored, got other {len(content)} bytes")
+    frame = pd.read_csv(BytesIO(content))
+    if len(frame) != record["rows"]:
+        raise _SpoiltError(path, f"must have {record['rows']} rows, got {len(frame)}")
+    return escaping.frame(frame, escaping.from_csv)
+
+
+def _move_aside(path: Path) -> None:
+    """Rename what is there to ``*.spoilt``, or ``*.spoilt2`` and so on where that exists."""
+    if path.is_symlink() or path.exists():
+        names = (path.with_name(f"{path.name}.spoilt{number or ''}") for number in count())
+        path.rename(next(name for name in names if not name.exists()))

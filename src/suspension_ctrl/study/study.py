@@ -17,7 +17,7 @@ from ..search.trace import Trace, trace
 from ..tables import file_name
 from .reference import best_known
 from .store import VIOLATION, StoredRun
-from .workers import outcome, outcomes
+from .calls import outcome, outcomes
 
 if TYPE_CHECKING:
     from distributed import Client

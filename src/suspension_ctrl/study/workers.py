@@ -1,9 +1,14 @@
-"""Work spread over processes and machines by Dask, or done here: the same results in any order."""
+"""Processes of this machine or of others, by Dask."""
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager, nullcontext
-from typing import TYPE_CHECKING, Any, TypeVar
-from uuid import uuid4
+import ast
+import signal
+import sys
+import warnings
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext, suppress
+from multiprocessing import resource_tracker
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,37 +16,98 @@ from .. import checks
 from ..checks import installed
 from ..quantities import Real
 from ..search.problem import Described, Problem
+from .machine import PACKAGES
 
 if TYPE_CHECKING:
     from distributed import Client
 
+_SETTINGS = {
+    "distributed.deploy.lost-worker-timeout": "1 day",  # on a busy machine a worker takes long to come back
+    "distributed.scheduler.allowed-failures": 0,  # `calls` repeats what was on a worker that died
+}
 
-T = TypeVar("T")
 
+def local_cluster(jobs: int, dashboard: str | None = None) -> AbstractContextManager["Client"]:
+    """Start `jobs` processes of one thread each on this machine, reachable from it alone.
 
-def local_cluster(jobs: int) -> AbstractContextManager["Client"]:
-    """Start `jobs` processes of one thread each on this machine, reachable from it alone."""
+    Dask's dashboard is served at an address such as ``127.0.0.1:8787`` if given. A script must call this under
+    ``if __name__ == "__main__":`` as the processes import it; one that does not ends with a line that says so.
+    """
     checks.at_least("jobs", jobs, 1)
-    return _local_cluster(jobs)
+    if line := _unguarded_line():
+        sys.exit(f"error: processes must be started under: if __name__ == \"__main__\": got {line} outside of it")
+    return _local_cluster(jobs, dashboard)
 
 
 @contextmanager
-def _local_cluster(jobs: int) -> Iterator["Client"]:
+def _local_cluster(jobs: int, dashboard: str | None) -> Iterator["Client"]:
     with installed("study"):
+        import dask
         from distributed import Client, LocalCluster  # over a second: only where it is used
+        from distributed.utils import LoopRunner
 
-    settings: dict[str, Any] = {"n_workers": jobs, "threads_per_worker": 1, "memory_limit": 0}
-    # The server of dask's metrics starts in any case; without an address it listens to the network.
-    local = {"host": "127.0.0.1"} | dict.fromkeys(("dashboard_address", "worker_dashboard_address"), "127.0.0.1:0")
-    with (
-        LocalCluster(**settings, **local, silence_logs="CRITICAL") as made,
-        Client(made, set_as_default=False) as client,
-    ):
-        yield client
+    # Dask's server of metrics starts in any case; without an address it listens to the network.
+    scheduler = {"dashboard": dashboard is not None, "dashboard_address": dashboard or "127.0.0.1:0"}
+    settings: dict[str, Any] = {"n_workers": jobs, "threads_per_worker": 1, "memory_limit": 0, "host": "127.0.0.1"}
+    settings |= {"scheduler_kwargs": scheduler, "dashboard_address": None, "worker_dashboard_address": None}
+    runner = LoopRunner()
+    with ExitStack() as stack:
+        stack.enter_context(dask.config.set(_SETTINGS))
+        resource_tracker.ensure_running()  # started later, it lets interrupts through
+        with _interrupts_blocked():
+            runner.start()
+        stack.callback(runner.stop)
+        try:
+            made = LocalCluster(**settings, loop=runner.loop, silence_logs="CRITICAL")
+        except RuntimeError as error:
+            raise ChildProcessError(f"processes must start, got: {error.__cause__ or error}") from error
+        stack.enter_context(made)
+        stack.push(lambda kind, *_: _kill(made) if kind else None)
+        yield stack.enter_context(Client(made, set_as_default=False))
+
+
+def _kill(made: Any) -> None:
+    """Kill the processes of a cluster that is given up: in the midst of a run they take seconds to stop."""
+    import psutil  # of distributed
+
+    for nanny in made.workers.values():
+        nanny.auto_restart = False
+        with suppress(psutil.Error, TypeError):  # TypeError: not started
+            psutil.Process(nanny.pid).kill()
+
+
+@contextmanager
+def _interrupts_blocked() -> Iterator[None]:
+    """Block Ctrl-C for the threads and, through them, processes started here: it reaches this process alone."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _unguarded_line() -> str:
+    """Return file and line of a script that runs now outside of a main guard, ``""`` if there is none."""
+    frame: Any = sys._getframe()
+    while frame and not (frame.f_code.co_name == "<module>" and frame.f_globals.get("__name__") == "__main__"):
+        frame = frame.f_back
+    path = frame and frame.f_globals.get("__file__")
+    if not path or not Path(path).is_file():
+        return ""
+    try:
+        statements = ast.parse(Path(path).read_bytes()).body
+    except (OSError, ValueError, SyntaxError):
+        return ""
+    guards = [s for s in statements if isinstance(s, ast.If) and "__name__" in ast.unparse(s.test)]
+    guarded = any(s.lineno <= frame.f_lineno <= (s.end_lineno or s.lineno) for s in guards)
+    return "" if guarded else f"line {frame.f_lineno} of {path}"
 
 
 def scheduler_at(address: str, timeout: float = 10.0) -> AbstractContextManager["Client"]:
-    """Connect to a running scheduler that has a worker, within `timeout` [s].
+    """Connect to a running scheduler that has a worker, within `timeout` [s], and this machine's versions.
 
     Its address is ``tcp://host:8786``, or ``tls://host:8786`` with the certificates of Dask's configuration
     (``distributed.comm.tls``).
@@ -57,7 +123,9 @@ def _connected(address: str, timeout: float) -> Iterator["Client"]:
         from distributed import Client
 
     try:
-        client = Client(address, timeout=timeout, set_as_default=False)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of versions: they are compared below
+            client = Client(address, timeout=timeout, set_as_default=False)
     except (OSError, TypeError, ValueError) as error:  # TypeError: tls:// without certificates
         raise ValueError(f"scheduler must be one that answers, got {address!r}: {error}") from error
     with client:
@@ -65,7 +133,19 @@ def _connected(address: str, timeout: float) -> Iterator["Client"]:
             client.wait_for_workers(1, timeout=timeout)
         except TimeoutError:
             raise ValueError(f"scheduler must have a worker, got {address!r} without one") from None
+        _check_versions(client)
         yield client
+
+
+def _check_versions(client: "Client") -> None:
+    """Raise ValueError where a worker has other versions than this process of what determines a result."""
+    found = client.get_versions(packages=PACKAGES)
+    here = found["client"]["packages"]
+    for address, there in found["workers"].items():
+        for name in ("python", *PACKAGES):
+            wanted, got = here[name], there["packages"].get(name)
+            if got != wanted:
+                raise ValueError(f"scheduler must have workers with {name} {wanted} as here, got {got} at {address}")
 
 
 def cluster(jobs: int | None = None, scheduler: str | None = None) -> AbstractContextManager["Client | None"]:
@@ -75,47 +155,6 @@ def cluster(jobs: int | None = None, scheduler: str | None = None) -> AbstractCo
     if jobs is not None:
         return local_cluster(jobs)
     return nullcontext() if scheduler is None else scheduler_at(scheduler)
-
-
-def outcomes(
-    function: Callable[..., T], arguments: Mapping[str, tuple[Any, ...]], client: "Client | None" = None
-) -> Iterator[tuple[str, T | None, str]]:
-    """Call the function with each of the arguments and yield name, result and error (``""``) of each as it ends.
-
-    A cluster repeats the call of a worker that dies, up to four times; ConnectionError if the scheduler is lost.
-    """
-    if client is None:
-        for name, values in arguments.items():
-            yield name, *outcome(function, values)
-        return
-    with installed("study"):
-        from distributed import as_completed
-
-    futures = {
-        client.submit(outcome, function, values, key=f"{name}-{uuid4()}", pure=False): name
-        for name, values in arguments.items()
-    }
-    for future in as_completed(futures, loop=client.loop):
-        name = futures.pop(future)
-        if future.status == "error":
-            yield name, None, _line(future.exception())
-        elif future.status != "finished":
-            raise ConnectionError(f"scheduler lost: {future.status} {name}; what was finished is kept")
-        else:
-            yield name, *future.result()
-        future.release()
-
-
-def outcome(function: Callable[..., T], arguments: tuple[Any, ...]) -> tuple[T | None, str]:
-    """Call the function and return its result, or None and its error in one line."""
-    try:
-        return function(*arguments), ""
-    except Exception as error:  # whatever an evaluation raises, the other runs go on
-        return None, _line(error)
-
-
-def _line(error: BaseException) -> str:
-    return " ".join(f"{type(error).__name__}: {error}".split())
 
 
 def distributed(problem: Described, client: "Client", chunk: int = 16) -> Problem:

@@ -1,0 +1,134 @@
+"""Calls made here or on the workers of a cluster: the same results in any order, also where workers die."""
+
+from collections import deque
+from collections.abc import Callable, Iterator, Mapping
+from time import monotonic, sleep
+from typing import TYPE_CHECKING, Any, TypeVar
+from uuid import uuid4
+
+from ..checks import installed
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+
+T = TypeVar("T")
+
+KILLS = 3
+"""Deaths of its worker after which a call is given up, the last of them with no other call on the cluster."""
+
+PATIENCE = 120.0
+"""Time [s] that a cluster may be without a worker: a dead one is replaced in seconds, on a busy machine in more."""
+
+_PAUSE = 0.005  # between two looks at the calls [s]
+
+
+def outcomes(
+    function: Callable[..., T], arguments: Mapping[str, tuple[Any, ...]], client: "Client | None" = None
+) -> Iterator[tuple[str, T | None, str]]:
+    """Call the function with each of the arguments and yield name, result and error (``""``) of each as it ends.
+
+    A call whose worker dies is repeated, in the end alone, and has an error once it has killed `KILLS` of them.
+    ConnectionError if the scheduler or all its workers are lost.
+    """
+    if client is None:
+        for name, values in arguments.items():
+            yield name, *outcome(function, values)
+        return
+    with installed("study"):
+        from distributed.protocol.pickle import dumps
+
+    pickled: dict[str, bytes] = {}
+    for name, values in arguments.items():
+        content, error = outcome(dumps, ((function, values),))
+        if content is None:
+            yield name, None, error
+        else:
+            pickled[name] = content
+    yield from _spread(pickled, client)
+
+
+def outcome(function: Callable[..., T], arguments: tuple[Any, ...]) -> tuple[T | None, str]:
+    """Call the function and return its result, or None and its error in one line."""
+    try:
+        return function(*arguments), ""
+    except (Exception, SystemExit) as error:  # whatever an evaluation raises, the other runs go on
+        return None, " ".join(f"{type(error).__name__}: {error}".split())
+
+
+def _unpickled(content: bytes) -> tuple[Any, str]:
+    """Make a pickled call, on a worker."""
+    from distributed.protocol.pickle import loads
+
+    call, error = outcome(loads, (content,))
+    return (None, error) if call is None else outcome(*call)
+
+
+def _spread(pickled: Mapping[str, bytes], client: "Client") -> Iterator[tuple[str, Any, str]]:
+    """Make pickled calls on a cluster, no more at a time than it has threads: a worker's death then blames one.
+
+    A call on a worker that died twice may have been innocent: it is made again when no other call is on.
+    """
+    threads = _Threads(client)
+    waiting, suspects, kills = deque(pickled), deque[str](), dict.fromkeys(pickled, 0)
+    running: dict[Any, str] = {}
+    alone = False
+    while waiting or suspects or running:
+        alone = not waiting and (alone or not running)
+        source = suspects if alone else waiting
+        while source and len(running) < (1 if alone else threads.count()):
+            name = source.popleft()
+            running[client.submit(_unpickled, pickled[name], key=f"{name}-{uuid4()}", pure=False)] = name
+        ended = [future for future in running if future.done()]
+        for future in ended:
+            name = running.pop(future)
+            killed, *result = _result(future, name)
+            kills[name] += killed
+            if not killed or (alone and kills[name] >= KILLS):
+                yield name, *result
+            else:
+                (suspects if kills[name] + 1 >= KILLS else waiting).append(name)
+            future.release()
+        if not ended:
+            threads.count()
+            sleep(_PAUSE)
+
+
+def _result(future: Any, name: str) -> tuple[int, Any, str]:
+    """Return the workers that a finished call has killed, its result and its error."""
+    from distributed import KilledWorker
+
+    if future.status == "finished":
+        return 0, *future.result()
+    if future.status != "error":
+        raise ConnectionError(f"scheduler lost: {future.status} {name}; what was finished is kept")
+    error = future.exception()
+    if isinstance(error, KilledWorker):
+        return error.allowed_failures + 1, None, "KilledWorker: the run killed every process that it was made in"
+    return 0, None, outcome(_raise, (error,))[1]
+
+
+def _raise(error: BaseException) -> None:
+    raise error
+
+
+class _Threads:
+    """The threads of a cluster, asked for once a second."""
+
+    def __init__(self, client: "Client") -> None:
+        self._client, self._count, self._asked, self._seen = client, 0, -1.0, monotonic()
+
+    def count(self) -> int:
+        """Return their number; ConnectionError where there have been none for too long."""
+        now = monotonic()
+        if now - self._asked >= 1:
+            try:
+                self._count = sum(self._client.nthreads().values())
+            except (OSError, RuntimeError) as error:
+                raise ConnectionError(f"scheduler lost: {error}; what was finished is kept") from None
+            self._asked = now
+        if self._count:
+            self._seen = now
+        elif now - self._seen > PATIENCE:
+            raise ConnectionError(f"workers lost: none for {PATIENCE:g} s; what was finished is kept")
+        return self._count

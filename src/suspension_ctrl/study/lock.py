@@ -1,0 +1,73 @@
+"""A results folder held by one process at a time, and cleaned of what dead ones left half written."""
+
+import json
+import os
+import socket
+import time
+import weakref
+from contextlib import suppress
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .. import tables
+from ..checks import installed
+
+if TYPE_CHECKING:
+    from filelock import BaseFileLock
+
+LOCK, HOLDER = ".lock", ".in-use.json"
+"""Files of a held folder: the lock, and the process that holds it."""
+
+OLD = 60.0
+"""Age [s] from which an unfinished file is left over: a process that is writing changes its file."""
+
+
+def hold(folder: Path) -> "BaseFileLock":
+    """Make a folder and return its lock, which this process holds until the last reference to it is gone.
+
+    The operating system ends it with its process, whatever ends that, and with the machine.
+
+    Raises
+    ------
+    BlockingIOError
+        If another process holds the folder.
+    """
+    with installed("study"):
+        from filelock import FileLock, Timeout
+
+    folder.mkdir(parents=True, exist_ok=True)
+    folder = folder.resolve()  # one lock of a folder in this process, by whatever path
+    lock = FileLock(folder / LOCK, is_singleton=True, thread_local=False)
+    if lock.is_locked:
+        return lock
+    try:
+        lock.acquire(blocking=False)
+    except Timeout:
+        raise BlockingIOError(f"{str(folder)!r} is in use by {_holder(folder / HOLDER)}") from None
+    since = datetime.now().astimezone().isoformat(sep=" ", timespec="seconds")
+    tables.write_json(folder / HOLDER, {"process": os.getpid(), "host": socket.gethostname(), "since": since})
+    weakref.finalize(lock, _leave, folder / HOLDER)
+    _clean(folder)
+    return lock
+
+
+def _holder(note: Path) -> str:
+    """Return the process that holds a folder in words."""
+    with suppress(OSError, ValueError, KeyError, TypeError):
+        there = json.loads(note.read_text(encoding="utf-8"))
+        return f"process {there['process']} on {there['host']} since {there['since']}"
+    return "another process"
+
+
+def _leave(note: Path) -> None:
+    with suppress(OSError):
+        note.unlink()
+
+
+def _clean(folder: Path) -> None:
+    """Remove old unfinished files in all of a folder."""
+    for path in folder.rglob(f"{tables.UNFINISHED}*"):
+        with suppress(OSError):
+            if time.time() - path.lstat().st_mtime > OLD:
+                path.unlink()

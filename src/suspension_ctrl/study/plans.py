@@ -1,0 +1,99 @@
+"""The plan of a results folder: the settings that its runs depend on, as JSON, compared key by key."""
+
+import hashlib
+import json
+import math
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .. import tables
+
+_MOST = 1_000_000  # bytes of a plan
+_SHOWN = 60  # characters of a value in a message
+
+
+def described(value: object) -> Any:
+    """Return settings as JSON: records by their fields, long arrays by a digest, functions by their name."""
+    if is_dataclass(value) and not isinstance(value, type):
+        inner = {one.name: described(getattr(value, one.name)) for one in fields(value)}
+        return {"type": type(value).__name__, **inner}
+    if isinstance(value, Mapping):
+        return {str(key): described(inner) for key, inner in value.items()}
+    if isinstance(value, np.ndarray) and value.size > 100:
+        return {"shape": list(value.shape), "digest": hashlib.sha256(value.tobytes()).hexdigest()}
+    if isinstance(value, np.ndarray | np.generic):
+        return described(value.tolist())
+    if isinstance(value, list | tuple | range):
+        return [described(inner) for inner in value]
+    if value is None or isinstance(value, bool | int | str) or (isinstance(value, float) and math.isfinite(value)):
+        return value
+    return getattr(value, "__qualname__", None) or re.sub(r" at 0x\w+", "", repr(value))
+
+
+def settle(path: Path, plan: Mapping[str, Any], *, started: bool) -> None:
+    """Write a plan, or compare it with the one in the file; a spoilt file is written anew unless runs `started`.
+
+    Raises
+    ------
+    ValueError
+        If the plans differ, or the file of a folder with runs is spoilt.
+    """
+    wanted = json.loads(json.dumps(described(plan)))
+    try:
+        kept = read(path)
+    except FileNotFoundError:
+        kept = None
+    except ValueError as error:
+        if started:
+            raise ValueError(f"{error}; its runs cannot be told from those of another plan") from None
+        kept = None
+    if kept is None:
+        tables.write_json(path, wanted)
+        return
+    if different := list(_differences(kept, wanted)):
+        (key, there, here), *others = different
+        also = f" (also another {', '.join(key for key, *_ in others)})" if others else ""
+        there, here = _around_difference(repr(there), repr(here))
+        raise ValueError(f"{key} must be {there} as in {str(path)!r} to go on there, got {here}{also}")
+
+
+def read(path: Path) -> dict[str, Any]:
+    """Return the object in a JSON file; ValueError if it is spoilt, or holds what is none or not finite."""
+    if path.exists() and not (path.is_file() and path.stat().st_size <= _MOST):
+        raise ValueError(f"{path}: must be a regular file of up to {_MOST} bytes")
+    try:
+        content = json.loads(path.read_bytes(), parse_constant=_refused)
+    except (ValueError, RecursionError) as error:  # undecodable too
+        raise ValueError(f"{path}: must be JSON, got {type(error).__name__}") from None
+    if not isinstance(content, dict):
+        raise ValueError(f"{path}: must be a JSON object, got {type(content).__name__}")
+    return content
+
+
+def _refused(constant: str) -> None:
+    raise ValueError(f"must be finite, got {constant}")
+
+
+def _differences(there: Any, here: Any, key: str = "") -> Iterator[tuple[str, Any, Any]]:
+    """Yield the path of each key with another value, and both values."""
+    if isinstance(there, list) and isinstance(here, list) and len(there) == len(here):
+        there, here = (dict(enumerate(value)) for value in (there, here))
+    if not (isinstance(there, dict) and isinstance(here, dict)):
+        if there != here:
+            yield key, there, here
+        return
+    for name in here | there:
+        yield from _differences(there.get(name), here.get(name), f"{key}.{name}".lstrip("."))
+
+
+def _around_difference(*texts: str) -> list[str]:
+    """Return long texts cut to where they begin to differ."""
+    same = next((i for i, pair in enumerate(zip(*texts, strict=False)) if len(set(pair)) > 1), 0)
+    start = max(0, same - _SHOWN // 2)
+    cut = [text[start : start + _SHOWN] if len(text) > _SHOWN else text for text in texts]
+    return [f"...{part}..." if part != text else text for part, text in zip(cut, texts, strict=True)]
