@@ -18,9 +18,17 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 
 def compiled(**options: Any) -> Callable[[F], F]:
-    """Compile a function at first use and store the result, without the wrapper for callers in C: nobody is."""
-    options |= {"cache": True, "no_cfunc_wrapper": True}
-    decorator: Callable[[F], F] = njit(**options)
+    """Compile a function at first use and store the result, without the wrapper for callers in C: nobody is.
+
+    In a read-only installation without a home there is no place to store it.
+    """
+
+    def decorator(function: F) -> F:
+        try:
+            return njit(cache=True, no_cfunc_wrapper=True, **options)(function)
+        except RuntimeError:
+            return njit(no_cfunc_wrapper=True, **options)(function)
+
     return decorator
 
 

@@ -14,7 +14,7 @@ from ..search.indicators import ReferenceFront
 from ..search.kinds import box
 from . import lock, machine, reference, timing
 from .comparison import Comparison
-from .store import FolderStore
+from .store import FolderStore, keeping
 from .study import PlannedRun
 
 if TYPE_CHECKING:
@@ -68,7 +68,8 @@ class Campaign:
         """Return the front of a grid, kept in the folder, or of the best timed runs, and its origin in words."""
         problem = self.comparison.problem
         if grid:
-            grid_front = reference.kept(self.folder / "reference.npz", problem, self.tolerance)
+            with keeping(self.folder):
+                grid_front = reference.kept(self.folder / "reference.npz", problem, self.tolerance)
             return grid_front.front, grid_front.describe(len(box(problem)[0]))
         runs = (store[run.name] for run in self.comparison.timed_runs())
         found = [timing.feasible_objectives(problem, run) for run in runs]

@@ -7,6 +7,7 @@ import time
 import weakref
 from contextlib import suppress
 from datetime import datetime
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -71,3 +72,10 @@ def _clean(folder: Path) -> None:
         with suppress(OSError):
             if time.time() - path.lstat().st_mtime > OLD:
                 path.unlink()
+
+
+def set_aside(path: Path) -> None:
+    """Rename what is there to ``*.spoilt``, or ``*.spoilt2`` and so on where that exists."""
+    if path.is_symlink() or path.exists():
+        names = (path.with_name(f"{path.name}.spoilt{number or ''}") for number in count())
+        path.rename(next(name for name in names if not name.exists()))

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from .. import tables
+from . import lock
 
 _MOST = 1_000_000  # bytes of a plan
 _SHOWN = 60  # characters of a value in a message
@@ -46,13 +47,10 @@ def settle(path: Path, plan: Mapping[str, Any], *, started: bool) -> None:
     wanted = json.loads(json.dumps(described(plan)))
     try:
         kept = read(path)
-    except FileNotFoundError:
-        kept = None
     except ValueError as error:
         if started:
-            raise ValueError(f"{error}; its runs cannot be told from those of another plan") from None
-        kept = None
-    if kept is None:
+            raise ValueError(f"{error}; without it its runs cannot be told from those of another plan") from None
+        lock.set_aside(path)
         tables.write_json(path, wanted)
         return
     if different := list(_differences(kept, wanted)):
@@ -63,12 +61,12 @@ def settle(path: Path, plan: Mapping[str, Any], *, started: bool) -> None:
 
 
 def read(path: Path) -> dict[str, Any]:
-    """Return the object in a JSON file; ValueError if it is spoilt, or holds what is none or not finite."""
-    if path.exists() and not (path.is_file() and path.stat().st_size <= _MOST):
+    """Return the object in a JSON file; ValueError if it is absent or spoilt, or holds what is not finite."""
+    if not (path.is_file() and path.stat().st_size <= _MOST):
         raise ValueError(f"{path}: must be a regular file of up to {_MOST} bytes")
     try:
         content = json.loads(path.read_bytes(), parse_constant=_refused)
-    except (ValueError, RecursionError) as error:  # undecodable too
+    except (OSError, ValueError, RecursionError) as error:  # undecodable too
         raise ValueError(f"{path}: must be JSON, got {type(error).__name__}") from None
     if not isinstance(content, dict):
         raise ValueError(f"{path}: must be a JSON object, got {type(content).__name__}")

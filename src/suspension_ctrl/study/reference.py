@@ -15,6 +15,7 @@ from ..search.constraints import feasible_objectives
 from ..search.indicators import ReferenceFront, best_of
 from ..search.kinds import box, coded, decoded
 from ..search.problem import Minimisable
+from . import lock
 from .machine import provenance
 from .store import SpoiltRunWarning
 
@@ -115,6 +116,7 @@ def kept(path: Path, problem: Minimisable, tolerance: float = TOLERANCE) -> Refi
     except Exception as error:  # numpy, zip and memory have many of them
         message = f"{path}: must be a reference front as it was stored ({type(error).__name__}); it is made again"
         warnings.warn(message, SpoiltRunWarning, stacklevel=2)
+        lock.set_aside(path)
         found = None
     if found is not None:
         return found
@@ -127,7 +129,7 @@ def kept(path: Path, problem: Minimisable, tolerance: float = TOLERANCE) -> Refi
 
 def _read(path: Path, wanted: str) -> Refined | None:
     """Return a stored front, None if it is of another key; an error of any kind if it is spoilt."""
-    if path.exists() and not path.is_file():
+    if (path.exists() or path.is_symlink()) and not path.is_file():
         raise ValueError("must be a regular file")
     with path.open("rb") as file, np.load(file) as there:
         if there["key"].item() != wanted:

@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping, MutableMapping
 from contextlib import contextmanager
 from hashlib import sha256
 from io import BytesIO
-from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -127,7 +126,7 @@ class FolderStore(MutableMapping[str, StoredRun]):
             except _SpoiltError as spoilt:
                 warnings.warn(f"{spoilt}; the run is made again", SpoiltRunWarning, stacklevel=3)
                 for part in (*_PARTS, _RECORDS):
-                    _move_aside(self._path(part, name))
+                    lock.set_aside(self._path(part, name))
 
 
 class _SpoiltError(ValueError):
@@ -160,10 +159,3 @@ def _read_part(path: Path, record: Mapping[str, Any]) -> "pd.DataFrame":
     if len(frame) != record["rows"]:
         raise _SpoiltError(path, f"must have {record['rows']} rows, got {len(frame)}")
     return escaping.frame(frame, escaping.from_csv)
-
-
-def _move_aside(path: Path) -> None:
-    """Rename what is there to ``*.spoilt``, or ``*.spoilt2`` and so on where that exists."""
-    if path.is_symlink() or path.exists():
-        names = (path.with_name(f"{path.name}.spoilt{number or ''}") for number in count())
-        path.rename(next(name for name in names if not name.exists()))

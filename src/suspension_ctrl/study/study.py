@@ -1,5 +1,6 @@
 """Quality of algorithms on problems over seeds and budgets, as one tidy table."""
 
+import warnings
 from collections.abc import Iterator, Mapping, MutableMapping, Sequence
 from dataclasses import dataclass, field
 from itertools import chain, product
@@ -26,6 +27,10 @@ POPULATION, ARCHIVE, CUT_ARCHIVE = "population", "archive", "archive of N"
 """Sets judged, of feasible designs: the population, all non-dominated evaluated, and N of those, spread evenly."""
 
 INDICATORS = ("relative_hypervolume", "igd_plus", "epsilon", "spread")
+
+
+class ApproximationWarning(UserWarning):
+    """A problem has so many objectives that hypervolumes are approximated."""
 
 
 def span(numbers: Sequence[int]) -> str:
@@ -117,6 +122,10 @@ class Study(Record):
         """
         missing = {run.name: run for run in self.runs() if run.name not in store}
         problems = dict.fromkeys(run.key["problem"] for run in missing.values())
+        for name in problems:
+            if (m := len(self.problems[name].objectives)) > ReferenceFront.EXACT:
+                text = f"problem {name!r} has {m} objectives: its hypervolumes are approximations by moocore"
+                warnings.warn(text, ApproximationWarning, stacklevel=2)
         references = {name: outcome(self.reference, (name,)) for name in problems}
         work: dict[str, tuple[Any, ...]] = {}
         for run in missing.values():

@@ -1,10 +1,12 @@
 """Processes of this machine or of others, by Dask."""
 
 import ast
+import logging
 import signal
 import sys
 import warnings
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext, suppress
 from multiprocessing import resource_tracker
 from pathlib import Path
@@ -41,29 +43,47 @@ def local_cluster(jobs: int, dashboard: str | None = None) -> AbstractContextMan
 
 @contextmanager
 def _local_cluster(jobs: int, dashboard: str | None) -> Iterator["Client"]:
+    import dask
+
+    with ExitStack() as stack:
+        stack.enter_context(dask.config.set(_SETTINGS))
+        helper = stack.enter_context(ThreadPoolExecutor(1))
+        with _interrupts_blocked():
+            starting = helper.submit(_started, jobs, dashboard)
+        try:
+            made, client = starting.result()
+        except RuntimeError as error:
+            raise ChildProcessError(f"processes must start, got: {error.__cause__ or error}") from error
+        except KeyboardInterrupt:
+            made, client = starting.result()  # never half started
+            _kill(made)
+            made.close()
+            raise
+        stack.enter_context(made)
+        stack.push(lambda kind, *_: _kill(made) if kind else None)
+        yield stack.enter_context(client)
+
+
+def _started(jobs: int, dashboard: str | None) -> tuple[Any, "Client"]:
+    """Start processes and a client of them."""
     with installed("study"):
-        import dask
         from distributed import Client, LocalCluster  # over a second: only where it is used
-        from distributed.utils import LoopRunner
 
     # Dask's server of metrics starts in any case; without an address it listens to the network.
     scheduler = {"dashboard": dashboard is not None, "dashboard_address": dashboard or "127.0.0.1:0"}
     settings: dict[str, Any] = {"n_workers": jobs, "threads_per_worker": 1, "memory_limit": 0, "host": "127.0.0.1"}
     settings |= {"scheduler_kwargs": scheduler, "dashboard_address": None, "worker_dashboard_address": None}
-    runner = LoopRunner()
-    with ExitStack() as stack:
-        stack.enter_context(dask.config.set(_SETTINGS))
-        resource_tracker.ensure_running()  # started later, it lets interrupts through
-        with _interrupts_blocked():
-            runner.start()
-        stack.callback(runner.stop)
-        try:
-            made = LocalCluster(**settings, loop=runner.loop, silence_logs="CRITICAL")
-        except RuntimeError as error:
-            raise ChildProcessError(f"processes must start, got: {error.__cause__ or error}") from error
-        stack.enter_context(made)
-        stack.push(lambda kind, *_: _kill(made) if kind else None)
-        yield stack.enter_context(Client(made, set_as_default=False))
+    _silence()
+    resource_tracker.ensure_running()  # started later, it lets interrupts through
+    made = LocalCluster(**settings, silence_logs="CRITICAL")
+    return made, Client(made, set_as_default=False)
+
+
+def _silence() -> None:
+    """Keep Dask's loggers from telling of lost processes and connections: errors do."""
+    for name in ("distributed", *logging.root.manager.loggerDict):
+        if name.startswith("distributed"):
+            logging.getLogger(name).setLevel(logging.CRITICAL)
 
 
 def _kill(made: Any) -> None:
@@ -122,6 +142,7 @@ def _connected(address: str, timeout: float) -> Iterator["Client"]:
     with installed("study"):
         from distributed import Client
 
+    _silence()
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of versions: they are compared below
