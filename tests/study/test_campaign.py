@@ -101,7 +101,9 @@ def test_ten_times_killed_and_started_again_is_as_if_never_killed(undisturbed, t
         assert not (folder / "table.csv").exists()
     done = len(FolderStore(folder / "store", {"plan": 1}))
     assert 5 <= done < RUNS  # the kills were within the campaign
-    assert finish(folder) == (0, "")
+    status, said = finish(folder)
+    assert status == 0
+    assert all(line.endswith("the run is made again") for line in said.splitlines())
     assert (folder / "table.csv").read_bytes() == (undisturbed / "table.csv").read_bytes()
     names = finished(folder)
     assert len(set(names)) == len(names)
@@ -115,8 +117,9 @@ def test_a_full_disk_ends_it_in_one_line_and_loses_nothing(undisturbed, tmp_path
     folder = tmp_path / "full"
     assert finish(folder) == (0, "")
     (folder / "table.csv").unlink()
-    for path in sorted((folder / "store" / "runs").iterdir())[5:]:
-        path.unlink()
+    for part in ("final", "runs", "records"):
+        for path in sorted((folder / "store" / part).iterdir())[5:]:
+            path.unlink()
     largest = max(path.stat().st_size for path in (folder / "store" / "runs").iterdir())
     (folder / "evaluated").unlink()
 
@@ -127,11 +130,13 @@ def test_a_full_disk_ends_it_in_one_line_and_loses_nothing(undisturbed, tmp_path
     status, error = finish(folder, preexec_fn=limit)
     assert status == 1
     assert error.count("\n") == 1
-    assert error.startswith("error: [Errno 27] File too large")
+    assert error.startswith(f"error: [Errno 27] File too large: '{folder / 'store'}")
+    assert error.endswith(f"; finished runs are kept: start again with '{folder / 'store'}' to go on\n")
     store = FolderStore(folder / "store", {"plan": 1})
     assert len(store) == 5
     assert all(len(store[name].course) for name in store)
-    assert finish(folder) == (0, "")
+    del store  # another process may open it
+    assert finish(folder)[0] == 0
     assert (folder / "table.csv").read_bytes() == (undisturbed / "table.csv").read_bytes()
 
 
@@ -153,7 +158,7 @@ def test_a_folder_that_turns_read_only_ends_it_in_one_line(undisturbed, tmp_path
     assert all(len(pd.read_csv(folder / "elsewhere" / f"{name}.csv")) for name in kept)
     runs.unlink()
     (folder / "elsewhere").rename(runs)
-    assert finish(folder) == (0, "")
+    assert finish(folder)[0] == 0
     assert (folder / "table.csv").read_bytes() == (undisturbed / "table.csv").read_bytes()
     assert len(set(finished(folder))) == len(finished(folder)) == RUNS
 

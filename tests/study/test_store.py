@@ -1,11 +1,15 @@
-"""Runs on disk: whole or not at all, of one plan, and the very numbers that went in."""
+"""Runs on disk: whole or not at all, of one plan and one process, and the very numbers that went in."""
+
+import os
+import subprocess
+import sys
 
 import numpy as np
 import pandas as pd
 import pytest
 
 from suspension_ctrl import tables
-from suspension_ctrl.study.store import FolderStore, StoredRun
+from suspension_ctrl.study.store import FolderStore, NotStoredError, SpoiltRunWarning, StoredRun
 
 RUN = StoredRun(
     pd.DataFrame({"evaluations": [20, 40], "igd_plus": [np.inf, 0.1 + 0.2]}),
@@ -26,29 +30,64 @@ def test_a_folder_belongs_to_one_plan(tmp_path):
         FolderStore(tmp_path, {"seeds": 4, "numpy": "2.4"})
 
 
-def test_what_a_killed_process_left_half_written_is_no_run(tmp_path):
+@pytest.mark.parametrize(
+    ("file", "spoil", "said"),
+    [
+        ("runs/one.csv", lambda path: path.write_bytes(path.read_bytes()[:-4]), "must be as it was stored, got oth"),
+        ("final/one.csv", lambda path: path.unlink(), "must be a regular file"),
+        ("records/one.json", lambda path: path.write_text("[]"), "must hold numbers of rows and digests"),
+        ("records/one.json", lambda path: path.write_text(path.read_text().replace("2", "3", 1)), "must have 3 rows, got 2"),
+    ],
+)
+def test_a_spoilt_run_is_named_and_absent(tmp_path, file, spoil, said):
     store = FolderStore(tmp_path, {})
-    (tmp_path / "runs" / ".half.csv").write_text("a,b\n1")
-    assert list(FolderStore(tmp_path, {})) == list(store) == []
-    assert list((tmp_path / "runs").iterdir()) == []
+    store["one"], store["two"] = RUN, RUN
+    spoil(tmp_path / file)
+    with pytest.warns(SpoiltRunWarning) as caught:
+        again = FolderStore(tmp_path, {})
+    (text,) = (str(warning.message) for warning in caught)
+    assert "one." in text
+    assert said in text
+    assert text.endswith("; the run is made again")
+    assert list(again) == ["two"]
+    again["one"] = RUN
+    assert list(FolderStore(tmp_path, {})) == ["one", "two"]  # without a further warning
+    assert (tmp_path / "records" / "one.json.spoilt").exists()
 
 
-def test_a_run_of_which_only_half_could_be_written_is_no_run(tmp_path, monkeypatch):
+def test_a_run_of_which_only_half_is_there_is_named(tmp_path):
+    FolderStore(tmp_path, {})["one"] = RUN
+    (tmp_path / "records" / "one.json").unlink()
+    with pytest.warns(SpoiltRunWarning, match=r"one.csv: only half of the run is there; the run is made again$"):
+        assert list(FolderStore(tmp_path, {})) == []
+
+
+def test_a_run_spoilt_while_the_folder_is_open_is_an_error_when_it_is_read(tmp_path):
     store = FolderStore(tmp_path, {})
+    store["one"] = RUN
+    (tmp_path / "runs" / "one.csv").write_text("evaluations\n1\n")
+    with pytest.raises(ValueError, match=r"one.csv: must be as it was stored, got other 14 bytes$"):
+        store["one"]
+
+
+def test_what_cannot_be_written_is_named_and_what_was_finished_is_kept(tmp_path, monkeypatch):
+    store = FolderStore(tmp_path, {})
+    store["one"] = RUN
     written = []
 
-    def once(path, frame):
+    def once(path, content):
         if written:
-            raise OSError(28, "No space left on device")
+            raise OSError(28, "No space left on device", str(path))
         written.append(path)
-        frame.to_csv(path, index=False)
+        path.write_bytes(content)
 
     with monkeypatch.context() as patch:
-        patch.setattr(tables, "write_csv", once)
-        with pytest.raises(OSError, match="No space left on device"):
-            store["one"] = RUN
+        patch.setattr(tables, "write_bytes", once)
+        with pytest.raises(NotStoredError, match=r"^\[Errno 28\] .*two.csv'; finished runs are kept: start again wi"):
+            store["two"] = RUN
     assert len(written) == 1
-    assert list(FolderStore(tmp_path, {})) == []
+    with pytest.warns(SpoiltRunWarning, match="only half of the run"):
+        assert list(FolderStore(tmp_path, {})) == ["one"]
 
 
 def test_a_store_forgets_what_is_deleted(tmp_path):
@@ -59,3 +98,14 @@ def test_a_store_forgets_what_is_deleted(tmp_path):
     assert "one" not in store
     with pytest.raises(KeyError):
         store["one"]
+
+
+def test_another_process_is_refused_until_the_store_is_gone(tmp_path):
+    program = f"from pathlib import Path; from {FolderStore.__module__} import *; FolderStore(Path('.'), {{}})"
+    command = [sys.executable, "-c", program]
+    store = FolderStore(tmp_path, {})
+    assert list(FolderStore(tmp_path / ".." / tmp_path.name, {})) == []  # by another path, in this process
+    refused = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert f"is in use by process {os.getpid()} on " in refused.stderr.splitlines()[-1]
+    del store
+    assert subprocess.run(command, cwd=tmp_path, capture_output=True, text=True).returncode == 0

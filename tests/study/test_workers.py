@@ -19,6 +19,7 @@ import pytest
 from functions import dtlz2, slow, srn
 from suspension_ctrl import Nsga2, Problem, minimise
 from suspension_ctrl.search.sampling import Sampling
+from suspension_ctrl.study import calls
 from suspension_ctrl.study import workers as clusters
 from suspension_ctrl.study.study import Study
 
@@ -121,7 +122,7 @@ def test_tls_is_set_up_by_dasks_own_configuration(tmp_path):
             dask.config.set({f"distributed.comm.tls.{name}": str(path) for name, path in files.items()}),
             clusters.scheduler_at(address) as client,
         ):
-            assert [*clusters.outcomes(divmod, {"a": (7, 2)}, client)] == [("a", (3, 1), "")]
+            assert [*calls.outcomes(divmod, {"a": (7, 2)}, client)] == [("a", (3, 1), "")]
         with (
             pytest.raises(ValueError, match=r"^scheduler must be one that answers, got 'tls://"),
             clusters.scheduler_at(address, timeout=1.0),
@@ -173,18 +174,6 @@ def test_an_evaluation_spread_over_workers_gives_the_same_run(cluster):
         clusters.distributed(dtlz2(5), cluster, chunk=0)
 
 
-def test_what_raises_on_a_worker_is_told_in_one_line(cluster):
-    found = {
-        name: (result, error)
-        for name, result, error in clusters.outcomes(ratio, {"a": (1, 2), "b": (1, 0)}, cluster)
-    }
-    assert found == {"a": (0.5, ""), "b": (None, "ZeroDivisionError: division by zero")}
-
-
-def ratio(a: float, b: float) -> float:
-    return a / b
-
-
 @pytest.mark.parametrize(
     ("address", "message"),
     [
@@ -201,3 +190,56 @@ def test_rejects_addresses_where_no_scheduler_is(address, message):
 def test_rejects_bad_numbers_of_jobs():
     with pytest.raises(ValueError, match=r"^jobs must be a whole number >= 1, got 0$"), clusters.local_cluster(0):
         pass
+
+
+@pytest.mark.parametrize(
+    ("body", "status", "said"),
+    [
+        ("with local_cluster(1) as client:\n    print(client.submit(abs, -1).result())", 1, "error: processes must be"),
+        (
+            "if __name__ == '__main__':\n    with local_cluster(1) as client:\n"
+            "        print(client.submit(abs, -1).result())",
+            0, "",
+        ),
+    ],
+)  # fmt: skip
+def test_a_script_without_a_main_guard_is_told_in_one_line(tmp_path, body, status, said):
+    script = tmp_path / "script.py"
+    script.write_text(f"from suspension_ctrl.study.workers import local_cluster\n{body}\n")
+    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True)
+    assert done.returncode == status
+    assert done.stderr.count("\n") == bool(said)
+    assert done.stderr.startswith(said)
+    assert "script.py" in done.stderr or not said
+    assert done.stdout == ("" if said else "1\n")
+
+
+def test_processes_that_die_at_their_start_are_told_in_one_line(tmp_path):
+    program = (
+        "from suspension_ctrl.study.workers import local_cluster\n"
+        "try:\n    local_cluster(2).__enter__()\nexcept OSError as error:\n    print(error)"
+    )
+    environment = os.environ | {"DASK_DISTRIBUTED__WORKER__PRELOAD": "import os; os._exit(3)"}
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, env=environment)
+    assert done.stdout.startswith("processes must start, got: ")
+    assert done.stdout.count("\n") == 1
+    assert done.stderr == ""
+
+
+def test_a_worker_of_another_version_is_refused(tmp_path, monkeypatch):
+    """A folder of a package's metadata, ahead on the path of the worker alone, makes it scipy 0.1."""
+    other = tmp_path / "scipy-0.1.dist-info"
+    other.mkdir()
+    (other / "METADATA").write_text("Metadata-Version: 2.1\nName: scipy\nVersion: 0.1\n")
+    file = tmp_path / "scheduler.json"
+    command = ("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
+    with running(tmp_path, *command, "--scheduler-file", str(file)):
+        address = address_in(file)
+        monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")]))
+        worker = ("distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard")
+        with (
+            running(tmp_path, *worker),
+            pytest.raises(ValueError, match=r"^scheduler must have workers with scipy \S+ as here, got 0.1 at tcp:"),
+            clusters.scheduler_at(address, timeout=30.0),
+        ):
+            pass
