@@ -71,7 +71,7 @@ def start(folder: Path, *options: object, **settings: Any) -> subprocess.Popen[s
     paths = [str(BENCHMARKS), str(BENCHMARKS.parent / "src")]
     environment = os.environ | {"PYTHONPATH": os.pathsep.join([*paths, os.environ.get("PYTHONPATH", "")])}
     command = [sys.executable, "-m", "soak.campaign", str(folder), *map(str, options)]
-    pipes = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE, "text": True}
+    pipes: dict[str, Any] = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE, "text": True}
     return subprocess.Popen(command, **pipes, env=environment, start_new_session=True, **settings)
 
 

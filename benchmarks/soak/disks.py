@@ -40,7 +40,9 @@ def two_writers(folder: Path, writes: int) -> Counts:
     both = [
         subprocess.Popen([*command, name, str(writes // 2)], stdout=subprocess.PIPE, text=True) for name in "ab"
     ]
-    refused, failed = zip(*(map(int, process.communicate(timeout=600)[0].split()) for process in both), strict=True)
+    refused, failed = zip(
+        *(map(int, process.communicate(timeout=600)[0].split()) for process in both), strict=True
+    )
     stored = len(list((folder / "shared" / "records").glob("*.json")))
     counts.judge("writes", lost=writes // 2 * 2 - stored, differing=sum(failed), unnamed=not any(refused))
     return counts

@@ -51,7 +51,9 @@ def _kill(counts: Counts, place: Path, event: int = 0, after: float | None = Non
     lost = sum(path not in stored for path in before)
     repeated = sum(path in stored and stored[path] != moment for path, moment in before.items())
     said = [text for text in error.splitlines() if not text.startswith("warning: ")]
-    counts.judge(f"{place.name} event {event} after {after}: {error!r}", lost=lost, repeated=repeated, unnamed=bool(said))
+    counts.judge(
+        f"{place.name} event {event} after {after}: {error!r}", lost=lost, repeated=repeated, unnamed=bool(said)
+    )
 
 
 def _end(counts: Counts, place: Path, wanted: bytes) -> None:
@@ -86,7 +88,9 @@ def signalled(folder: Path, count: int, seed: int = 0, longest: float = 15.0) ->
             _, error = process.communicate(timeout=120)
         said = (process.returncode, error) in ((128 + kind, words[kind]), (0, ""), (-kind, ""))  # before Python
         left = len(session(process.pid)) + len(campaign.left_over(place))
-        counts.judge(f"{kind.name} after {after:.2f} s: {process.returncode} {error!r}", unnamed=not said, left=left)
+        counts.judge(
+            f"{kind.name} after {after:.2f} s: {process.returncode} {error!r}", unnamed=not said, left=left
+        )
         shutil.rmtree(place)
     return counts
 

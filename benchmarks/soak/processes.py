@@ -7,9 +7,10 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -31,7 +32,7 @@ def deadly_runs(runs: int = 4) -> Counts:
     """Make as many runs that kill their process as others, on two workers: those have their results."""
     counts = Counts(f"{runs} runs that kill their process among {2 * runs}")
     front = ReferenceFront.of(campaign.line(np.column_stack([np.linspace(0, 1, 50), np.zeros(50)])))
-    box = {"lower": (0, 0), "upper": (1, 1), "objectives": ("f1", "f2")}
+    box: dict[str, Any] = {"lower": (0, 0), "upper": (1, 1), "objectives": ("f1", "f2")}
     problems = {
         "deadly": Problem(evaluate=deadly, **box),
         "good": Problem(evaluate=campaign.line, **box),
@@ -49,7 +50,7 @@ def deadly_runs(runs: int = 4) -> Counts:
     return counts
 
 
-def _unpicklable() -> object:
+def _unpicklable() -> Callable[[Real], Real]:
     lock = threading.Lock()
     return lambda designs: campaign.line(designs) if lock else designs
 
@@ -73,7 +74,9 @@ def workers_killed(folder: Path, count: int) -> Counts:
         if at_start:
             campaign.finish(place, "--jobs", 2)
         differs = campaign.table_of(place) != wanted
-        counts.judge(f"{status} {error!r}", differing=differs, unnamed=not (at_start or (status, error) == (0, "")))
+        counts.judge(
+            f"{status} {error!r}", differing=differs, unnamed=not (at_start or (status, error) == (0, ""))
+        )
     return counts
 
 
@@ -128,7 +131,9 @@ def schedulers(folder: Path, count: int) -> Counts:
     (other / "METADATA").write_text("Metadata-Version: 2.1\nName: scipy\nVersion: 0.1\n", encoding="utf-8")
     with scheduler(place, path=other.parent) as (_, address):
         status, error = campaign.finish(place, "--scheduler", address)
-    counts.judge(f"version: {error!r}", unnamed=not _refused(status, error, "scheduler must have workers with scipy"))
+    counts.judge(
+        f"version: {error!r}", unnamed=not _refused(status, error, "scheduler must have workers with scipy")
+    )
     return counts
 
 
@@ -141,9 +146,14 @@ def scheduler(folder: Path, path: Path | None = None) -> "Iterator[tuple[subproc
     """Run a scheduler and a worker of it, which finds further packages in a folder; yield it and its address."""
     file, paths = folder / "scheduler.json", [str(campaign.BENCHMARKS), os.environ.get("PYTHONPATH", "")]
     environment = os.environ | {"PYTHONPATH": os.pathsep.join([*([str(path)] if path else []), *paths])}
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "cwd": folder, "env": environment}
+    quiet: dict[str, Any] = {
+        "stdout": subprocess.DEVNULL,
+        "stderr": subprocess.DEVNULL,
+        "cwd": folder,
+        "env": environment,
+    }
     command = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"]
-    with subprocess.Popen([*command, "--no-dashboard", "--scheduler-file", file], **quiet) as process:
+    with subprocess.Popen([*command, "--no-dashboard", "--scheduler-file", str(file)], **quiet) as process:
         try:
             while True:
                 with suppress(FileNotFoundError, json.JSONDecodeError):

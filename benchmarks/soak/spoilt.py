@@ -76,7 +76,9 @@ TABLE: dict[str, Spoil] = {
     "absent": Path.unlink,
     "a row cut": _bytes(lambda content: content[: content[:-1].rindex(b"\n") + 1]),
     "a row doubled": _bytes(lambda content: content + content[content[:-1].rindex(b"\n") + 1 :]),
-    "a number changed": _bytes(lambda content: content[:-2] + (b"1" if content[-2:-1] != b"1" else b"2") + content[-1:]),
+    "a number changed": _bytes(
+        lambda content: content[:-2] + (b"1" if content[-2:-1] != b"1" else b"2") + content[-1:]
+    ),
     "another column": _bytes(lambda content: b"x" + content),
     "other line ends": _bytes(lambda content: content.replace(b"\n", b"\r\n")),
     "of another run": _swapped,

@@ -23,11 +23,13 @@ def compiled(**options: Any) -> Callable[[F], F]:
     In a read-only installation without a home there is no place to store it.
     """
 
+    options |= {"no_cfunc_wrapper": True}
+
     def decorator(function: F) -> F:
         try:
-            return njit(cache=True, no_cfunc_wrapper=True, **options)(function)
+            return njit(**options, cache=True)(function)
         except RuntimeError:
-            return njit(no_cfunc_wrapper=True, **options)(function)
+            return njit(**options)(function)
 
     return decorator
 

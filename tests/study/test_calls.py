@@ -37,7 +37,7 @@ def test_what_raises_is_told_in_one_line_here_and_on_a_worker(cluster):
 
 
 def test_the_others_are_made_beside_calls_that_kill_leave_or_cannot_be_pickled(cluster):
-    """A call that kills its workers is given up after three of them; two on one cluster blame each other at most."""
+    """A call that kills its workers is given up after three of them."""
     names = ["deadly", *"abcd", "leaves"]
     work = {name: (name,) for name in names} | {"local": ("local", threading.Lock())}
     before = set(cluster.run(os.getpid).values())

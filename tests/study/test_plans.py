@@ -32,7 +32,9 @@ def test_settings_of_any_kind_are_described_alike_in_every_process():
         return x
 
     problem = Problem(evaluate=evaluate, lower=(0, 0), upper=(1, 1), objectives=("a", "b"))
-    found = plans.described({"p": problem, "long": np.arange(200.0), "short": np.arange(2), "inf": np.inf, "o": object()})
+    found = plans.described(
+        {"p": problem, "long": np.arange(200.0), "short": np.arange(2), "inf": np.inf, "o": object()}
+    )
     assert found["p"]["evaluate"] == evaluate.__qualname__
     assert found["p"]["upper"] == [1.0, 1.0]
     assert found["long"]["shape"] == [200]

@@ -33,10 +33,18 @@ def test_a_folder_belongs_to_one_plan(tmp_path):
 @pytest.mark.parametrize(
     ("file", "spoil", "said"),
     [
-        ("runs/one.csv", lambda path: path.write_bytes(path.read_bytes()[:-4]), "must be as it was stored, got oth"),
+        (
+            "runs/one.csv",
+            lambda path: path.write_bytes(path.read_bytes()[:-4]),
+            "must be as it was stored, got oth",
+        ),
         ("final/one.csv", lambda path: path.unlink(), "must be a regular file"),
         ("records/one.json", lambda path: path.write_text("[]"), "must hold numbers of rows and digests"),
-        ("records/one.json", lambda path: path.write_text(path.read_text().replace("2", "3", 1)), "must have 3 rows, got 2"),
+        (
+            "records/one.json",
+            lambda path: path.write_text(path.read_text().replace("2", "3", 1)),
+            "must have 3 rows, got 2",
+        ),
     ],
 )
 def test_a_spoilt_run_is_named_and_absent(tmp_path, file, spoil, said):
@@ -83,7 +91,9 @@ def test_what_cannot_be_written_is_named_and_what_was_finished_is_kept(tmp_path,
 
     with monkeypatch.context() as patch:
         patch.setattr(tables, "write_bytes", once)
-        with pytest.raises(NotStoredError, match=r"^\[Errno 28\] .*two.csv'; finished runs are kept: start again wi"):
+        with pytest.raises(
+            NotStoredError, match=r"^\[Errno 28\] .*two.csv'; finished runs are kept: start again wi"
+        ):
             store["two"] = RUN
     assert len(written) == 1
     with pytest.warns(SpoiltRunWarning, match="only half of the run"):

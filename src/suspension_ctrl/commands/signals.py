@@ -18,7 +18,7 @@ def end_at_once() -> None:
 
 
 def end_in_order() -> None:
-    """Let the first signal raise KeyboardInterrupt, so that contexts close what they opened, a second one end it."""
+    """Let the first signal raise KeyboardInterrupt: contexts close what they opened; let a second one end it."""
     _received.clear()
     _handle(_interrupt)
     sys.unraisablehook = _unraisable

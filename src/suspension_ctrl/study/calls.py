@@ -18,7 +18,7 @@ KILLS = 3
 """Deaths of its worker after which a call is given up, the last of them with no other call on the cluster."""
 
 PATIENCE = 120.0
-"""Time [s] that a cluster may be without a worker: a dead one is replaced in seconds, on a busy machine in more."""
+"""Time [s] that a cluster may be without a worker: on a busy machine it takes long to replace a dead one."""
 
 _PAUSE = 0.005  # between two looks at the calls [s]
 

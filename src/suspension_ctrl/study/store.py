@@ -50,7 +50,9 @@ def keeping(folder: Path) -> Iterator[None]:
     except (NotStoredError, BlockingIOError):
         raise
     except OSError as error:
-        raise NotStoredError(f"{error}; finished runs are kept: start again with {str(folder)!r} to go on") from error
+        raise NotStoredError(
+            f"{error}; finished runs are kept: start again with {str(folder)!r} to go on"
+        ) from error
 
 
 class FolderStore(MutableMapping[str, StoredRun]):

@@ -16,9 +16,9 @@ from ..search.indicators import ReferenceFront, best_of, evenly_spread
 from ..search.problem import Minimisable
 from ..search.trace import Trace, trace
 from ..tables import file_name
+from .calls import outcome, outcomes
 from .reference import best_known
 from .store import VIOLATION, StoredRun
-from .calls import outcome, outcomes
 
 if TYPE_CHECKING:
     from distributed import Client

@@ -37,7 +37,7 @@ def local_cluster(jobs: int, dashboard: str | None = None) -> AbstractContextMan
     """
     checks.at_least("jobs", jobs, 1)
     if line := _unguarded_line():
-        sys.exit(f"error: processes must be started under: if __name__ == \"__main__\": got {line} outside of it")
+        sys.exit(f'error: processes must be started under: if __name__ == "__main__": got {line} outside of it')
     return _local_cluster(jobs, dashboard)
 
 
@@ -160,13 +160,15 @@ def _connected(address: str, timeout: float) -> Iterator["Client"]:
 
 def _check_versions(client: "Client") -> None:
     """Raise ValueError where a worker has other versions than this process of what determines a result."""
-    found = client.get_versions(packages=PACKAGES)
+    found: Any = client.get_versions(packages=PACKAGES)
     here = found["client"]["packages"]
     for address, there in found["workers"].items():
         for name in ("python", *PACKAGES):
             wanted, got = here[name], there["packages"].get(name)
             if got != wanted:
-                raise ValueError(f"scheduler must have workers with {name} {wanted} as here, got {got} at {address}")
+                raise ValueError(
+                    f"scheduler must have workers with {name} {wanted} as here, got {got} at {address}"
+                )
 
 
 def cluster(jobs: int | None = None, scheduler: str | None = None) -> AbstractContextManager["Client | None"]:
