@@ -22,7 +22,6 @@ def compiled(**options: Any) -> Callable[[F], F]:
 
     In a read-only installation without a home there is no place to store it.
     """
-
     options |= {"no_cfunc_wrapper": True}
 
     def decorator(function: F) -> F:

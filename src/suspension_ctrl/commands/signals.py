@@ -57,9 +57,16 @@ def _interrupt(number: int, frame: FrameType | None) -> NoReturn:
     raise KeyboardInterrupt
 
 
+def _send(number: int) -> None:
+    if hasattr(signal, "pthread_kill"):  # to the main thread, which may sleep
+        signal.pthread_kill(threading.main_thread().ident or 0, number)
+    else:
+        signal.raise_signal(number)
+
+
 def _unraisable(found: Any) -> None:
     """Send a signal again that came where Python cannot raise, as in a callback of a library."""
     if isinstance(found.exc_value, KeyboardInterrupt) and _received:
-        threading.Timer(0.1, signal.raise_signal, (_received.pop(),)).start()
+        threading.Timer(0.1, _send, (_received.pop(),)).start()
     else:
         sys.__unraisablehook__(found)

@@ -1,6 +1,7 @@
 """Processes of this machine or of others, by Dask."""
 
 import ast
+import inspect
 import logging
 import signal
 import sys
@@ -111,7 +112,7 @@ def _interrupts_blocked() -> Iterator[None]:
 
 def _unguarded_line() -> str:
     """Return file and line of a script that runs now outside of a main guard, ``""`` if there is none."""
-    frame: Any = sys._getframe()
+    frame: Any = inspect.currentframe()
     while frame and not (frame.f_code.co_name == "<module>" and frame.f_globals.get("__name__") == "__main__"):
         frame = frame.f_back
     path = frame and frame.f_globals.get("__file__")
