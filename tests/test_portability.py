@@ -69,7 +69,7 @@ def opened(call: ast.Call) -> bool:
     """Whether a call opens a text file; functions of `tables` that are called alike do so themselves."""
     match call.func:
         case ast.Attribute(attr="open" | "read_text" | "write_text", value=value):
-            ours = isinstance(value, ast.Name) and value.id in ("files", "tables", "results")
+            ours = isinstance(value, ast.Name) and value.id in ("files", "tables", "results", "os")
         case ast.Name(id="open"):
             ours = False
         case _:

@@ -32,7 +32,7 @@ def _replaced(put: Spoil) -> Spoil:
 
 
 def _json(change: Callable[[dict[str, Any]], Any]) -> Spoil:
-    return lambda path: path.write_text(json.dumps(change(json.loads(path.read_text(encoding="utf-8")))))
+    return lambda path: path.write_bytes(json.dumps(change(json.loads(path.read_bytes()))).encode())
 
 
 def _front(**arrays: Any) -> Spoil:

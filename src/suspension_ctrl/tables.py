@@ -77,8 +77,8 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> None:
 
 def sync_folder(folder: Path) -> None:
     """Put the names of a folder on the disk, where the system does so by request."""
-    if hasattr(os, "O_DIRECTORY"):  # not Windows
-        number = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    if os.name == "posix":
+        number = os.open(folder, os.O_RDONLY)
         try:
             with suppress(OSError):  # some network file systems refuse it
                 os.fsync(number)

@@ -39,7 +39,7 @@ def test_compare_on_another_vehicle(called, tmp_path):
     done = called("compare", "--vehicle", "jian_2022_full", "--road", "C", "--speed", 20, *TINY, "--out", "out")
     assert done.returncode == 0, done.stderr
     out = tmp_path / "out"
-    assert {path.name for path in out.iterdir()} == TABLES | PICTURES | {
+    assert {path.name for path in out.glob("[!.]*")} == TABLES | PICTURES | {
         "runs.csv", "environment.json", "fronts", "timed",
     }  # fmt: skip
     assert_nothing_published(out)
@@ -87,7 +87,7 @@ def test_compare_on_a_study_goes_on_and_judges_quality(called, checkout, tmp_pat
     assert again.returncode == 0, again.stderr
     assert {path: path.stat().st_mtime_ns for path in (out / "timed" / "runs").iterdir()} == before
     assert {f"{kind}_n{n}.png" for kind in ("anytime", "boxes", "attainment") for n in (20, 25)} <= {
-        path.name for path in out.iterdir()
+        path.name for path in out.glob("[!.]*")
     }
     runs = pd.read_csv(out / "runs.csv")
     assert len(runs[~runs.timing]) == 2 * 2 * 2
@@ -96,7 +96,7 @@ def test_compare_on_a_study_goes_on_and_judges_quality(called, checkout, tmp_pat
     other = study(tmp_path, 'measures = ["ACC", "SWS", "DTL"]\n')
     refused = called("compare", "--problem", other, *TINY, "--out", "out")
     assert refused.returncode == 2
-    assert refused.stderr.startswith("error: problem must be '")
+    assert refused.stderr.startswith("error: problem.cases must be ")
     assert refused.stderr.count("\n") == 1
 
 

@@ -38,7 +38,7 @@ def clock() -> pd.DataFrame:
 
 
 def reported(one: Comparison, folder, monkeypatch) -> pd.DataFrame:
-    monkeypatch.setattr(references, "key", lambda problem, tolerance: "")  # it evaluates the problem
+    monkeypatch.setattr(references, "fingerprint", lambda problem: "")  # it evaluates the problem
     campaign = Campaign(one, folder)
     front = ReferenceFront.of(grid_front(paper.ride_problem(), 40))
     table, store = campaign.judge(front)

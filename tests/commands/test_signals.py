@@ -91,15 +91,15 @@ def test_a_signal_during_imports_is_one_line(tmp_path):
 
 
 def test_signals_that_a_process_ignores_stay_ignored(tmp_path):
-    """As nohup has it for SIGHUP, and a shell for Ctrl-C of what runs in its background."""
-    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    """As a shell has it for Ctrl-C of what runs in its background."""
     handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         signals.end_at_once()
-        assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+        assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
         assert signal.getsignal(signal.SIGTERM) is not handlers[signal.SIGTERM]
     finally:
-        for number, handler in {**handlers, signal.SIGHUP: before}.items():
+        for number, handler in handlers.items():
             signal.signal(number, handler)
 
 

@@ -49,8 +49,8 @@ def compare(
         raise ValueError(f"jobs and scheduler must stand with quality, got {scheduler or jobs!r} without it")
     defaults = QUICK if quick else FULL
     options = context.params | {name: defaults[name] if v is None else v for name, v in given.items()}
+    where = cluster(jobs, scheduler) if quality else None
     if scheduler:  # refused before the timed runs, not after them
         with cluster(scheduler=scheduler):
             pass
-    where = cluster(jobs, scheduler) if quality else None
     comparing.carry_out(comparing.Request.of(options), where)

@@ -7,7 +7,7 @@ import threading
 from types import FrameType
 from typing import Any, NoReturn
 
-_WORDS = {"SIGINT": "interrupted", "SIGTERM": "terminated", "SIGHUP": "terminated"}
+_WORDS = {signal.SIGINT: "interrupted", signal.SIGTERM: "terminated"}
 
 _received: list[int] = []
 
@@ -32,15 +32,14 @@ def ended() -> tuple[str, int] | None:
 
 
 def _ending(number: int) -> tuple[str, int]:
-    return _WORDS[signal.Signals(number).name], 128 + number
+    return _WORDS[signal.Signals(number)], 128 + number
 
 
 def _handle(handler: Any) -> None:
     if threading.current_thread() is not threading.main_thread():  # Python lets no other set handlers
         return
-    for name in _WORDS:
-        number = getattr(signal, name, None)  # Windows has no SIGHUP
-        if number is not None and signal.getsignal(number) is not signal.SIG_IGN:  # nohup, a background job
+    for number in _WORDS:
+        if signal.getsignal(number) is not signal.SIG_IGN:  # as a shell has it for a background job
             signal.signal(number, handler)
 
 

@@ -55,7 +55,8 @@ def settle(path: Path, plan: Mapping[str, Any], *, started: bool) -> None:
         return
     if different := list(_differences(kept, wanted)):
         (key, there, here), *others = different
-        also = f" (also another {', '.join(key for key, *_ in others)})" if others else ""
+        more = [key for key, *_ in others[:4]] + ([f"{len(others) - 4} more"] if len(others) > 4 else [])
+        also = f" (also another {', '.join(more)})" if others else ""
         there, here = _around_difference(repr(there), repr(here))
         raise ValueError(f"{key} must be {there} as in {str(path)!r} to go on there, got {here}{also}")
 
