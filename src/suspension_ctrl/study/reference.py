@@ -145,7 +145,7 @@ def _read(path: Path, wanted: str) -> Refined | None:
 
 
 def key(problem: Minimisable, tolerance: float) -> str:
-    """Return a digest of all that the front depends on: versions, bounds, kinds, tolerance, values of 64 designs."""
+    """Return a digest of all that the front depends on: versions, bounds, kinds, tolerance, 64 designs."""
     lower, upper = box(coded(problem))
     settings = {
         "versions": provenance(),
@@ -163,4 +163,6 @@ def fingerprint(problem: Minimisable) -> str:
     """Return a digest of the values of 64 designs: a parameter or a line of code that changes them changes it."""
     rng, searched = np.random.default_rng(0), coded(problem)
     lower, upper = box(searched)
-    return _digest(problem.evaluate(decoded(searched, lower + (upper - lower) * rng.random((64, lower.size)))).tobytes())
+    return _digest(
+        problem.evaluate(decoded(searched, lower + (upper - lower) * rng.random((64, lower.size)))).tobytes()
+    )
