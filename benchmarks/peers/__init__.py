@@ -68,13 +68,13 @@ class Task:
 
     @property
     def neighbours(self) -> int:
-        """Size of a MOEA/D neighbourhood, a tenth of the population."""
-        return max(2, self.population // 10)
+        """Size of a MOEA/D neighbourhood, a tenth of the population but 20 at least."""
+        return min(self.population, max(20, self.population // 10))
 
     @property
     def replacements(self) -> int:
-        """Most subproblems that a child may replace, a hundredth of the population."""
-        return max(1, self.population // 100)
+        """Most subproblems that a child may replace, a hundredth of the population but 2 at least."""
+        return max(2, self.population // 100)
 
     @property
     def weights(self) -> NDArray[np.float64]:

@@ -98,4 +98,5 @@ def test_task_says_what_the_papers_say(problem):
     assert (task.evaluations, task.neighbours, task.replacements) == (21_000, 100, 10)
     assert task.mutation_probability == 0.5
     assert task.weights.shape == (1000, 3)
-    assert replace(task, population=20).replacements == 1
+    small = replace(task, population=20)
+    assert (small.neighbours, small.replacements) == (20, 2)
