@@ -163,13 +163,12 @@ def designs(values: ArrayLike, variables: int) -> NDArray[np.float64]:
 
 def rows_within(name: str, rows: NDArray[np.float64], lower: ArrayLike, upper: ArrayLike) -> None:
     """Raise ValueError unless every row (n, d) lies between `lower` and `upper` (d,), but for rounding."""
-    low, high = np.asarray(lower, dtype=float), np.asarray(upper, dtype=float)
-    least, most = low - _SLACK * (high - low), high + _SLACK * (high - low)
-    columns = rows.T.copy()  # (d, n): numpy is slow along short rows
-    if not ((columns.min(axis=1, initial=np.inf) >= least) & (columns.max(axis=1, initial=-np.inf) <= most)).all():
-        inside = ((rows >= least) & (rows <= most)).all(axis=1)
-        got = rows[inside.argmin()].tolist()
-        raise ValueError(f"{name} must lie within {low.tolist()} and {high.tolist()}, got {got}")
+    low, high = (np.asarray(bound, dtype=float)[:, np.newaxis] for bound in (lower, upper))
+    columns, slack = rows.T.copy(), _SLACK * (high - low)  # (d, n): numpy is slow along short rows
+    inside = (columns >= low - slack) & (columns <= high + slack)
+    if not inside.all():
+        got = rows[inside.all(axis=0).argmin()].tolist()
+        raise ValueError(f"{name} must lie within {low.ravel().tolist()} and {high.ravel().tolist()}, got {got}")
 
 
 def _is_real(value: object) -> bool:

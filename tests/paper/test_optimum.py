@@ -136,3 +136,21 @@ def test_a_limit_that_nothing_meets():
         ValueError, match=r"^sws_limit must be a travel that a design within the bounds has, got 0.001"
     ):
         optimum.least_within_limit(paper.ride_problem(), 0.001, "ACC", np.array([[20e3, 3000.0]]))
+
+
+def test_a_problem_with_kinds_has_no_slopes_to_descend():
+    problem = paper.ride_problem(kinds={"spring": (10e3, 12e3)})
+    with pytest.raises(ValueError, match=r"^kinds must be none where a search descends, got \{'spring': "):
+        optimum.least_within_limit(problem, 0.0287, "ACC", STARTS)
+
+
+def test_a_held_spring_stays_where_it_is():
+    """The damper of least ACC beside it, by a fine grid of dampers."""
+    held = paper.ride_problem(lower=(12e3, 1e3), upper=(12e3, 5e3))
+    starts = np.array([[12e3, 1.5e3], [12e3, 3e3]])
+    spring, damper = optimum.least_within_limit(held, 0.0287, "ACC", starts)
+    designs = np.column_stack([np.full(40_001, 12e3), np.linspace(1e3, 5e3, 40_001)])
+    acc, sws, _ = held.evaluate(designs).T
+    best = designs[np.where(sws <= 0.0287, acc, np.inf).argmin()]
+    assert spring == 12e3
+    assert damper == pytest.approx(best[1], abs=0.2)  # two steps of the grid

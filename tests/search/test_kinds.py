@@ -6,6 +6,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from deap import tools
 from hypothesis import given
 from hypothesis import strategies as st
 from numba import njit
@@ -135,6 +136,38 @@ def test_a_known_design_is_not_evaluated_again(optimiser):
     assert run.evaluations > 900
     assert run.repeats > 900 - 41 * 3
     np.testing.assert_array_equal(run.objectives, Seen()(run.designs))
+
+
+def test_a_toolbox_made_before_gives_the_same_run():
+    """Its verb `evaluate` is the problem's own: the kernel is taken, which `evaluate` would betray."""
+    told = []
+    problem = Problem(
+        **MIXED | {"evaluate": lambda x: [told.append(len(x)), evaluate_all(x)][1]}, kernel=(of_all, ())
+    )
+    optimiser = MoeadDra(population=20)
+    runs = [
+        minimise(problem, optimiser, iterations=3, seed=1, toolbox=toolbox)
+        for toolbox in (None, optimiser.toolbox(problem))
+    ]
+    assert set(told) <= {20, 3}  # the start, and a comparison with the kernel if any
+    np.testing.assert_array_equal(runs[0].designs, runs[1].designs)
+
+
+def test_a_verb_of_the_user_evaluates_designs():
+    optimiser, problem = Nsga2(population=20), Problem(**MIXED)
+    toolbox = optimiser.toolbox(problem)
+    toolbox.register("evaluate", lambda x: 2 * evaluate_all(x))
+    run = minimise(problem, optimiser, iterations=3, seed=1, toolbox=toolbox)
+    np.testing.assert_array_equal(run.objectives, 2 * evaluate_all(run.designs))
+
+
+def test_operators_of_deap_vary_codes():
+    optimiser, problem = Nsga2(population=20), Problem(**MIXED)
+    toolbox = optimiser.toolbox(problem)
+    toolbox.register("mutate", tools.mutGaussian, mu=0.0, sigma=1e4, indpb=0.5)
+    run = minimise(problem, optimiser, iterations=3, seed=1, toolbox=toolbox)
+    assert set(run.designs[:, 1]) <= set(SPRINGS)
+    assert ((run.designs >= BOUNDS["lower"]) & (run.designs <= BOUNDS["upper"])).all()
 
 
 def test_every_search_evaluates_anew():

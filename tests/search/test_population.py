@@ -22,6 +22,11 @@ def test_front_holds_the_feasible_designs_that_none_dominates():
     pd.testing.assert_frame_equal(population().front(), expected)
 
 
+def test_front_holds_a_design_once():
+    twice = Population(designs=DESIGNS[:2] * 2, objectives=OBJECTIVES[:2] * 2, constraints=np.empty((4, 0)))
+    assert twice.front().to_numpy().tolist() == [[1.0, 2.0, 0.0, 1.0], [3.0, 4.0, 1.0, 0.0]]
+
+
 def test_frame_holds_all_designs_and_violations_where_there_are_constraints():
     frame = population().to_frame()
     assert list(frame) == [*HEADERS, "violation"]

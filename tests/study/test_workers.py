@@ -105,6 +105,31 @@ def test_a_scheduler_gives_the_same_also_when_one_of_its_workers_is_killed(alone
     pd.testing.assert_frame_equal(study().table(store).drop(columns="seconds"), alone)
 
 
+class Here:
+    """A client that works in this process."""
+
+    def map(self, function, parts, pure):
+        return [function(part) for part in parts]
+
+    def gather(self, results):
+        return results
+
+
+def test_a_distributed_problem_has_the_same_kinds():
+    problem = Problem(
+        evaluate=slow,
+        lower=(0,) * 4,
+        upper=(9,) * 4,
+        objectives=("f1", "f2"),
+        kinds={"x1": "integer", "x2": (1, 3)},
+    )
+    made = clusters.distributed(problem, Here(), chunk=3)
+    assert made.kinds == problem.kinds
+    runs = [minimise(one, Nsga2(population=20), iterations=2, seed=1) for one in (made, problem)]
+    np.testing.assert_array_equal(runs[0].designs, runs[1].designs)
+    assert set(runs[0].designs[:, 1]) <= {1.0, 3.0}
+
+
 @pytest.mark.skipif(shutil.which("openssl") is None, reason="openssl makes the certificate")
 def test_tls_is_set_up_by_dasks_own_configuration(tmp_path):
     """With certificates it works as without encryption; without them there is no answer."""

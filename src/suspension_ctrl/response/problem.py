@@ -1,6 +1,6 @@
 """The ride problem: measures of a vehicle over coefficients of its struts, in load cases, within limits."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
@@ -193,7 +193,8 @@ class RideProblem(Record):
 
     def describe(self) -> list[str]:
         """Return limits and load cases in words, a line each."""
-        lines = [f"Limits: {', '.join(self.constraints)}."] if self.constraints else []
+        lines = [f"Variables: {'; '.join(self._variables())}."] if self.kinds else []
+        lines += [f"Limits: {', '.join(self.constraints)}."] if self.constraints else []
         if len(self.cases) > 1:
             how = "their worst" if self.worst_case else "their mean square by shares"
             lines.append(f"Objectives are over {len(self.cases)} load cases, {how}; limits hold in each.")
@@ -201,22 +202,23 @@ class RideProblem(Record):
         return lines + [f"Case {n}, share {case.share:g}: {case.describe()}." for n, case in cases]
 
     def __repr__(self) -> str:
-        units = self.units
         parts = [
-            ", ".join(f"{name} [{units[name]}]" for name in self.objectives),
+            ", ".join(f"{name} [{self.units[name]}]" for name in self.objectives),
             *self.constraints,
-            *(self._shown(name, units[name]) for name in self.variables),
+            *self._variables(),
             *(f"{type(case.vehicle).__name__} at {case.speed:g} m/s" for case in self.cases),
             f"{self.band[0]:g} to {self.band[1]:g} Hz, weighting {self.weighting}, {self.nodes} nodes",
         ]
         return wrapped(f"RideProblem({'; '.join(parts)})")
 
-    def _shown(self, name: str, unit: str) -> str:
-        """Return a variable with its bounds or its catalogue in words."""
-        (low, high), kind = self.bounds[name], self.kinds.get(name, "")
-        if isinstance(kind, str):
-            return f"{name} {low:g} to {high:g} {unit}{kind and f', {kind}'}"
-        return f"{name} {', '.join(f'{value:g}' for value in kind)} {unit}"
+    def _variables(self) -> Iterator[str]:
+        """Yield each variable with its bounds and its kind, or its catalogue, in words."""
+        for name, (low, high) in self.bounds.items():
+            unit, kind = self.units[name], self.kinds.get(name, "")
+            if isinstance(kind, str):
+                yield f"{name} {low:g} to {high:g} {unit}{kind and f', {kind}'}"
+            else:
+                yield f"{name} {', '.join(f'{value:g}' for value in kind)} {unit}"
 
     def _common(self, name: str) -> Any:
         first, *others = (getattr(case, name) for case in self.cases)

@@ -61,10 +61,10 @@ class Population(Record):
         return table.assign(violation=self.violation) if self.constraints.shape[1] else table
 
     def front(self) -> "pd.DataFrame":
-        """Return the rows of the non-dominated feasible designs, without `violation`."""
+        """Return the rows of the non-dominated feasible designs, each once, without `violation`."""
         feasible = np.flatnonzero(self.feasible)
         front = feasible[non_dominated(self.objectives[feasible])]
-        return self.to_frame()[list(self.headers)].iloc[front].reset_index(drop=True)
+        return self.to_frame()[list(self.headers)].iloc[front].drop_duplicates(ignore_index=True)
 
     def _repr_html_(self) -> str:
         return self.to_frame().to_html(max_rows=20)
