@@ -15,7 +15,7 @@ from functions import zdt1
 from suspension_ctrl import Gamultiobj, MoeadDra, Nsga2, Problem, Sampling, minimise
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.indicators import non_dominated
-from suspension_ctrl.search.kinds import Coded, box, coded, decoded
+from suspension_ctrl.search.kinds import Coded, box, coded, decoded, grid_axes
 from suspension_ctrl.search.trace import trace
 
 OPTIMISERS = {
@@ -100,6 +100,22 @@ def test_values_of_a_discrete_variable_are_equally_likely():
         assert np.unique(designs[:, column], return_counts=True)[1].tolist() == [36_000 // count] * count
     logarithms = np.log(designs[:, 3])
     np.testing.assert_allclose(np.diff(logarithms), np.log(1e7) / 36_000, rtol=1e-6)
+
+
+@pytest.mark.parametrize(("points", "counts"), [(50, [50, 4, 9, 50]), (3, [3, 3, 3, 3])])
+def test_a_grid_has_different_values(points, counts):
+    problem = Coded(Problem(**MIXED))
+    axes = grid_axes(problem, points)
+    assert [axis.size for axis in axes] == counts
+    middle = (problem.lower + problem.upper) / 2
+    for v, axis in enumerate(axes):
+        codes = np.tile(middle, (axis.size, 1))
+        codes[:, v] = axis
+        values = problem.decode(codes)[:, v]
+        assert len(set(values)) == axis.size
+        ends = (0.0, 1.0), (18e3, 27.5e3), (-3.0, 5.0), (0.1, 1e6)
+        assert values[[0, -1]] == pytest.approx(ends[v], rel=4e-15)
+    assert [axis.tolist() for axis in grid_axes(zdt1(2), 3)] == [[0.0, 0.5, 1.0]] * 2
 
 
 @every_optimiser

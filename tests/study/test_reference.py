@@ -44,6 +44,7 @@ def test_a_grid_has_the_values_of_discrete_variables_and_none_of_a_held_one():
     found = references.refined(line)
     np.testing.assert_array_equal(np.unique(found.front.objectives, axis=0), [[0, 1.5], [0.25, 1.25], [1, 0.5]])
     assert found.points == 200
+    assert found.describe(line).startswith("the non-dominated designs of a 3 x 4 grid (hypervolume ")
     plain = Line().problem()
     keys = {references.key(problem, 1e-2) for problem in (plain, plain.replace(kinds={"x1": (0, 0.5, 1)}))}
     assert len(keys) == 2

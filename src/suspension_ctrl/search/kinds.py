@@ -155,3 +155,17 @@ def box(problem: "Minimisable") -> tuple[Real, Real]:
 def decoded(problem: "Minimisable", codes: Real) -> Real:
     """Return the designs (n, d) of codes (n, e) of a search on a problem, themselves if it has none."""
     return problem.decode(codes) if isinstance(problem, Coded) else codes
+
+
+def grid_axes(problem: "Minimisable", points: int) -> list[Real]:
+    """Return up to `points` codes of each variable, evenly spread and each of another value."""
+    searched = coded(problem)
+    lower, upper = box(searched)
+    discrete = np.zeros(lower.size, dtype=bool)
+    if isinstance(searched, Coded):
+        form = searched.decoding.form
+        discrete = form[form != HELD] >= WHOLE
+    half = np.where(discrete, 0.5, 0.0)
+    sizes = np.where(discrete, np.minimum(upper - lower, points), points).astype(int)
+    axes = map(np.linspace, lower + half, upper - half, sizes)
+    return [np.rint(axis) if whole else axis for axis, whole in zip(axes, discrete, strict=True)]

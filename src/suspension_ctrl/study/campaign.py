@@ -11,7 +11,6 @@ import pandas as pd
 
 from ..search.constraints import InfeasibleWarning
 from ..search.indicators import ReferenceFront
-from ..search.kinds import box
 from . import lock, machine, reference, timing
 from .comparison import Comparison
 from .store import FolderStore, keeping
@@ -70,7 +69,7 @@ class Campaign:
         if grid:
             with keeping(self.folder):
                 grid_front = reference.kept(self.folder / "reference.npz", problem, self.tolerance)
-            return grid_front.front, grid_front.describe(len(box(problem)[0]))
+            return grid_front.front, grid_front.describe(problem)
         runs = (store[run.name] for run in self.comparison.timed_runs())
         found = [timing.feasible_objectives(problem, run) for run in runs]
         return reference.best_known(found), "the non-dominated designs of all these runs"

@@ -4,6 +4,7 @@ import hashlib
 import json
 import warnings
 from collections.abc import Sequence
+from math import prod
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -13,7 +14,7 @@ from .. import checks, tables
 from ..quantities import Real
 from ..search.constraints import feasible_objectives
 from ..search.indicators import ReferenceFront, best_of
-from ..search.kinds import box, coded, decoded
+from ..search.kinds import box, coded, decoded, grid_axes
 from ..search.problem import Minimisable
 from . import lock
 from .machine import provenance
@@ -33,9 +34,9 @@ class Refined(NamedTuple):
     change: float  # of the hypervolume from half as many points, relative
     second: float  # from a second grid, of sqrt(2) fewer points: only corners are common to both
 
-    def describe(self, variables: int) -> str:
-        """Return the grid and its convergence in words."""
-        points = " x ".join([str(self.points)] * variables)
+    def describe(self, problem: Minimisable) -> str:
+        """Return the grid of a problem and its convergence in words."""
+        points = " x ".join(str(axis.size) for axis in grid_axes(problem, self.points))
         return (
             f"the non-dominated designs of a {points} grid (hypervolume {self.front.volume:.4f}, which half as "
             f"many values change by {self.change:.1e} and a second grid by {self.second:.1e})"
@@ -48,9 +49,8 @@ def refined(problem: Minimisable, tolerance: float = TOLERANCE, most: int = MOST
     Half as many points and a second grid change its hypervolume by up to `tolerance`.
     """
     checks.positive("tolerance", tolerance)
-    variables = len(box(problem)[0])
     points, before = FIRST, None
-    while points**variables <= most:
+    while points <= most >= prod(axis.size for axis in grid_axes(problem, points)):
         objectives = grid_front(problem, points)
         if len(objectives) and np.ptp(objectives, axis=0).all():  # indicators divide by the ranges
             front = ReferenceFront.of(objectives)
@@ -64,23 +64,23 @@ def refined(problem: Minimisable, tolerance: float = TOLERANCE, most: int = MOST
     none = " (no front of feasible designs found)" if problem.constraints and before is None else ""
     raise ValueError(
         f"problem must have a front that a grid of {most} designs settles to {tolerance:g}, got one of "
-        f"{variables} variables that does not{none}; give a reference front"
+        f"{len(box(problem)[0])} variables that does not{none}; give a reference front"
     )
 
 
 def grid_front(problem: Minimisable, points: int) -> Real:
-    """Return the non-dominated objectives (n, m) of feasible designs on a grid of `points` values per variable."""
+    """Return the non-dominated feasible objectives (n, m) on a grid of `points` values per variable at most."""
     checks.at_least("points", points, 2)
     searched = coded(problem)
-    axes = [np.linspace(a, b, points) for a, b in zip(*box(searched), strict=True)]
-    m, total = len(problem.objectives), points ** len(axes)
+    axes = grid_axes(searched, points)
+    shape = [axis.size for axis in axes]
+    m, total = len(problem.objectives), prod(shape)
     front = np.empty((0, m))
     for start in range(0, total, _CHUNK):
-        places = np.unravel_index(np.arange(start, min(start + _CHUNK, total)), [points] * len(axes))
-        designs = np.stack([axis[place] for axis, place in zip(axes, places, strict=True)], axis=-1)
-        front = best_of(
-            np.concatenate([front, best_of(feasible_objectives(problem.evaluate(decoded(searched, designs)), m))])
-        )
+        places = np.unravel_index(np.arange(start, min(start + _CHUNK, total)), shape)
+        codes = np.stack([axis[place] for axis, place in zip(axes, places, strict=True)], axis=-1)
+        found = problem.evaluate(decoded(searched, codes))
+        front = best_of(np.concatenate([front, best_of(feasible_objectives(found, m))]))
     return front
 
 
