@@ -24,8 +24,8 @@ PUBLIC = {
     "TwoSlopeRoad", "load_road",
     "LoadCase", "Measure", "RideProblem", "exposure", "international_roughness_index", "load_problem",
     "response_psds", "ride", "simulate", "weighting",
-    "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run", "Sampling",
-    "minimise", "non_dominated", "Study",
+    "FailureWarning", "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run",
+    "Sampling", "minimise", "non_dominated", "Study",
 }  # fmt: skip
 
 COMMANDS = {"commands/ride.py", "commands/weighting.py"}

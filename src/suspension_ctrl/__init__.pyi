@@ -19,14 +19,15 @@ from .roads.spectra import Iso8608Road as Iso8608Road
 from .roads.spectra import PowerLawRoad as PowerLawRoad
 from .roads.spectra import TwoSlopeRoad as TwoSlopeRoad
 from .search.constraints import InfeasibleWarning as InfeasibleWarning
-from .search.driver import Run as Run
 from .search.driver import minimise as minimise
+from .search.evaluation import FailureWarning as FailureWarning
 from .search.gamultiobj import Gamultiobj as Gamultiobj
 from .search.indicators import ReferenceFront as ReferenceFront
 from .search.indicators import non_dominated as non_dominated
 from .search.moead_dra import MoeadDra as MoeadDra
 from .search.nsga2 import Nsga2 as Nsga2
 from .search.problem import Problem as Problem
+from .search.run import Run as Run
 from .search.sampling import Sampling as Sampling
 from .study.study import Study as Study
 from .vehicles.cars import FullCar as FullCar

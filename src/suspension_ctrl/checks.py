@@ -72,6 +72,26 @@ def at_least(name: str, value: int, minimum: int) -> None:
         raise ValueError(f"{name} must be a whole number >= {minimum}, got {shown(value)}")
 
 
+def whole(name: str, value: int, minimum: int) -> int:
+    """Return a whole number of any integer type as int; ValueError unless it is at least `minimum`."""
+    at_least(name, value, minimum)
+    return int(value)
+
+
+def reals(subject: str, values: object) -> NDArray[np.float64]:
+    """Return values as a new float array; ValueError for what numpy could only make one by loss."""
+    needed = "an array of real numbers"
+    if np.ma.isMaskedArray(values) or isinstance(values, str | bytes | Mapping | Iterator | None):
+        raise ValueError(f"{subject} {needed}, got {shown(values)}")
+    try:
+        array = np.asarray(values)
+        if array.dtype.kind in "biufO":
+            return np.array(array, dtype=float, order="C")
+    except (TypeError, ValueError):  # rows of unequal length, texts or objects among the numbers
+        pass
+    raise ValueError(f"{subject} {needed}, got {shown(values)}")
+
+
 def within(name: str, value: float, lowest: float, highest: float) -> None:
     """Raise ValueError unless `value` lies in the closed interval from `lowest` to `highest`."""
     if not (_is_real(value) and lowest <= value <= highest):

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from functions import dtlz2, zdt1
+from suspension_ctrl import minimise
 from suspension_ctrl.search import gamultiobj
-from suspension_ctrl.search.driver import minimise
 from suspension_ctrl.search.gamultiobj import Gamultiobj
 from suspension_ctrl.search.selection import select_survivors
 

@@ -333,7 +333,7 @@ def test_kinds_are_kept_sorted_and_frozen():
 def test_a_value_that_is_not_finite_is_reported_with_its_design():
     problem = whole_and_catalogue(lambda x: np.full((len(x), 2), np.nan))
     with pytest.raises(ValueError, match=r"for design \[-?\d+\.0, 0\.[147]\]"):
-        minimise(problem, Nsga2(population=20), iterations=1, seed=1)
+        minimise(problem, Nsga2(population=20), iterations=1, seed=1, failures="error")
 
 
 @every_optimiser

@@ -32,7 +32,7 @@ def test_corners_worked_on_every_iteration_and_utilities_in_range(population, pr
 
 
 def test_steps_are_handed_what_the_definition_says():
-    """T = 0.1 N neighbours or all N; the child goes among its own partners, at most n_r = 0.02 N times.
+    """T = 20 neighbours or all N; the child goes among its own partners, at most n_r = 0.02 N times.
 
     Weights are divided anew by the span at each iteration's start, and progress is measured from the last update.
     """
@@ -66,7 +66,7 @@ def test_steps_are_handed_what_the_definition_says():
     toolbox.register("update", spy_update)
     toolbox.register("update_utility", spy_utility)
     minimise(problem, optimiser, iterations=6, seed=3, toolbox=toolbox)
-    assert {len(partners) for partners in ranges} == {10, 100}
+    assert {len(partners) for partners in ranges} == {20, 100}
     vectors = decomposition.weight_vectors(size, 3)
     vectors = np.where(vectors == 0, decomposition.ZERO_WEIGHT, vectors)
     for scaled, span in zip(weights[::20], spans, strict=True):

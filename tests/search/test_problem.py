@@ -7,7 +7,7 @@ import pytest
 
 from suspension_ctrl import Problem
 from suspension_ctrl.quantities import column_headers
-from suspension_ctrl.search.problem import evaluate_checked
+from suspension_ctrl.search.evaluation import evaluate_checked
 
 GOOD = {"evaluate": lambda x: x, "lower": (0.0, 0.0), "upper": (1.0, 1.0), "objectives": ("a", "b")}
 
@@ -33,7 +33,7 @@ def test_headers_carry_units():
         ({"lower": (), "upper": ()}, "lower and upper must be one-dimensional and of one length"),
         ({"objectives": ("a",)}, "objectives must be 2 or more different names, got ('a',)"),
         ({"objectives": ("a", "a")}, "objectives must be 2 or more different names, got ('a', 'a')"),
-        ({"objectives": "ab"}, "objectives must be 2 or more different names, got 'ab'"),
+        ({"objectives": "ab"}, "objectives must be a list, got 'ab'"),
         (
             {"kernel": (len, ())},
             "kernel must be a function compiled by numba and a tuple, got (<built-in",
@@ -41,9 +41,9 @@ def test_headers_carry_units():
         ({"kernel": len}, "kernel must be a function compiled by numba and a tuple, got <built-in"),
         ({"constraints": ("c", "c")}, "constraints must be names different from all others, got ('c', 'c')"),
         ({"constraints": ("a",)}, "constraints must be names different from all others, got ('a',)"),
-        ({"constraints": "c"}, "constraints must be names different from all others, got 'c'"),
+        ({"constraints": "c"}, "constraints must be a list, got 'c'"),
         ({"variables": ("x", "x", "y")}, "variables must be 2 different names, got ('x', 'x', 'y')"),
-        ({"variables": "kc"}, "variables must be 2 different names, got 'kc'"),
+        ({"variables": "kc"}, "variables must be a list, got 'kc'"),
         ({"variables": ("k",)}, "variables must be 2 different names, got ('k',)"),
     ],
 )

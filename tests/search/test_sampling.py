@@ -5,8 +5,8 @@ import pytest
 from scipy.stats import qmc
 
 from functions import dtlz2
+from suspension_ctrl import minimise
 from suspension_ctrl.search import sampling
-from suspension_ctrl.search.driver import minimise
 from suspension_ctrl.search.indicators import non_dominated
 from suspension_ctrl.search.sampling import Sampling
 

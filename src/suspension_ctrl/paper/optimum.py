@@ -15,7 +15,7 @@ from . import experiment, tables
 if TYPE_CHECKING:
     import pandas as pd
 
-    from ..search.driver import Run
+    from ..search.run import Run
 
 AT_LIMIT = 0.002
 """Share of the limit by which the travel of a design picked for Table 5 may lie below it."""

@@ -1,98 +1,29 @@
-"""Run of an optimiser on a problem: budget, seed, times and history."""
+"""A search under way: budget, seed, times, and what ends it."""
 
 import itertools
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
-from functools import cached_property
 from math import inf
 from time import perf_counter, process_time
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from deap.base import Toolbox
 from numpy.typing import ArrayLike
 
 from .. import checks
-from ..quantities import Real, unit
+from ..quantities import Real
 from .clock import PhaseClock
 from .constraints import InfeasibleWarning
 from .deap_adapter import with_deap_operators
-from .kinds import Coded, coded, decoded
+from .evaluation import WORST, FailureWarning, Judged
 from .population import Population, State
 from .problem import Minimisable, headers_of
+from .run import Checkpoint, Log, Optimiser, Run
+from .verbs import with_checked_verbs
 
 if TYPE_CHECKING:
     import pandas as pd
-
-
-class Optimiser(Protocol):
-    """Settings of an algorithm, the toolbox of its verbs, and the search made of them."""
-
-    @property
-    def population(self) -> int:
-        """Designs at the start."""
-
-    @property
-    def phases(self) -> tuple[str, ...]:
-        """Timed verbs of the toolbox."""
-
-    def evaluations_per_iteration(self, objectives: int) -> int:
-        """Return how many designs an iteration evaluates."""
-
-    def toolbox(self, problem: Minimisable) -> Toolbox:
-        """Return the verbs of the algorithm for `problem`."""
-
-    def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:
-        """Yield the state after the start and after each iteration, without end."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Run(Population):
-    """Result of `minimise`: the final population, its cost and history.
-
-    Attributes
-    ----------
-    evaluations : int
-        Designs evaluated, the start included.
-    seconds, cpu_seconds : float
-        Wall-clock and processor time of the search alone [s].
-    seed : int
-        Seed that gives this run again.
-    repeats : int
-        Of the evaluations, those of known designs of a problem without continuous variables (`Problem.kinds`).
-    log : Log
-        Rows and columns of `history`.
-    """
-
-    evaluations: int
-    seconds: float = field(metadata=unit("s"))
-    cpu_seconds: float = field(metadata=unit("s"))
-    seed: int
-    log: "Log"
-    repeats: int = 0
-
-    @cached_property
-    def history(self) -> "pd.DataFrame":
-        """A row for the start, iteration 0, and per iteration; counts and times [s] from the start of the run.
-
-        Columns: ``iteration``, ``evaluations``, ``seconds``, ``cpu_seconds``, ``<phase>_seconds`` of each phase,
-        ``ideal_<objective>`` of each objective, of feasible designs once there is one. A compiled sweep of
-        MOEA/D-DRA evaluates its children in the phase ``sweep``; ``evaluate`` is then the start alone.
-        """
-        import pandas as pd  # a third of a second: not at import of the package, nor in a run
-
-        return pd.DataFrame(list(self.log.rows), columns=list(self.log.columns))
-
-    def __repr__(self) -> str:
-        return f"{super().__repr__()}\n    {self.evaluations} evaluations, {self.seconds:.3g} s, seed {self.seed}"
-
-
-class Log(NamedTuple):
-    """Rows and columns of a history, before a table is made of them."""
-
-    columns: tuple[str, ...]
-    rows: tuple[tuple[float, ...], ...]
 
 
 def minimise(
@@ -106,6 +37,7 @@ def minimise(
     toolbox: Toolbox | None = None,
     start: "ArrayLike | Population | pd.DataFrame | None" = None,
     callback: Callable[[Run], object] | None = None,
+    failures: str = "worst",
 ) -> Run:
     """Search for the Pareto-optimal designs of a problem.
 
@@ -124,9 +56,12 @@ def minimise(
     toolbox : deap.base.Toolbox, optional
         The optimiser's toolbox for this problem with other verbs, operators of DEAP among them.
     start : (k, d) array_like, Population or DataFrame, optional
-        Designs in place of the first k sampled ones; a DataFrame by its columns of the variables.
+        Designs in place of the first k sampled ones; a DataFrame by its columns of the variables. Of more than the
+        population all are evaluated, and the best go on.
     callback : callable, optional
         Function of the run so far, called after each iteration; True ends the search.
+    failures : {"worst", "error"}
+        A design with a value that is not finite counts as worst, or ends the search.
 
     Returns
     -------
@@ -136,69 +71,148 @@ def minimise(
     Raises
     ------
     ValueError
-        If no budget is given or one is too small, the seed is negative, `start` does not fit, or the evaluation
-        returns a wrong shape or a value that is not finite.
+        If no budget is given or one is too small, the seed is negative, `start` does not fit, the evaluation
+        returns a wrong shape, or a verb what it must not.
+    Exception
+        Whatever the evaluation raises, and KeyboardInterrupt, ends the search; the attribute ``run`` of the
+        exception is the run so far, None before the end of the start.
 
     Warns
     -----
     InfeasibleWarning
         If no design of the final population meets all constraints.
+    FailureWarning
+        If designs could not be evaluated.
     """
-    per_iteration = optimiser.evaluations_per_iteration(len(problem.objectives))
-    count = _iteration_count(optimiser.population, per_iteration, iterations, evaluations, seconds)
+    designs = None if start is None else _start_designs(problem, start)
+    begin = optimiser.population if designs is None else max(optimiser.population, len(designs))
+    count = _iteration_count(begin, optimiser, problem, iterations, evaluations, seconds)
     if seed is None:
         seed = int(np.random.SeedSequence().generate_state(1)[0])
-    checks.at_least("seed", seed, 0)
-    toolbox = with_deap_operators(toolbox or optimiser.toolbox(problem), problem)
-    searched = coded(problem)
-    if start is not None:
-        _start_from(toolbox, problem, searched, optimiser.population, start)
-    clock = PhaseClock(toolbox, optimiser.phases)
-    rows: list[tuple[float, ...]] = []
-    end = perf_counter() + (inf if seconds is None else seconds)
-    for state in _timed(optimiser.search(searched, toolbox, np.random.default_rng(seed)), clock, rows):
-        if callback and len(rows) > 1 and callback(_run(problem, searched, state, clock, rows, seed)):
-            break
-        if len(rows) > count or perf_counter() >= end:
-            break
-    run = _run(problem, searched, state, clock, rows, seed)
-    if problem.constraints and not run.feasible.any():
-        warnings.warn(_infeasible(problem.constraints, run), InfeasibleWarning, stacklevel=2)
-    return run
+    search = _Search(problem, optimiser, toolbox, checks.whole("seed", seed, 0), failures)
+    if designs is not None:
+        search.start_from(designs)
+    return search.until(count, seconds, callback)
 
 
-def _timed(search: Iterator[State], clock: PhaseClock, rows: list[tuple[float, ...]]) -> Iterator[State]:
-    """Yield the states of a search; append a row of the log for each."""
-    wall = cpu = 0.0
-    for iteration in itertools.count():
-        wall_start, cpu_start = perf_counter(), process_time()
-        state = next(search)
-        wall, cpu = wall + perf_counter() - wall_start, cpu + process_time() - cpu_start
-        rows.append((iteration, state.evaluations, wall, cpu, *clock.seconds.values(), *state.ideal))
-        yield state
-
-
-def _run(
+def resumed(
+    run: Run,
     problem: Minimisable,
-    searched: Minimisable,
-    state: State,
-    clock: PhaseClock,
-    rows: Sequence[tuple[float, ...]],
-    seed: int,
+    toolbox: Toolbox | None,
+    callback: Callable[[Run], object] | None,
+    failures: str,
+    **limits: Any,
 ) -> Run:
-    """Return the run of a problem so far, from the state of the search on its codes."""
-    phases = [f"{phase}_seconds" for phase in clock.seconds]
-    ideal = [f"ideal_{name}" for name in problem.objectives]
-    log = Log(("iteration", "evaluations", "seconds", "cpu_seconds", *phases, *ideal), tuple(rows))
-    return Run(
-        designs=decoded(searched, state.designs), objectives=state.objectives, constraints=state.constraints,
-        headers=headers_of(problem), evaluations=int(state.evaluations), seconds=rows[-1][2],
-        cpu_seconds=rows[-1][3], seed=int(seed), log=log, repeats=getattr(searched, "repeats", 0),
-    )  # fmt: skip
+    """Return the run after a further search, as `Run.resume` does."""
+    names = headers_of(problem)
+    if names != run.headers:
+        raise ValueError(f"problem must be that of the run, {', '.join(run.headers)}, got {', '.join(names)}")
+    count = _iteration_count(0, run.checkpoint.optimiser, problem, **limits)
+    search = _Search(problem, run.checkpoint.optimiser, toolbox, run.seed, failures)
+    search.go_on_from(run)
+    return search.until(count, limits["seconds"], callback)
 
 
-def _start_from(toolbox: Toolbox, problem: Minimisable, searched: Minimisable, size: int, start: Any) -> None:
-    """Put the designs of `start`, or their codes, before the samples of the toolbox."""
+class _Search:
+    """A search under way."""
+
+    def __init__(
+        self, problem: Minimisable, optimiser: Optimiser, toolbox: Toolbox | None, seed: int, failures: str
+    ) -> None:
+        checks.one_of("failures", failures, ("worst", "error"))
+        self.problem, self.optimiser, self.seed = problem, optimiser, seed
+        self.judged = Judged(problem, strict=failures == "error")
+        default = optimiser.toolbox(problem)
+        given = with_deap_operators(toolbox or default, problem)
+        self.toolbox = with_checked_verbs(given, default, self.judged)
+        self.rng = np.random.default_rng(seed)
+        self.repeats_before = 0
+        self.rows: list[tuple[float, ...]] = []
+        self.state: State | None = None
+        self.clock = PhaseClock(self.toolbox, ())
+
+    def start_from(self, designs: Real) -> None:
+        """Put designs (k, d) before the samples of the toolbox."""
+        if self.judged.coded:
+            designs = self.judged.coded.encode("start", designs)
+        sample: Callable[..., Real] | None = getattr(self.toolbox, "sample", None)
+        if sample is None:
+            raise ValueError("start must be None for an optimiser whose toolbox has no verb sample, got designs")
+
+        def sample_the_rest(rng: np.random.Generator, count: int) -> Real:
+            return np.concatenate([designs, sample(rng, count)[len(designs) :]])
+
+        self.toolbox.register("sample", sample_the_rest)
+
+    def go_on_from(self, run: Run) -> None:
+        """Take up the search of a run."""
+        self.state, self.rows = run.checkpoint.state, list(run.log.rows)
+        self.judged.failures, self.judged.first = run.failures, "in the run before"
+        self.rng.bit_generator.state = dict(run.checkpoint.generator)
+        self.repeats_before = run.repeats
+
+    def until(self, count: float, seconds: float | None, callback: Callable[[Run], object] | None) -> Run:
+        """Carry out `count` more iterations, or fewer if time or callback end the search."""
+        end = perf_counter() + (inf if seconds is None else seconds)
+        last = count + len(self.rows) - (self.state is not None)
+        try:
+            for _ in self._states():
+                if callback and len(self.rows) > 1 and callback(self.run()):
+                    break
+                if len(self.rows) > last or perf_counter() >= end:
+                    break
+        except BaseException as error:
+            error.run = self.run() if self.rows else None  # type: ignore[attr-defined]
+            raise
+        run = self.run()
+        if self.problem.constraints and not run.feasible.any():
+            warnings.warn(_infeasible(self.problem.constraints, run), InfeasibleWarning, stacklevel=3)
+        if run.failures:
+            warnings.warn(self.judged.summary(run.evaluations), FailureWarning, stacklevel=3)
+        return run
+
+    def _states(self) -> Iterator[State]:
+        """Yield the states of the search; append a row of the log for each."""
+        arguments = (self.judged, self.toolbox, self.rng)
+        going_on = () if self.state is None else (self.state,)
+        number, _, wall, cpu, *phases = self.rows[-1] if self.rows else (-1, 0, 0.0, 0.0)
+        clock = self.clock = PhaseClock(self.toolbox, self.optimiser.phases)
+        clock.seconds.update(zip(clock.seconds, phases, strict=False))
+        search = self.optimiser.search(*arguments, *going_on)
+        for iteration in itertools.count(int(number) + 1):
+            wall_start, cpu_start = perf_counter(), process_time()
+            state = next(search)
+            wall, cpu = wall + perf_counter() - wall_start, cpu + process_time() - cpu_start
+            ideal = np.where(state.ideal < WORST, state.ideal, np.nan)
+            self.rows.append((iteration, state.evaluations, wall, cpu, *clock.seconds.values(), *ideal))
+            self.state, self.generator = state, self.rng.bit_generator.state
+            yield state
+
+    @property
+    def repeats(self) -> int:
+        """Designs asked for whose values were known."""
+        return self.repeats_before + (self.judged.coded.repeats if self.judged.coded else 0)
+
+    def run(self) -> Run:
+        """Return the run so far."""
+        state, last = self.state, self.rows[-1]
+        assert state is not None
+        phases = [f"{phase}_seconds" for phase in self.optimiser.phases]
+        ideal = [f"ideal_{name}" for name in self.problem.objectives]
+        log = Log(("iteration", "evaluations", "seconds", "cpu_seconds", *phases, *ideal), tuple(self.rows))
+        objectives, constraints = state.objectives, state.constraints
+        if self.judged.failures:
+            objectives, constraints = (np.where(x < WORST, x, np.nan) for x in (objectives, constraints))
+        return Run(
+            designs=self.judged.decode(state.designs), objectives=objectives, constraints=constraints,
+            headers=headers_of(self.problem), evaluations=int(state.evaluations), seconds=last[2],
+            cpu_seconds=last[3], seed=self.seed, log=log, failures=self.judged.failures, repeats=self.repeats,
+            checkpoint=Checkpoint(self.optimiser, state, self.generator),
+        )  # fmt: skip
+
+
+def _start_designs(problem: Minimisable, start: Any) -> Real:
+    """Return the designs (k, d) to start from."""
     if isinstance(start, Population):
         start = start.designs
     elif hasattr(start, "columns"):
@@ -206,22 +220,11 @@ def _start_from(toolbox: Toolbox, problem: Minimisable, searched: Minimisable, s
         if missing := [name for name in variables if name not in start.columns]:
             raise ValueError(f"start must have the columns {', '.join(variables)}, got none called {missing[0]}")
         start = start[variables].to_numpy()
-    designs = np.array(start, dtype=float)
+    designs = checks.reals("start must be", start)
     if designs.ndim != 2 or designs.shape[1] != len(problem.lower):
         raise ValueError(f"start must have shape (k, {len(problem.lower)}), got {designs.shape}")
     checks.rows_within("start", designs, problem.lower, problem.upper)
-    if isinstance(searched, Coded):
-        designs = searched.encode("start", designs)
-    if len(designs) > size:
-        raise ValueError(f"start must have no more designs than the population, {size}, got {len(designs)}")
-    sample: Callable[..., Real] | None = getattr(toolbox, "sample", None)
-    if sample is None:
-        raise ValueError("start must be None for an optimiser whose toolbox has no verb sample, got designs")
-
-    def sample_the_rest(rng: np.random.Generator, count: int) -> Real:
-        return np.concatenate([designs, sample(rng, count)[len(designs) :]])
-
-    toolbox.register("sample", sample_the_rest)
+    return designs
 
 
 def _infeasible(names: Sequence[str], run: Run) -> str:
@@ -232,8 +235,15 @@ def _infeasible(names: Sequence[str], run: Run) -> str:
 
 
 def _iteration_count(
-    start: int, per_iteration: int, iterations: int | None, evaluations: int | None, seconds: float | None
+    start: int,
+    optimiser: Optimiser,
+    problem: Minimisable,
+    iterations: int | None,
+    evaluations: int | None,
+    seconds: float | None,
 ) -> float:
+    """Return the iterations after `start` evaluations within the budgets."""
+    per_iteration = optimiser.evaluations_per_iteration(len(problem.objectives))
     if seconds is not None:
         checks.positive("seconds", seconds, "s")
     numbers = [number for number in (iterations, evaluations) if number is not None]
@@ -241,9 +251,7 @@ def _iteration_count(
         found = f"{iterations!r}, {evaluations!r} and {seconds!r}"
         raise ValueError(f"one of iterations and evaluations, or seconds, must be given, got {found}")
     if iterations is not None:
-        checks.at_least("iterations", iterations, 1)
-        return iterations
+        return checks.whole("iterations", iterations, 1)
     if evaluations is not None:
-        checks.at_least("evaluations", evaluations, start + per_iteration)
-        return (evaluations - start) // per_iteration
+        return (checks.whole("evaluations", evaluations, start + per_iteration) - start) // per_iteration
     return inf

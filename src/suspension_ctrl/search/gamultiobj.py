@@ -24,10 +24,11 @@ from numpy.typing import NDArray
 from .. import checks
 from ..quantities import Integer, Real
 from .constraints import any_feasible, constrained, ideal_with, violations
+from .evaluation import evaluate_checked
 from .kinds import box
 from .operators import sample_uniform
 from .population import Generational, State
-from .problem import Minimisable, evaluate_checked
+from .problem import Minimisable
 from .selection import crowding_distances, front_ranks
 
 _SUCCESS = 0.2
@@ -60,7 +61,7 @@ class Gamultiobj(Generational):
     phases: ClassVar[tuple[str, ...]] = ("sample", "evaluate", "tournament", "mate", "mutate", "select")
 
     def __post_init__(self) -> None:
-        checks.at_least("population", self.population, 4)
+        object.__setattr__(self, "population", checks.whole("population", self.population, 4))
         checks.within("crossover_fraction", self.crossover_fraction, 0, 1)
         checks.within("pareto_fraction", self.pareto_fraction, 0, 1)
 
@@ -76,15 +77,23 @@ class Gamultiobj(Generational):
         toolbox.register("select", select_controlled, pareto_fraction=self.pareto_fraction)
         return toolbox
 
-    def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:
-        """Yield the state after the start and after each iteration, without end."""
+    def search(
+        self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
+    ) -> Iterator[State]:
+        """Yield the state after the start and after each iteration, without end; with a `state` go on after it."""
         size, m = self.population, len(problem.objectives)
         crossed = round(self.crossover_fraction * size)
-        designs = np.array(toolbox.sample(rng, size), dtype=float)
-        values = evaluate_checked(toolbox.evaluate, designs, problem)
-        _, rank, crowding = toolbox.select(constrained(values, m), size)
-        ideal, evaluations, step = ideal_with(np.full(m, np.inf), values, False), size, 1.0
-        yield State.of(designs, values, ideal, evaluations)
+        if state is None:
+            designs = np.array(toolbox.sample(rng, size), dtype=float)
+            values = evaluate_checked(toolbox.evaluate, designs, problem)
+            ideal, evaluations, step = ideal_with(np.full(m, np.inf), values, False), len(designs), 1.0
+            kept, rank, crowding = toolbox.select(constrained(values, m), size)
+            designs, values = designs[kept], values[kept]
+            yield State.of(designs, values, ideal, evaluations, rank=rank, crowding=crowding, step=step)
+        else:
+            designs, values, ideal, evaluations = state.designs, state.values, state.ideal, state.evaluations
+            rank, crowding = state.memory["rank"], state.memory["crowding"]
+            step = float(state.memory["step"])
         while True:
             parents = designs[toolbox.tournament(rng, rank, crowding, 2 * crossed + size - crossed)]
             pairs, alone = parents[: 2 * crossed], parents[2 * crossed :]
@@ -98,7 +107,7 @@ class Gamultiobj(Generational):
             survived = np.count_nonzero(kept >= size + crossed) / max(1, size - crossed)
             step = min(1.0, 2 * step) if survived > _SUCCESS else step / 2
             designs, values = designs[kept], values[kept]
-            yield State.of(designs, values, ideal, evaluations)
+            yield State.of(designs, values, ideal, evaluations, rank=rank, crowding=crowding, step=step)
 
 
 def ranked_tournament(rng: np.random.Generator, rank: NDArray[np.int32], crowding: Real, size: int) -> Integer:

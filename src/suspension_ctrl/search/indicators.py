@@ -10,13 +10,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
+from .. import checks
 from ..quantities import Bool, Integer, Real, Record, frozen_array
 from .decomposition import farthest_first
 
 
 def non_dominated(objectives: ArrayLike) -> Bool:
-    """Return which of the objectives (n, m), to be minimised, are dominated by no other; shape (n,)."""
-    return moocore.is_nondominated(objectives, keep_weakly=True)
+    """Return which of the objectives (n, m), to be minimised, are dominated by no other; shape (n,).
+
+    A row with NaN counts as dominated and dominates none.
+    """
+    values = checks.reals("objectives must be", objectives)
+    whole: Bool = np.asarray(~np.isnan(values).any(axis=1))
+    whole[whole] = moocore.is_nondominated(values[whole], keep_weakly=True)
+    return whole
 
 
 def best_of(objectives: Real) -> Real:
@@ -73,7 +80,8 @@ class ReferenceFront(Record):
 
     @classmethod
     def of(cls, objectives: Real) -> "ReferenceFront":
-        """Return the front of mutually non-dominated objectives (n, m)."""
+        """Return the front of mutually non-dominated objectives (n, m); rows with NaN are left out."""
+        objectives = objectives[~np.isnan(objectives).any(axis=1)]
         ideal, nadir = objectives.min(axis=0), objectives.max(axis=0)
         whole = cls(objectives, ideal, nadir, 0.0)
         volume = whole.hypervolume(objectives)
@@ -82,13 +90,14 @@ class ReferenceFront(Record):
         return cls(objectives[evenly_spread(objectives, cls.SAMPLE)], ideal, nadir, volume)
 
     def scaled(self, objectives: ArrayLike) -> Real:
-        """Return objectives (n, m) with this front's ideal point at 0 and its nadir at 1.
+        """Return objectives (n, m) with this front's ideal point at 0 and its nadir at 1, without rows of NaN.
 
         One that does not vary on the front is scaled by its value there, or by 1 if that is 0.
         """
-        ranges, values = self.nadir - self.ideal, np.abs(self.ideal)
-        scale = np.where(ranges > 0, ranges, np.where(values > 0, values, 1.0))
-        return (np.asarray(objectives, dtype=float) - self.ideal) / scale
+        values, size = checks.reals("objectives must be", objectives), np.abs(self.ideal)
+        ranges = self.nadir - self.ideal
+        scale = np.where(ranges > 0, ranges, np.where(size > 0, size, 1.0))
+        return (values[~np.isnan(values).any(axis=1)] - self.ideal) / scale
 
     def hypervolume(self, objectives: ArrayLike) -> float:
         """Return the volume that objectives (n, m) dominate below 1.1 in scaled objectives [-].

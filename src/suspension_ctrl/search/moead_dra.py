@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import count
 from typing import ClassVar
 
 import numpy as np
@@ -12,10 +11,12 @@ from .. import checks
 from ..compiled import call_compiled
 from ..quantities import Real
 from . import decomposition, operators
-from .constraints import ideal_with
+from .constraints import constrained, ideal_with
+from .evaluation import evaluate_checked
 from .kinds import box
 from .population import State
-from .problem import Minimisable, evaluate_checked
+from .problem import Minimisable
+from .selection import select_survivors
 from .sweep import Decomposed, sweep_batch, sweep_sequential
 
 _SWEEPS = {"sequential": sweep_sequential, "batch": sweep_batch}
@@ -29,12 +30,14 @@ class MoeadDra:
     ----------
     population : int
         Number of subproblems N, at least five times the number of objectives.
-    neighbourhood : float
-        Size T of a neighbourhood as a fraction of N, at least 2 subproblems.
+    neighbourhood : float, optional
+        Size T of a neighbourhood as a fraction of N, at least 2 subproblems; a tenth, but at least 20
+        of them, if not given.
     neighbour_probability : float
         Probability delta that mates come from the neighbourhood.
-    replacement_limit : float
-        Largest number n_r of partners that a child replaces as a fraction of N, at least 1.
+    replacement_limit : float, optional
+        Largest number n_r of partners that a child replaces as a fraction of N, at least 1; a hundredth, but
+        at least 2, if not given.
     scale_factor : float
         Factor F of differential evolution.
     mutation_probability : float, optional
@@ -64,9 +67,9 @@ class MoeadDra:
     """
 
     population: int
-    neighbourhood: float = 0.1
+    neighbourhood: float | None = None
     neighbour_probability: float = 0.9
-    replacement_limit: float = 0.01
+    replacement_limit: float | None = None
     scale_factor: float = 0.5
     mutation_probability: float | None = None
     mutation_eta: float = 20.0
@@ -80,13 +83,12 @@ class MoeadDra:
     phases: ClassVar[tuple[str, ...]] = ("sample", "evaluate", "choose_subproblems", "sweep", "update_utility")
 
     def __post_init__(self) -> None:
-        checks.at_least("population", self.population, 4)
+        object.__setattr__(self, "population", checks.whole("population", self.population, 4))
         for name in ("scale_factor", "mutation_eta", "utility_threshold"):
             checks.positive(name, getattr(self, name))
-        for name in ("neighbourhood", "neighbour_probability", "replacement_limit"):
-            checks.within(name, getattr(self, name), 0, 1)
-        if self.mutation_probability is not None:
-            checks.within("mutation_probability", self.mutation_probability, 0, 1)
+        for name in ("neighbourhood", "neighbour_probability", "replacement_limit", "mutation_probability"):
+            if getattr(self, name) is not None:
+                checks.within(name, getattr(self, name), 0, 1)
         for name in ("tournament", "utility_period"):
             checks.at_least(name, getattr(self, name), 1)
         checks.one_of("normalise", self.normalise, (True, False))
@@ -97,6 +99,18 @@ class MoeadDra:
             if self.normalise:
                 raise ValueError(f"objective_scales must be None with normalise, got {self.objective_scales!r}")
         checks.one_of("update", self.update, _SWEEPS)
+
+    @property
+    def neighbours(self) -> int:
+        """Number T of subproblems in a neighbourhood."""
+        n = self.population
+        return min(n, max(20, n // 10) if self.neighbourhood is None else max(2, int(self.neighbourhood * n)))
+
+    @property
+    def replacements(self) -> int:
+        """Largest number n_r of partners that a child replaces."""
+        n = self.population
+        return max(2, n // 100) if self.replacement_limit is None else max(1, int(self.replacement_limit * n))
 
     def evaluations_per_iteration(self, objectives: int) -> int:
         """Return the number of evaluations in an iteration; ValueError if the corners alone are more."""
@@ -110,7 +124,6 @@ class MoeadDra:
         """Return the verbs of the algorithm, with these settings, for `problem`."""
         lower, upper = box(problem)
         probability = 1 / lower.size if self.mutation_probability is None else self.mutation_probability
-        limit = max(1, int(self.replacement_limit * self.population))
         toolbox = Toolbox()
         toolbox.register("sample", operators.sample_uniform, lower=lower, upper=upper)
         toolbox.register("evaluate", problem.evaluate)
@@ -121,36 +134,50 @@ class MoeadDra:
         toolbox.register("repair", call_compiled, operators.RedrawOutside(lower, upper))
         eta, p = float(self.mutation_eta), float(probability)
         toolbox.register("mutate", call_compiled, operators.MutateDesign(lower, upper, eta, p))
-        toolbox.register("update", call_compiled, decomposition.ReplaceWorse(limit))
+        toolbox.register("update", call_compiled, decomposition.ReplaceWorse(self.replacements))
         toolbox.register("sweep", _SWEEPS[self.update])
         toolbox.register("update_utility", decomposition.updated_utility, threshold=float(self.utility_threshold))
         return toolbox
 
-    def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:
-        """Yield the state after the start and after each iteration, without end (Figure 4 of the paper)."""
+    def search(
+        self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
+    ) -> Iterator[State]:
+        """Yield the state after the start and after each iteration, without end (Figure 4 of the paper).
+
+        With a `state` go on after it.
+        """
         size, m = self.population, len(problem.objectives)
         vectors = decomposition.weight_vectors(size, m)
         corners = vectors.argmax(axis=0)  # the unit vectors, wherever they stand
         weights = np.where(vectors == 0, decomposition.ZERO_WEIGHT, vectors) / self._scales(m)
-        designs = np.array(toolbox.sample(rng, size), dtype=float)
-        values = evaluate_checked(toolbox.evaluate, designs, problem)
-        neighbours = decomposition.neighbourhoods(size, m, max(2, int(self.neighbourhood * size)))
-        ideal = ideal_with(np.full(m, np.inf), values, False)
+        neighbours = decomposition.neighbourhoods(size, m, self.neighbours)
+        if state is None:
+            designs = np.array(toolbox.sample(rng, size), dtype=float)
+            values = evaluate_checked(toolbox.evaluate, designs, problem)
+            ideal, evaluations = ideal_with(np.full(m, np.inf), values, False), len(designs)
+            if evaluations > size:
+                kept, _ = select_survivors(constrained(values, m), size)
+                designs, values = designs[kept], values[kept]
+            utility, before, iteration = np.ones(size), values.copy(), 0
+            yield State.of(designs, values, ideal, evaluations, utility=utility, before=before, iteration=0)
+        else:
+            designs, values, ideal = state.designs.copy(), state.values.copy(), state.ideal.copy()
+            utility, before = state.memory["utility"], state.memory["before"]
+            iteration, evaluations = int(state.memory["iteration"]), state.evaluations
         population = Decomposed(designs, values, ideal, weights, neighbours)
-        evaluations = size
-        yield population.state(evaluations)
-        utility, before = np.ones(size), values.copy()
-        for iteration in count(1):
+        while True:
+            iteration += 1
             if self.normalise:
                 population = population._replace(weights=weights / population.span())
             chosen = toolbox.choose_subproblems(rng, utility, corners, self.evaluations_per_iteration(m))
             toolbox.sweep(rng, chosen, population, toolbox, problem)
             if iteration % self.utility_period == 0:
-                _, values, ideal, weighted, _ = population
-                utility = toolbox.update_utility(utility, before, values, weighted, ideal)
+                utility = toolbox.update_utility(utility, before, values, population.weights, ideal)
                 before = values.copy()
             evaluations += chosen.size
-            yield population.state(evaluations)
+            yield State.of(
+                designs, values, ideal, evaluations, utility=utility, before=before, iteration=iteration
+            )
 
     def _scales(self, objectives: int) -> Real:
         given = np.ones(objectives) if self.objective_scales is None else self.objective_scales

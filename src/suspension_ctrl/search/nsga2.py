@@ -10,10 +10,11 @@ from deap.base import Toolbox
 from .. import checks
 from .constraints import any_feasible, constrained, ideal_with
 from .deap_adapter import select_with_deap
+from .evaluation import evaluate_checked
 from .kinds import box
 from .operators import crowded_tournament, polynomial_mutation, sample_uniform, simulated_binary_crossover
 from .population import Generational, State
-from .problem import Minimisable, evaluate_checked
+from .problem import Minimisable
 from .selection import select_survivors
 
 _SELECTIONS = {
@@ -59,7 +60,7 @@ class Nsga2(Generational):
     phases: ClassVar[tuple[str, ...]] = ("sample", "evaluate", "tournament", "mate", "mutate", "select")
 
     def __post_init__(self) -> None:
-        checks.at_least("population", self.population, 4)
+        object.__setattr__(self, "population", checks.whole("population", self.population, 4))
         checks.within("crossover_probability", self.crossover_probability, 0, 1)
         checks.positive("crossover_eta", self.crossover_eta)
         if self.mutation_probability is not None:
@@ -83,14 +84,24 @@ class Nsga2(Generational):
         toolbox.register("select", select, **sorting)
         return toolbox
 
-    def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:
-        """Yield the state after the start and after each iteration, without end (Figure 3 of the paper)."""
+    def search(
+        self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
+    ) -> Iterator[State]:
+        """Yield the state after the start and after each iteration, without end (Figure 3 of the paper).
+
+        With a `state` go on after it.
+        """
         size, m = self.population, len(problem.objectives)
-        designs = np.array(toolbox.sample(rng, size), dtype=float)
-        values = evaluate_checked(toolbox.evaluate, designs, problem)
-        kept, crowding = toolbox.select(constrained(values, m), size)
-        ideal, evaluations = ideal_with(np.full(m, np.inf), values, False), len(designs)
-        yield State.of(designs, values, ideal, evaluations)
+        if state is None:
+            designs = np.array(toolbox.sample(rng, size), dtype=float)
+            values = evaluate_checked(toolbox.evaluate, designs, problem)
+            ideal, evaluations = ideal_with(np.full(m, np.inf), values, False), len(designs)
+            kept, crowding = toolbox.select(constrained(values, m), size)
+            designs, values = designs.take(kept, axis=0), values.take(kept, axis=0)
+            yield State.of(designs, values, ideal, evaluations, crowding=crowding)
+        else:
+            designs, values, ideal, evaluations = state.designs, state.values, state.ideal, state.evaluations
+            crowding = state.memory["crowding"]
         while True:
             parents = toolbox.tournament(rng, constrained(values, m), crowding, size)
             children = toolbox.mutate(rng, toolbox.mate(rng, designs.take(parents, axis=0)))
@@ -99,4 +110,4 @@ class Nsga2(Generational):
             designs, values = np.concatenate([designs, children]), np.concatenate([values, born])
             kept, crowding = toolbox.select(constrained(values, m), size)
             designs, values = designs.take(kept, axis=0), values.take(kept, axis=0)
-            yield State.of(designs, values, ideal, evaluations)
+            yield State.of(designs, values, ideal, evaluations, crowding=crowding)

@@ -1,12 +1,14 @@
 """A population: designs with objectives and constraints; the base of states, runs and traces."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ..quantities import Bool, Real, Record, frozen_array
+from ..quantities import Bool, FrozenMapping, Real, Record, frozen_array
 from .constraints import violations
 from .indicators import non_dominated
 
@@ -51,7 +53,7 @@ class Population(Record):
     @property
     def feasible(self) -> Bool:
         """Feasibility of each design (n,)."""
-        return self.violation == 0
+        return (self.violation == 0) & ~np.isnan(self.objectives).any(axis=1)
 
     def to_frame(self) -> "pd.DataFrame":
         """Return a row per design: variables, objectives and, where there are constraints, `violation`."""
@@ -102,12 +104,19 @@ class State(Population):
 
     ideal: Real  # (m,) least value seen of each objective, of feasible designs once there is one
     evaluations: int  # so far
+    memory: Mapping[str, Real]  # whatever else the algorithm needs to go on
 
     @classmethod
-    def of(cls, designs: Real, values: Real, ideal: Real, evaluations: int) -> "State":
+    def of(cls, designs: Real, values: Real, ideal: Real, evaluations: int, **memory: ArrayLike) -> "State":
         """Return the state of a population with these values (n, m + c)."""
         objectives, constraints = np.split(values, [ideal.size], axis=1)
         return cls(
             designs=designs, objectives=objectives, constraints=constraints,
             ideal=frozen_array(ideal), evaluations=evaluations,
+            memory=FrozenMapping({name: np.array(value) for name, value in memory.items()}),
         )  # fmt: skip
+
+    @property
+    def values(self) -> Real:
+        """Objectives and constraints (n, m + c)."""
+        return np.hstack([self.objectives, self.constraints])

@@ -6,11 +6,9 @@ from typing import Any, Protocol
 
 import numpy as np
 from numba.extending import is_jitted
-from numpy.typing import ArrayLike
 
 from .. import checks
 from ..quantities import FrozenMapping, Real, Record, column_headers
-from .kinds import Coded
 
 Kernel = tuple[Any, ...]
 """A compiled function from a design (d,) to values (m + c,) with its further arguments; or a verb (`compiled`)."""
@@ -108,6 +106,10 @@ class Problem(Record):
 
     def __post_init__(self) -> None:
         checks.ordered("lower", "upper", self.lower, self.upper)
+        if not callable(self.evaluate):
+            raise ValueError(f"evaluate must be callable, got {checks.shown(self.evaluate)}")
+        for name in ("objectives", "constraints", "variables"):
+            checks.listed(name, getattr(self, name))
         if isinstance(self.objectives, str) or len(set(self.objectives)) < max(2, len(self.objectives)):
             raise ValueError(f"objectives must be 2 or more different names, got {self.objectives!r}")
         outputs = [*self.objectives, *self.constraints]
@@ -117,7 +119,8 @@ class Problem(Record):
         if isinstance(self.variables, str) or not len(set(names)) == len(names) == len(self.lower):
             raise ValueError(f"variables must be {len(self.lower)} different names, got {self.variables!r}")
         if self.kernel is not None and not _is_kernel(self.kernel):
-            raise ValueError(f"kernel must be a function compiled by numba and a tuple, got {self.kernel!r}")
+            got = checks.shown(self.kernel)
+            raise ValueError(f"kernel must be a function compiled by numba and a tuple, got {got}")
         lower, upper = (tuple(np.asarray(bound, dtype=float).tolist()) for bound in (self.lower, self.upper))
         lists = {name: tuple(getattr(self, name)) for name in ("objectives", "constraints")}
         self._keep(lower=lower, upper=upper, variables=names, units=FrozenMapping(self.units), **lists)
@@ -141,21 +144,3 @@ def headers_of(problem: Minimisable) -> tuple[str, ...]:
     if len(names) < len(problem.lower) + len(problem.objectives):
         return ()
     return tuple(column_headers(names, getattr(problem, "units", {})))
-
-
-def evaluate_checked(evaluate: Callable[[Real], ArrayLike], designs: Real, problem: Minimisable) -> Real:
-    """Return the values (n, m + c) of designs or codes (n, d); ValueError if of another shape or not finite."""
-    if isinstance(problem, Coded):
-        return problem.values(designs, lambda new: evaluate_checked(evaluate, new, problem.problem))
-    # Copies: a user's evaluation may change its argument and reuse its result.
-    values = np.array(evaluate(designs.copy()), dtype=float, order="C")
-    expected = (designs.shape[0], len(problem.objectives) + len(problem.constraints))
-    if values.shape != expected:
-        raise ValueError(f"evaluate must return shape {expected} for designs {designs.shape}, got {values.shape}")
-    finite = np.isfinite(values)
-    if not finite.all():
-        first = int(finite.all(axis=1).argmin())
-        names = "objectives and constraints" if problem.constraints else "objectives"
-        found = f"{values[first].tolist()} for design {designs[first].tolist()}"
-        raise ValueError(f"evaluate must return finite {names}, got {found}")
-    return values

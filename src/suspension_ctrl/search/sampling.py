@@ -2,7 +2,8 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import ClassVar
+from itertools import islice
+from typing import Any, ClassVar
 
 import numpy as np
 from deap.base import Toolbox
@@ -10,10 +11,11 @@ from deap.base import Toolbox
 from .. import checks
 from ..quantities import Real
 from .constraints import any_feasible, constrained, ideal_with
+from .evaluation import evaluate_checked
 from .indicators import non_dominated
 from .kinds import box
 from .population import Generational, State
-from .problem import Minimisable, evaluate_checked
+from .problem import Minimisable
 
 
 def random_points(rng: np.random.Generator, size: int, variables: int) -> Iterator[Real]:
@@ -65,7 +67,7 @@ class Sampling(Generational):
     phases: ClassVar[tuple[str, ...]] = ("evaluate", "filter")
 
     def __post_init__(self) -> None:
-        checks.at_least("population", self.population, 4)
+        object.__setattr__(self, "population", checks.whole("population", self.population, 4))
         checks.one_of("points", self.points, _POINTS)
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
@@ -76,13 +78,19 @@ class Sampling(Generational):
         toolbox.register("filter", non_dominated)
         return toolbox
 
-    def search(self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator) -> Iterator[State]:
-        """Yield the state after the start and after each iteration, without end."""
+    def search(
+        self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
+    ) -> Iterator[State]:
+        """Yield the state after the start and after each iteration, without end; with a `state` go on after it."""
         lower, upper = box(problem)
         m, c = len(problem.objectives), len(problem.constraints)
         kept, values = np.empty((0, lower.size)), np.empty((0, m + c))
         ideal, evaluations = np.full(m, np.inf), 0
-        for unit in toolbox.points(rng, self.population):
+        if state is not None:
+            kept, values, ideal, evaluations = state.designs, state.values, state.ideal, state.evaluations
+            seeds: Any = rng.bit_generator.seed_seq
+            rng = np.random.default_rng(seeds)  # a sequence is made anew and passed over
+        for unit in islice(toolbox.points(rng, self.population), evaluations // self.population, None):
             designs = lower + (upper - lower) * unit
             found = evaluate_checked(toolbox.evaluate, designs, problem)
             ideal, evaluations = ideal_with(ideal, found, any_feasible(values, m)), evaluations + len(designs)

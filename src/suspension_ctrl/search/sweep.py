@@ -6,14 +6,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from deap.base import Toolbox
 from numba import njit
+from numba.core.errors import NumbaError
 from numba.extending import is_jitted
 
-from ..compiled import call, call_compiled, compiled, storable, verb_of
+from ..compiled import call, call_compiled, compilable, compiled, storable, verb_of
 from ..quantities import Integer, Real
 from .clock import untimed
 from .constraints import feasible_objectives
+from .evaluation import WORST, Judged, compare_kernel, evaluate_checked
 from .population import State
-from .problem import Minimisable, evaluate_checked
+from .problem import Minimisable
 
 
 class Decomposed(NamedTuple):
@@ -32,8 +34,9 @@ class Decomposed(NamedTuple):
     def span(self) -> Real:
         """Return the span (m,) from ideal point to worst feasible design (any, if none), 1 where it is zero."""
         m = self.ideal.size
-        feasible = feasible_objectives(self.values, m)
-        span = (feasible if len(feasible) else self.values[:, :m]).max(axis=0) - self.ideal
+        found = self.values[self.values[:, 0] < WORST]
+        feasible = feasible_objectives(found, m)
+        span = (feasible if len(feasible) else found[:, :m]).max(axis=0, initial=-np.inf) - self.ideal
         return np.where(span > 0, span, 1.0)
 
 
@@ -43,15 +46,31 @@ def sweep_sequential(
     """Work on the chosen subproblems in order, each child after the replacements of the one before.
 
     Runs compiled if every verb is compiled and the problem has a kernel, otherwise in Python with the same draws.
+    A kernel is compared with `evaluate` after the first sweep.
     """
     verbs = [compiled_verb(untimed(getattr(toolbox, name))) for name in VERBS]
     verbs.append(compiled_evaluation(toolbox, problem))
-    function = _STORED if all(map(storable, verbs)) else _FRESH
+    ours = all(map(storable, verbs))
+    function = _STORED if ours else _FRESH
     if None in verbs:
         function = work_on
         verbs = [getattr(toolbox, name) for name in VERBS]
         verbs.append(lambda child: evaluate_checked(toolbox.evaluate, child[np.newaxis], problem)[0])
-    function(rng, chosen, population, *verbs)
+    judged = Judged.of(problem)
+    box = np.array([problem.lower, problem.upper], dtype=float)
+    failed, first = np.zeros(1 + box.shape[1]), np.zeros(box.shape[1] + population.values.shape[1])
+    try:
+        function(rng, chosen, population, box, ours, judged.strict, failed, first, *verbs)
+    except NumbaError as error:
+        raise ValueError(f"verbs must compile together, got {str(error).splitlines()[0]}") from None
+    if failed[0] < 0:
+        raise ValueError(_FAULTS[int(failed[0])])
+    if failed[0]:
+        judged.fail("kernel", int(failed[0]), judged.decode(failed[np.newaxis, 1:])[0])
+    if function is not work_on and not judged.compared:
+        judged.compared = True
+        child, found = np.split(first, [box.shape[1]])
+        compare_kernel(child, found, judged)
 
 
 def sweep_batch(
@@ -73,10 +92,24 @@ VERBS = ("mating_range", "reproduce", "repair", "mutate", "update")
 """The verbs inside a sweep, in the order of `work_on`."""
 
 
+_FAULTS = {
+    -1: "kernel must return a value for each objective and constraint, got another number",
+    -2: "mating_range must return indices of individuals, got others",
+    -3: "reproduce, repair and mutate must return a value for each variable, got another number",
+    -4: "repair and mutate must return designs within the bounds, got one outside",
+}
+"""Errors of compiled verbs, by the mark of `work_on`."""
+
+
 def work_on(
     rng: np.random.Generator,
     chosen: Integer,
     population: Decomposed,
+    box: Real,
+    trusted: bool,
+    strict: bool,
+    failed: Real,
+    first: Real,
     mating_range: Any,
     reproduce: Any,
     repair: Any,
@@ -84,20 +117,89 @@ def work_on(
     update: Any,
     evaluate: Any,
 ) -> None:
-    """Make, evaluate and place one child for each chosen subproblem, in order."""
+    """Make, evaluate and place one child for each chosen subproblem, in order.
+
+    Into `failed` (1 + d,) go the number of children that could not be evaluated, one at most if `strict`, and the
+    first of them; a mark of `_FAULTS` for verbs that are not `trusted` and leave the `box` (2, d), or a kernel.
+    Into `first` (d + m + c,) go the first child and its values.
+    """
     designs, values, ideal, weights, neighbours = population
+    born = np.empty(values.shape[1])
     for i in chosen:
         partners = call(mating_range, (rng, i, neighbours))
+        if not trusted and not all_below(partners, designs.shape[0]):
+            failed[0] = -2.0
+            return
         child = call(reproduce, (rng, designs, i, partners))
+        if child.size != designs.shape[1]:
+            failed[0] = -3.0
+            return
         child = call(repair, (rng, child, designs[i]))
         child = call(mutate, (rng, child))
+        if not trusted:
+            failed[0] = place_of(child, box) or failed[0]
+            if failed[0] < 0.0:
+                return
         value = call(evaluate, (child,))
-        good = value.size == values.shape[1]
-        for j in range(value.size):
-            good = good and np.isfinite(value[j])
-        if not good:
-            raise ValueError("kernel must return a finite value for each objective and constraint, got others")
-        call(update, (rng, child, value, partners, designs, values, weights, ideal))
+        if value.size != born.size:
+            failed[0] = -1.0
+            return
+        good = all_finite(value, born)
+        if i == chosen[0]:
+            copy_into(first, child, 0)
+            copy_into(first, born, child.size)
+        if not good and count_failure(failed, child) and strict:
+            return
+        call(update, (rng, child, born, partners, designs, values, weights, ideal))
+
+
+@compiled(inline="always")
+def all_finite(value: Real, born: Real) -> bool:
+    """Whether values (k,) are finite; copy them into `born`, or else `WORST`."""
+    good = True
+    for j in range(born.size):
+        born[j] = value[j]
+        good = good and abs(born[j]) < WORST
+    for j in range(born.size):
+        born[j] = born[j] if good else WORST
+    return good
+
+
+@compiled(inline="always")
+def count_failure(failed: Real, child: Real) -> bool:
+    """Count a failure in `failed` (1 + d,) and return True; keep the child of the first one."""
+    if failed[0] == 0.0:
+        for v in range(child.size):
+            failed[1 + v] = child[v]
+    failed[0] += 1.0
+    return True
+
+
+@compiled(inline="always")
+def copy_into(target: Real, source: Real, offset: int) -> None:
+    """Copy an array (k,) to a place in another."""
+    for v in range(source.size):
+        target[offset + v] = source[v]
+
+
+@compilable()
+def all_below(indices: Integer, count: int) -> bool:
+    """Whether there are two or more indices, from 0 to count - 1."""
+    good = indices.size > 1
+    for i in indices:
+        good = good and 0 <= i < count
+    return good
+
+
+@compilable()
+def place_of(child: Real, box: Real) -> float:
+    """Return 0 for a child (d,) in the box (2, d), otherwise its mark of `_FAULTS`."""
+    if child.size != box.shape[1]:
+        return -3.0
+    for v in range(child.size):
+        if not box[0, v] <= child[v] <= box[1, v]:
+            return -4.0
+    return 0.0
 
 
 _STORED, _FRESH = compiled()(work_on), njit(work_on)

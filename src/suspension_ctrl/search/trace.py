@@ -1,5 +1,6 @@
 """Trace of a search: every design it evaluates and its populations at budgets of evaluations."""
 
+import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
@@ -8,10 +9,10 @@ import numpy as np
 
 from ..compiled import call, compilable, verb_of
 from ..quantities import FrozenMapping, Integer, Real
-from .driver import Optimiser
-from .kinds import coded, decoded
+from .evaluation import FailureWarning, Judged
 from .population import Population, State
 from .problem import Kernel, Minimisable
+from .run import Optimiser
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -29,14 +30,17 @@ def trace(problem: Minimisable, optimiser: Optimiser, budgets: Iterable[int], se
     if not ordered or ordered[0] < optimiser.population:
         raise ValueError(f"budgets must be >= {optimiser.population} evaluations, the start, got {ordered}")
     recorded = Recorded(problem, ordered[-1])
-    searched = coded(recorded)
+    judged = Judged(recorded, strict=False)
+    judged.reference = problem.evaluate  # a comparison of the kernel is no part of the search
     states, spent = dict[int, State](), dict[int, int]()
-    for state in optimiser.search(searched, optimiser.toolbox(recorded), np.random.default_rng(seed)):
+    for state in optimiser.search(judged, optimiser.toolbox(recorded), np.random.default_rng(seed)):
         reached = [b for b in ordered if state.evaluations <= b < state.evaluations + per_iteration]
-        states |= dict.fromkeys(reached, replace(state, designs=decoded(searched, state.designs)))
+        states |= dict.fromkeys(reached, replace(state, designs=judged.decode(state.designs)))
         spent |= dict.fromkeys(reached, recorded.count)
         if ordered[-1] in states:
             break
+    if judged.failures:
+        warnings.warn(judged.summary(state.evaluations), FailureWarning, stacklevel=2)
     designs, objectives, constraints = recorded.seen()
     return Trace(
         designs=designs, objectives=objectives, constraints=constraints,

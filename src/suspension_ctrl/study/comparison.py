@@ -7,12 +7,12 @@ from itertools import product
 
 from .. import checks
 from ..quantities import Record
-from ..search.driver import Optimiser
 from ..search.gamultiobj import Gamultiobj
 from ..search.indicators import ReferenceFront
 from ..search.moead_dra import MoeadDra
 from ..search.nsga2 import Nsga2
 from ..search.problem import Described
+from ..search.run import Optimiser
 from ..search.sampling import Sampling
 from .study import PlannedRun, Study
 

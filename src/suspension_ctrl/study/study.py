@@ -11,9 +11,9 @@ import pandas as pd
 
 from .. import checks
 from ..quantities import FrozenMapping, Record
-from ..search.driver import Optimiser
 from ..search.indicators import ReferenceFront, best_of, evenly_spread
 from ..search.problem import Minimisable
+from ..search.run import Optimiser
 from ..search.trace import Trace, trace
 from ..tables import file_name
 from .calls import outcome, outcomes

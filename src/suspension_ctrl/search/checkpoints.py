@@ -1,0 +1,81 @@
+"""Runs in files: arrays and JSON in one ``.npz``, from which nothing is executed when it is read."""
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+from zipfile import BadZipFile
+
+import numpy as np
+
+from .. import checks, tables
+from ..quantities import FrozenMapping
+from .gamultiobj import Gamultiobj
+from .moead_dra import MoeadDra
+from .nsga2 import Nsga2
+from .population import State
+from .run import Checkpoint, Log, Run
+from .sampling import Sampling
+
+OPTIMISERS = {kind.__name__: kind for kind in (Nsga2, MoeadDra, Gamultiobj, Sampling)}
+"""Optimisers whose settings a file can hold."""
+
+LARGEST = 2000.0
+"""Largest file that is read [MB]."""
+
+
+def save(run: Run, path: Path) -> None:
+    """Write a run to a file, whole or not at all."""
+    optimiser, state, generator = run.checkpoint
+    kind = type(optimiser).__name__
+    if OPTIMISERS.get(kind) is not type(optimiser):
+        raise ValueError(f"optimiser must be one of {', '.join(OPTIMISERS)} to be saved, got {kind}")
+    text = {
+        "optimiser": [kind, asdict(optimiser)],
+        "generator": dict(generator), "headers": run.headers, "columns": run.log.columns,
+        "seed": run.seed, "failures": run.failures, "repeats": run.repeats, "evaluations": state.evaluations,
+    }  # fmt: skip
+    arrays = {f"memory_{name}": value for name, value in state.memory.items()}
+    names = ("designs", "objectives", "constraints")
+    arrays |= {name: getattr(run, name) for name in names} | {f"state_{n}": getattr(state, n) for n in names}
+    arrays |= {"ideal": state.ideal, "rows": np.array(run.log.rows), "text": np.array(json.dumps(text))}
+    tables.write_whole(path, lambda temporary: _write(temporary, arrays))
+
+
+def _write(path: Path, arrays: dict[str, Any]) -> None:
+    with path.open("wb") as file:  # a name would get another ending
+        np.savez(file, allow_pickle=False, **arrays)
+
+
+def load(path: Path) -> Run:
+    """Return the run of a file; ValueError if it holds none."""
+    checks.regular(path, LARGEST)
+    try:
+        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as file:
+            found = {name: file[name] for name in file.files}
+        text = json.loads(str(found["text"]))
+        kind, settings = text["optimiser"]
+        optimiser = OPTIMISERS[kind](**settings)
+        memory = {name.removeprefix("memory_"): x for name, x in found.items() if name.startswith("memory_")}
+        state = State(
+            designs=found["state_designs"], objectives=found["state_objectives"],
+            constraints=found["state_constraints"], ideal=found["ideal"], evaluations=text["evaluations"],
+            memory=FrozenMapping(memory),
+        )  # fmt: skip
+        columns, rows = (
+            tuple(text["columns"]),
+            tuple((int(i), int(n), *rest) for i, n, *rest in found["rows"].tolist()),
+        )
+        last = dict(zip(columns, rows[-1], strict=True))
+        np.random.default_rng(0).bit_generator.state = text["generator"]
+        return Run(
+            designs=found["designs"], objectives=found["objectives"], constraints=found["constraints"],
+            headers=tuple(text["headers"]), evaluations=text["evaluations"], seconds=last["seconds"],
+            cpu_seconds=last["cpu_seconds"], seed=text["seed"], log=Log(columns, rows), failures=text["failures"],
+            repeats=text["repeats"],
+            checkpoint=Checkpoint(optimiser, state, text["generator"]),
+        )  # fmt: skip
+    except (BadZipFile, EOFError, LookupError, OSError, TypeError, ValueError) as error:
+        if isinstance(error, FileNotFoundError):
+            raise
+        raise ValueError(f"{str(path)!r} must be a run written by save, got another or a spoilt file") from None
