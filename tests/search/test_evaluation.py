@@ -115,7 +115,8 @@ def test_an_exception_ends_the_search_and_carries_the_run(optimiser):
     calls[0] = 1001
     with pytest.raises(RuntimeError) as caught:
         minimise(Problem(evaluate=raising, **BOX), optimiser, evaluations=4000, seed=1)
-    assert caught.value.run is None
+    assert len(caught.value.run.designs) == caught.value.run.evaluations == 0
+    assert "no feasible design" in repr(caught.value.run)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT for a child process")

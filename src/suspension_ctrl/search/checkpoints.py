@@ -28,6 +28,8 @@ def save(run: Run, path: Path) -> None:
     """Write a run to a file, whole or not at all."""
     optimiser, state, generator = run.checkpoint
     kind = type(optimiser).__name__
+    if state is None:
+        raise ValueError("run must have designs to be saved, got none")
     if OPTIMISERS.get(kind) is not type(optimiser):
         raise ValueError(f"optimiser must be one of {', '.join(OPTIMISERS)} to be saved, got {kind}")
     text = {

@@ -75,7 +75,7 @@ def minimise(
         returns a wrong shape, or a verb what it must not.
     Exception
         Whatever the evaluation raises, and KeyboardInterrupt, ends the search; the attribute ``run`` of the
-        exception is the run so far, None before the end of the start.
+        exception is the run so far, without designs before the end of the start.
 
     Warns
     -----
@@ -126,6 +126,7 @@ class _Search:
         given = with_deap_operators(toolbox or default, problem)
         self.toolbox = with_checked_verbs(given, default, self.judged)
         self.rng = np.random.default_rng(seed)
+        self.generator = self.rng.bit_generator.state
         self.repeats_before = 0
         self.rows: list[tuple[float, ...]] = []
         self.state: State | None = None
@@ -162,7 +163,7 @@ class _Search:
                 if len(self.rows) > last or perf_counter() >= end:
                     break
         except BaseException as error:
-            error.run = self.run() if self.rows else None  # type: ignore[attr-defined]
+            error.run = self.run()  # type: ignore[attr-defined]
             raise
         run = self.run()
         if self.problem.constraints and not run.feasible.any():
@@ -195,8 +196,11 @@ class _Search:
 
     def run(self) -> Run:
         """Return the run so far."""
-        state, last = self.state, self.rows[-1]
-        assert state is not None
+        state, m = self.state, len(self.problem.objectives)
+        seconds, cpu_seconds = self.rows[-1][2:4] if self.rows else (0.0, 0.0)
+        if state is None:  # nothing has been evaluated
+            d, c = len(self.judged.lower), len(self.problem.constraints)
+            state = State.of(np.empty((0, d)), np.empty((0, m + c)), np.full(m, np.inf), 0)
         phases = [f"{phase}_seconds" for phase in self.optimiser.phases]
         ideal = [f"ideal_{name}" for name in self.problem.objectives]
         log = Log(("iteration", "evaluations", "seconds", "cpu_seconds", *phases, *ideal), tuple(self.rows))
@@ -205,9 +209,9 @@ class _Search:
             objectives, constraints = (np.where(x < WORST, x, np.nan) for x in (objectives, constraints))
         return Run(
             designs=self.judged.decode(state.designs), objectives=objectives, constraints=constraints,
-            headers=headers_of(self.problem), evaluations=int(state.evaluations), seconds=last[2],
-            cpu_seconds=last[3], seed=self.seed, log=log, failures=self.judged.failures, repeats=self.repeats,
-            checkpoint=Checkpoint(self.optimiser, state, self.generator),
+            headers=headers_of(self.problem), evaluations=int(state.evaluations), seconds=seconds,
+            cpu_seconds=cpu_seconds, seed=self.seed, log=log, failures=self.judged.failures, repeats=self.repeats,
+            checkpoint=Checkpoint(self.optimiser, self.state, self.generator),
         )  # fmt: skip
 
 

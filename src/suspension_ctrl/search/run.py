@@ -133,7 +133,7 @@ class Checkpoint(NamedTuple):
     """A search after an iteration: its optimiser, its state and the state of its generator."""
 
     optimiser: Optimiser
-    state: State
+    state: State | None  # None before the end of the start
     generator: Mapping[str, Any]
 
 

@@ -60,11 +60,11 @@ def sweep_sequential(
     box = np.array([problem.lower, problem.upper], dtype=float)
     failed, first = np.zeros(1 + box.shape[1]), np.zeros(box.shape[1] + population.values.shape[1])
     try:
-        function(rng, chosen, population, box, ours, judged.strict, failed, first, *verbs)
+        mark = function(rng, chosen, population, box, ours, judged.strict, failed, first, *verbs)
     except NumbaError as error:
         raise ValueError(f"verbs must compile together, got {str(error).splitlines()[0]}") from None
-    if failed[0] < 0:
-        raise ValueError(_FAULTS[int(failed[0])])
+    if mark:
+        raise ValueError(_FAULTS[mark])
     if failed[0]:
         judged.fail("kernel", int(failed[0]), judged.decode(failed[np.newaxis, 1:])[0])
     if function is not work_on and not judged.compared:
@@ -116,41 +116,37 @@ def work_on(
     mutate: Any,
     update: Any,
     evaluate: Any,
-) -> None:
+) -> int:
     """Make, evaluate and place one child for each chosen subproblem, in order.
 
     Into `failed` (1 + d,) go the number of children that could not be evaluated, one at most if `strict`, and the
-    first of them; a mark of `_FAULTS` for verbs that are not `trusted` and leave the `box` (2, d), or a kernel.
-    Into `first` (d + m + c,) go the first child and its values.
+    first of them; into `first` (d + m + c,) the first child and its values. Return 0, or a mark of `_FAULTS` for
+    a kernel, or verbs that are not `trusted` and leave the `box` (2, d).
     """
     designs, values, ideal, weights, neighbours = population
     born = np.empty(values.shape[1])
     for i in chosen:
         partners = call(mating_range, (rng, i, neighbours))
         if not trusted and not all_below(partners, designs.shape[0]):
-            failed[0] = -2.0
-            return
+            return -2
         child = call(reproduce, (rng, designs, i, partners))
         if child.size != designs.shape[1]:
-            failed[0] = -3.0
-            return
+            return -3
         child = call(repair, (rng, child, designs[i]))
         child = call(mutate, (rng, child))
-        if not trusted:
-            failed[0] = place_of(child, box) or failed[0]
-            if failed[0] < 0.0:
-                return
+        if not trusted and place_of(child, box) < 0:
+            return place_of(child, box)
         value = call(evaluate, (child,))
         if value.size != born.size:
-            failed[0] = -1.0
-            return
+            return -1
         good = all_finite(value, born)
         if i == chosen[0]:
             copy_into(first, child, 0)
             copy_into(first, born, child.size)
         if not good and count_failure(failed, child) and strict:
-            return
+            return 0
         call(update, (rng, child, born, partners, designs, values, weights, ideal))
+    return 0
 
 
 @compiled(inline="always")
@@ -192,14 +188,14 @@ def all_below(indices: Integer, count: int) -> bool:
 
 
 @compilable()
-def place_of(child: Real, box: Real) -> float:
+def place_of(child: Real, box: Real) -> int:
     """Return 0 for a child (d,) in the box (2, d), otherwise its mark of `_FAULTS`."""
     if child.size != box.shape[1]:
-        return -3.0
+        return -3
     for v in range(child.size):
         if not box[0, v] <= child[v] <= box[1, v]:
-            return -4.0
-    return 0.0
+            return -4
+    return 0
 
 
 _STORED, _FRESH = compiled()(work_on), njit(work_on)
