@@ -21,8 +21,8 @@ from peers import Prepare, Task
 from suspension_ctrl import MoeadDra, Nsga2, Problem, checks, minimise
 from suspension_ctrl import tables as files
 from suspension_ctrl.commands import options, results, terminal
-from suspension_ctrl.search.driver import Optimiser
 from suspension_ctrl.search.indicators import ReferenceFront, best_of
+from suspension_ctrl.search.run import Optimiser
 from suspension_ctrl.search.trace import Recorded, trace
 from suspension_ctrl.study import comparison, inference
 
