@@ -1,6 +1,7 @@
 # make compare   the paper's experiment: creates .venv, installs, runs (ARGS="--quick" for the short form)
 # make test      the same set-up, all tests
 # make bench     speed beside other libraries, which it installs; writes docs/performance.md (ARGS="--quick": does not)
+# make soak     kills, full disks, spoilt files, lost workers; writes docs/reliability.md (ARGS="--quick": does not)
 # make lint      ruff and mypy
 
 PYTHON ?= python3
@@ -9,7 +10,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 PEERS := $(VENV)/.peers
 
-.PHONY: compare test bench lint clean
+.PHONY: compare test bench soak lint clean
 
 compare: $(READY)
 	$(BIN)/python scripts/compare.py $(ARGS)
@@ -20,6 +21,9 @@ test: $(READY)
 bench: $(PEERS)
 	$(BIN)/python benchmarks/benchmark.py $(or $(ARGS),--docs docs)
 	$(BIN)/python -m pytest benchmarks/bench --benchmark-only --benchmark-group-by=group
+
+soak: $(READY)
+	cd benchmarks && ../$(BIN)/python -m soak $(or $(ARGS),--docs ../docs)
 
 lint: $(READY)
 	$(BIN)/ruff check
