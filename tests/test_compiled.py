@@ -1,8 +1,10 @@
 """Verbs: settings with a method that compiled loops call, and which of them numba can store."""
 
 import os
+import shutil
 import subprocess
 import sys
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,6 +12,7 @@ import pytest
 from numba import njit
 from numba.extending import register_jitable
 
+import suspension_ctrl
 from functions import dtlz2, srn
 from suspension_ctrl import MoeadDra, Nsga2, minimise
 from suspension_ctrl.compiled import call, call_compiled, storable, verb_of
@@ -182,3 +185,24 @@ def test_nothing_is_compiled_at_import(tmp_path):
         [sys.executable, "-c", IMPORT], capture_output=True, text=True, check=True, env=environment
     )
     assert done.stdout.split() == ["0", "1"]
+
+
+def test_a_read_only_installation_without_a_home_compiles_in_every_process(tmp_path):
+    """Files in place of the folders for caches stand for folders that cannot be written."""
+    copy = tmp_path / "suspension_ctrl"
+    shutil.copytree(Path(suspension_ctrl.__file__).parent, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    for folder in [copy, *(path for path in copy.rglob("*") if path.is_dir())]:
+        (folder / "__pycache__").touch()
+    program = (
+        "import numpy as np, suspension_ctrl as sc\n"
+        "p = sc.Problem(evaluate=lambda x: np.c_[x, 1 - x], lower=(0,), upper=(1,), objectives=('a', 'b'))\n"
+        "print(len(sc.minimise(p, sc.Nsga2(population=20), iterations=2, seed=0).designs), sc.__file__)"
+    )
+    kept = {name: value for name, value in os.environ.items() if name not in ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME")}
+    nowhere = {"HOME": str(tmp_path / "none" / "x"), "PYTHONPATH": str(tmp_path), "PYTHONDONTWRITEBYTECODE": "1"}
+    (tmp_path / "none").touch()  # no folder can be made below it
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", program], env=kept | nowhere, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split() == ["20", str(copy / "__init__.py")]

@@ -123,3 +123,35 @@ def test_an_empty_set_is_worse_than_any():
     assert front.hypervolume(nothing) == front.relative_hypervolume(nothing) == 0
     assert front.igd_plus(nothing) == front.epsilon(nothing) == np.inf
     assert np.isnan(front.spread(nothing))
+
+
+@pytest.mark.parametrize("m", [2, 5, 8])
+def test_a_flat_or_single_front_gives_numbers(m):
+    """One point (2, ..., 2): a volume of 1.1^m in units of its values, (1.1 - 0.5) 1.1^(m - 1) of 1.5 times it."""
+    front = ReferenceFront.of(np.full((1, m), 2.0))
+    assert front.volume == pytest.approx(1.1**m, rel=1e-3)
+    worse = np.full((1, m), 2.0)
+    worse[0, 0] = 3.0
+    assert front.relative_hypervolume(worse) == pytest.approx(0.6 / 1.1, rel=2e-3)
+    assert front.igd_plus(worse) == pytest.approx(0.5)
+    assert front.epsilon(worse) == pytest.approx(0.5)
+    assert np.isnan(front.spread(worse))
+
+
+def test_an_objective_that_does_not_vary_does_not_count():
+    line = np.column_stack([np.linspace(0, 1, 50), np.linspace(1, 0, 50)])
+    for value in (3.3, 0.0):
+        flat = ReferenceFront.of(np.column_stack([line, np.full(50, value)]))
+        part = np.column_stack([line[:20], np.full(20, value)])
+        plain = ReferenceFront.of(line)
+        assert flat.relative_hypervolume(part) == pytest.approx(plain.relative_hypervolume(line[:20]), rel=1e-12)
+        assert flat.igd_plus(part) == pytest.approx(plain.igd_plus(line[:20]), rel=1e-12)
+
+
+@pytest.mark.parametrize("m", [4, 6, 8, 10])
+def test_hypervolume_of_many_objectives_is_near_its_closed_form(m):
+    """The corners of a simplex leave a cube of 1 undominated; above five objectives it is an approximation."""
+    front = ReferenceFront(np.eye(m), np.zeros(m), np.ones(m), 1.0)
+    assert front.hypervolume(np.eye(m)) == pytest.approx(1.1**m - 1, rel=1e-12 if m <= front.EXACT else 5e-3)
+    assert front.hypervolume(np.zeros((1, m))) == pytest.approx(1.1**m, rel=1e-12 if m <= front.EXACT else 1e-3)
+    assert front.hypervolume(np.empty((0, m))) == 0

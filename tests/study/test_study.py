@@ -13,7 +13,7 @@ from suspension_ctrl.search.indicators import ReferenceFront, non_dominated
 from suspension_ctrl.search.sampling import Sampling
 from suspension_ctrl.search.trace import trace
 from suspension_ctrl.study.store import FolderStore
-from suspension_ctrl.study.study import ARCHIVE, CUT_ARCHIVE, INDICATORS, POPULATION, Study
+from suspension_ctrl.study.study import ARCHIVE, CUT_ARCHIVE, INDICATORS, POPULATION, ApproximationWarning, Study
 
 F1 = np.linspace(0, 1, 200)
 ZDT1_FRONT = ReferenceFront.of(np.stack([F1, 1 - np.sqrt(F1)], axis=1))
@@ -261,3 +261,42 @@ def test_final_designs_of_problems_with_and_without_constraints_stand_in_one_tab
     sizes = {"zdt1": len(store["zdt1_sobol_n20_s1"].final), "srn": feasible}
     assert finals.groupby("problem", sort=False).size().to_dict() == sizes
     assert "violation" not in finals
+
+
+def sphere(x: np.ndarray) -> np.ndarray:
+    """Eight objectives on the unit sphere, times a distance of 1 or more."""
+    angles, g = x[:, :7] * np.pi / 2, 1 + ((x[:, 7:] - 0.5) ** 2).sum(axis=1)
+    sines = np.cumprod(np.column_stack([np.ones(len(x)), np.sin(angles)]), axis=1)
+    return g[:, None] * sines * np.column_stack([np.cos(angles), np.ones(len(x))])
+
+
+def test_eight_objectives_are_judged_by_an_approximation_that_is_told():
+    """A search of 1,000 evaluations, whose exact hypervolume takes minutes."""
+    problem = Problem(evaluate=sphere, lower=(0,) * 12, upper=(1,) * 12, objectives=[f"f{i}" for i in range(8)])
+    one = Study(problems={"many": problem}, algorithms={"a": Nsga2(population=100)}, seeds=[0], budgets=[1000])
+    said = "^problem 'many' has 8 objectives: its hypervolumes are approximations by moocore$"
+    with pytest.warns(ApproximationWarning, match=said):
+        found = one.run().set_index("set")
+    assert found.error.eq("").all()
+    assert found.relative_hypervolume[ARCHIVE] == pytest.approx(1)
+    assert found.relative_hypervolume.between(0.5, 1.001).all()
+
+
+def test_a_flat_front_is_judged_against_a_given_one_and_told_without():
+    """An objective of 3.3 everywhere changes nothing of ZDT1's values."""
+
+    def flat(x: np.ndarray) -> np.ndarray:
+        return np.column_stack([zdt1(4).evaluate(x), np.full(len(x), 3.3)])
+
+    problem = Problem(evaluate=flat, lower=(0,) * 4, upper=(1,) * 4, objectives=("f1", "f2", "f3"))
+    one = Study(problems={"p": problem}, algorithms={"a": Sampling(population=20)}, seeds=[1], budgets=[40])
+    assert (
+        one.run()
+        .error.item()
+        .startswith("ValueError: the best designs of all runs must differ in every objective, got ")
+    )
+    front = ReferenceFront.of(np.column_stack([ZDT1_FRONT.objectives, np.full(200, 3.3)]))
+    found = replace(one, references={"p": front}).run().set_index("set")
+    plain = replace(one, problems={"p": zdt1(4)}, references={"p": ZDT1_FRONT}).run().set_index("set")
+    for name in ("relative_hypervolume", "igd_plus"):
+        assert found[name][ARCHIVE] == pytest.approx(plain[name][ARCHIVE], rel=1e-9)

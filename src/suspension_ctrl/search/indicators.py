@@ -102,7 +102,7 @@ class ReferenceFront(Record):
     def hypervolume(self, objectives: ArrayLike) -> float:
         """Return the volume that objectives (n, m) dominate below 1.1 in scaled objectives [-].
 
-        Of more than `EXACT` objectives it is moocore's approximation, within 1e-3 (relative).
+        Of more than `EXACT` objectives it is moocore's approximation, good to some 1e-3 (relative).
         """
         scaled, corner = self.scaled(objectives), self.HYPERVOLUME_REFERENCE
         if scaled.shape[-1] <= self.EXACT or len(scaled) == 0:
