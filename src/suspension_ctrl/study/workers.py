@@ -44,7 +44,8 @@ def local_cluster(jobs: int, dashboard: str | None = None) -> AbstractContextMan
 
 @contextmanager
 def _local_cluster(jobs: int, dashboard: str | None) -> Iterator["Client"]:
-    import dask
+    with installed("study"):
+        import dask
 
     with ExitStack() as stack:
         stack.enter_context(dask.config.set(_SETTINGS))
@@ -67,8 +68,7 @@ def _local_cluster(jobs: int, dashboard: str | None) -> Iterator["Client"]:
 
 def _started(jobs: int, dashboard: str | None) -> tuple[Any, "Client"]:
     """Start processes and a client of them."""
-    with installed("study"):
-        from distributed import Client, LocalCluster  # over a second: only where it is used
+    from distributed import Client, LocalCluster  # over a second: only where it is used
 
     # Dask's server of metrics starts in any case; without an address it listens to the network.
     scheduler = {"dashboard": dashboard is not None, "dashboard_address": dashboard or "127.0.0.1:0"}
