@@ -31,10 +31,10 @@ COLUMNS = ("tried", "lost", "repeated", "differing", "unnamed", "left")
 
 def rows(folder: Path, *, quick: bool) -> Iterator[Counts]:
     """Yield the counts of each kind of abuse."""
-    yield from kills.killed(folder / "killed", 4 if quick else 100)
-    yield disks.two_writers(folder, 100 if quick else 1000)
-    yield from disks.full(folder / "full", mounted=not quick and disks.may_mount())
-    yield spoilt.spoilt(folder / "spoilt", 9 if quick else None)
+    yield from kills.killed(folder / "killed", 2 if quick else 100)
+    yield disks.two_writers(folder, 60 if quick else 1000)
+    yield from disks.full(folder / "full", mounted=not quick and disks.may_mount(), sizes=1 if quick else 2)
+    yield spoilt.spoilt(folder / "spoilt", 13 if quick else None)
     if not quick:
         yield processes.deadly_runs()
         yield processes.workers_killed(folder / "workers", 5)

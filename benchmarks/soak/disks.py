@@ -48,14 +48,14 @@ def two_writers(folder: Path, writes: int) -> Counts:
     return counts
 
 
-def full(folder: Path, *, mounted: bool) -> list[Counts]:
+def full(folder: Path, *, mounted: bool, sizes: int = 2) -> list[Counts]:
     """Fill the disk of a campaign at several sizes, then make room: one line says where and how to go on."""
     undisturbed = folder / "roomy"
     undisturbed.mkdir(parents=True)
     campaign.finish(undisturbed)
     wanted = campaign.table_of(undisturbed)
     largest = max(path.stat().st_size for path in (undisturbed / campaign.RESULTS).rglob("*.csv"))
-    rows = [_limited(folder, wanted, [largest // 2, largest - 1])]
+    rows = [_limited(folder, wanted, [largest // 2, largest - 1][:sizes])]
     return [*rows, _mounted(folder, wanted, [60, 120, 240])] if mounted else rows
 
 
