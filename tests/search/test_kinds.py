@@ -165,7 +165,7 @@ def test_a_toolbox_made_before_gives_the_same_run():
         minimise(problem, optimiser, iterations=3, seed=1, toolbox=toolbox)
         for toolbox in (None, optimiser.toolbox(problem))
     ]
-    assert set(told) <= {20, 3}  # the start, and a comparison with the kernel if any
+    assert sum(told) <= 2 * (20 + 6)  # the start and what a kernel is compared with; in Python 12 children more
     np.testing.assert_array_equal(runs[0].designs, runs[1].designs)
 
 
