@@ -1,6 +1,7 @@
 """Evaluation of designs in a search: shapes are checked, and designs that cannot be evaluated count as worst."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -32,6 +33,7 @@ class Judged:
         self.evaluate = self.reference = problem.evaluate
         self.strict, self.compared = strict, problem.kernel is None
         self.failures, self.first = 0, ""
+        self.sweep: Any = None  # of MOEA/D-DRA, once it is known
 
     @classmethod
     def of(cls, problem: Minimisable) -> "Judged":

@@ -1,5 +1,6 @@
 """One iteration of MOEA/D-DRA over the chosen subproblems: from mating range to replacement."""
 
+from collections.abc import Callable
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -48,15 +49,8 @@ def sweep_sequential(
     Runs compiled if every verb is compiled and the problem has a kernel, otherwise in Python with the same draws.
     A kernel is compared with `evaluate` after the first sweep.
     """
-    verbs = [compiled_verb(untimed(getattr(toolbox, name))) for name in VERBS]
-    verbs.append(compiled_evaluation(toolbox, problem))
-    ours = all(map(storable, verbs))
-    function = _STORED if ours else _FRESH
-    if None in verbs:
-        function = work_on
-        verbs = [getattr(toolbox, name) for name in VERBS]
-        verbs.append(lambda child: evaluate_checked(toolbox.evaluate, child[np.newaxis], problem)[0])
     judged = Judged.of(problem)
+    judged.sweep = function, ours, verbs = judged.sweep or swept_by(toolbox, judged)
     box = np.array([problem.lower, problem.upper], dtype=float)
     failed, first = np.zeros(1 + box.shape[1]), np.zeros(box.shape[1] + population.values.shape[1])
     try:
@@ -71,6 +65,18 @@ def sweep_sequential(
         judged.compared = True
         child, found = np.split(first, [box.shape[1]])
         compare_kernel(child, found, judged)
+
+
+def swept_by(toolbox: Toolbox, problem: Judged) -> tuple[Callable[..., int], bool, list[Any]]:
+    """Return the function of a search's sweeps, whether all its verbs are of this package, and these verbs."""
+    verbs = [compiled_verb(untimed(getattr(toolbox, name))) for name in VERBS]
+    verbs.append(compiled_evaluation(toolbox, problem))
+    if None not in verbs:
+        ours = all(map(storable, verbs))
+        return (_STORED if ours else _FRESH), ours, verbs
+    verbs = [getattr(toolbox, name) for name in VERBS]
+    verbs.append(lambda child: evaluate_checked(toolbox.evaluate, child[np.newaxis], problem)[0])
+    return work_on, False, verbs
 
 
 def sweep_batch(
