@@ -186,6 +186,18 @@ def test_operators_of_deap_vary_codes():
     assert ((run.designs >= BOUNDS["lower"]) & (run.designs <= BOUNDS["upper"])).all()
 
 
+@every_optimiser
+@pytest.mark.parametrize("problem", [Problem(**MIXED), whole_and_catalogue(Seen())], ids=["mixed", "discrete"])
+def test_a_search_goes_on_from_its_codes(optimiser, problem):
+    whole = minimise(problem, optimiser, iterations=6, seed=1)
+    half = pickle.loads(pickle.dumps(minimise(problem.replace(), optimiser, iterations=3, seed=1)))
+    rest = half.resume(problem, iterations=3)
+    np.testing.assert_array_equal(rest.designs, whole.designs)
+    np.testing.assert_array_equal(rest.objectives, whole.objectives)
+    assert rest.evaluations == whole.evaluations
+    assert half.repeats <= rest.repeats <= whole.repeats
+
+
 def test_every_search_evaluates_anew():
     seen = Seen()
     problem = whole_and_catalogue(seen)

@@ -73,8 +73,11 @@ class Coded:
     """
 
     def __init__(self, problem: "Minimisable") -> None:
-        self.problem, self.evaluate = problem, problem.evaluate
-        self.objectives, self.constraints = problem.objectives, problem.constraints
+        self.evaluate, self.objectives, self.constraints = (
+            problem.evaluate,
+            problem.objectives,
+            problem.constraints,
+        )
         names = getattr(problem, "variables", ()) or [f"x{i + 1}" for i in range(len(problem.lower))]
         kinds = getattr(problem, "kinds", {})
         self.variables = tuple(names)
