@@ -87,11 +87,14 @@ def searches(population: int, evaluations: int) -> dict[str, Search]:
 
 
 def scaled(name: str) -> tuple[Problem, ReferenceFront]:
-    """Return a problem in objectives scaled to its known front, as pymoo's MOEA/D scales none, and that front."""
+    """Return a problem in objectives scaled to its known front, and that front.
+
+    MOEA/D of pymoo does not scale objectives, and does not know kinds of variables: these are left to the formula.
+    """
     problem, front = engineering.problem(name), known.reference(name)
     one = np.ones(front.ideal.size)
     unit = ReferenceFront(front.objectives, 0 * one, one, front.volume)
-    return problem.replace(evaluate=lambda designs: front.scaled(problem.evaluate(designs))), unit
+    return problem.replace(evaluate=lambda designs: front.scaled(problem.evaluate(designs)), kinds={}), unit
 
 
 def beside_pymoo(

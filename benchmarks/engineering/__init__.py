@@ -2,10 +2,11 @@
 
 R. Tanabe, H. Ishibuchi, "An easy-to-use real-world multi-objective optimization problem suite", Applied Soft
 Computing 89, 2020. A problem RE with constraints takes the sum of their violations for its last objective; its
-CRE counterpart keeps them. Whole and catalogue values are the nearest to real variables.
+CRE counterpart keeps them. The formulas round whole and catalogue values, as the suite's do, for searches on real
+variables alone.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 import numpy as np
@@ -34,6 +35,13 @@ _MODELS: dict[str, Model] = {
     "RE41": (formulas.side_impact, (0.5, 0.45, 0.5, 0.5, 0.875, 0.4, 0.4), (1.5, 1.35, 1.5, 1.5, 2.625, 1.2, 1.2)),
     "RE42": (formulas.bulk_carrier, (150, 20, 13, 10, 14, 0.63), (274.32, 32.31, 25, 11.71, 18, 0.75)),
 }
+_KINDS: dict[str, Mapping[str, str | Sequence[float]]] = {
+    "RE22": {"x1": formulas.BAR_AREAS.tolist()},
+    "RE23": {"x1": "integer", "x2": "integer"},
+    "RE25": {"x1": "integer", "x3": formulas.WIRES[formulas.WIRES >= 0.09].tolist()},
+    "RE35": {"x3": "integer"},
+    "RE36": dict.fromkeys(("x1", "x2", "x3", "x4"), "integer"),
+}
 _CONSTRAINED = {
     "CRE21": "RE31", "CRE22": "RE32", "CRE23": "RE33", "CRE24": "RE35", "CRE25": "RE36", "CRE31": "RE41",
     "CRE32": "RE42",
@@ -45,7 +53,8 @@ NAMES = (*_MODELS, *_CONSTRAINED)
 
 def problem(name: str) -> Problem:
     """Return the problem of this name of the suite."""
-    formula, lower, upper = _MODELS[_CONSTRAINED.get(name, name)]
+    model = _CONSTRAINED.get(name, name)
+    formula, lower, upper = _MODELS[model]
     objectives, margins = formula(np.array([upper], dtype=float).T)
     separate = name in _CONSTRAINED
     m = len(objectives) + (1 if margins and not separate else 0)
@@ -55,6 +64,7 @@ def problem(name: str) -> Problem:
         upper=upper,
         objectives=tuple(f"f{j + 1}" for j in range(m)),
         constraints=tuple(f"g{j + 1}" for j in range(len(margins))) if separate else (),
+        kinds=_KINDS.get(model, {}),
     )
 
 

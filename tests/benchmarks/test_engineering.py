@@ -54,6 +54,20 @@ def test_catalogue_values_are_the_nearest():
     np.testing.assert_array_equal(engineering.formulas.nearest(values, x), expected)
 
 
+@pytest.mark.parametrize("name", ["RE22", "RE23", "RE25", "RE35", "RE36"])
+def test_formulas_round_to_the_kinds_of_variables(name):
+    """A design has the values of the nearest one of these kinds."""
+    problem = engineering.problem(name)
+    designs = np.random.default_rng(1).uniform(problem.lower, problem.upper, (200, len(problem.lower)))
+    rounded = designs.copy()
+    for variable, kind in problem.kinds.items():
+        column = rounded[:, problem.variables.index(variable)]
+        values = np.arange(column.min().round(), column.max().round() + 1) if kind == "integer" else np.array(kind)
+        column[:] = values[np.abs(column[:, np.newaxis] - values).argmin(axis=1)]
+    assert (rounded != designs).any()
+    np.testing.assert_array_equal(problem.evaluate(rounded), problem.evaluate(designs))
+
+
 def gear_trains(name: str) -> np.ndarray:
     """Feasible objectives (n, m) of all designs: drivers may be swapped, and followers."""
     pairs = np.array([(a, b) for a in range(12, 61) for b in range(a, 61)], dtype=float)
