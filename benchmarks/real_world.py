@@ -18,7 +18,7 @@ from typer import Option
 import engineering
 from engineering import fronts as known
 from peers import Prepare, Task
-from suspension_ctrl import MoeadDra, Nsga2, Problem, checks, minimise
+from suspension_ctrl import Problem, checks, minimise
 from suspension_ctrl import tables as files
 from suspension_ctrl.commands import options, results, terminal
 from suspension_ctrl.search.indicators import ReferenceFront, best_of
@@ -43,11 +43,8 @@ Folder = Annotated[Path | None, Option(help="Folder for the results, absent or e
 
 
 def ours(population: int) -> dict[str, Optimiser]:
-    """Return both optimisers and a random sample; MOEA/D-DRA has T = max(20, N / 10), n_r = max(2, N / 100)."""
-    near, limit = max(20 / population, 0.1), max(2 / population, 0.01)
-    moead_dra = MoeadDra(population=population, neighbourhood=near, replacement_limit=limit)
-    sample = comparison.optimiser("random", population)
-    return {"nsga2": Nsga2(population=population), "moead-dra": moead_dra, "random": sample}
+    """Return both optimisers and a random sample."""
+    return {name: comparison.optimiser(name, population) for name in ("nsga2", "moead-dra", "random")}
 
 
 def to_fronts(
@@ -70,7 +67,7 @@ def to_fronts(
 
 
 def searches(population: int, evaluations: int) -> dict[str, Search]:
-    """Return ours and pymoo's, the latter with neighbourhoods of T = 20 or N / 10 as well."""
+    """Return ours and pymoo's, the latter with neighbourhoods as large."""
     from peers import with_pymoo
 
     def minimised(optimiser: Optimiser, problem: Recorded, seed: int) -> Real:
