@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from math import ceil, floor
 from operator import eq
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -66,27 +67,28 @@ def not_negative(name: str, value: float, unit: str = "") -> None:
         raise ValueError(f"{name} must be finite and >= 0{f' {unit}'.rstrip()}, got {shown(value)}")
 
 
-def at_least(name: str, value: int, minimum: int) -> None:
-    """Raise ValueError unless `value` is a whole number of at least `minimum`."""
+def at_least(name: str, value: int, minimum: int) -> int:
+    """Return a whole number of any integer type as int; ValueError unless it is at least `minimum`."""
     if not (isinstance(value, int | np.integer) and not isinstance(value, bool) and value >= minimum):
         raise ValueError(f"{name} must be a whole number >= {minimum}, got {shown(value)}")
-
-
-def whole(name: str, value: int, minimum: int) -> int:
-    """Return a whole number of any integer type as int; ValueError unless it is at least `minimum`."""
-    at_least(name, value, minimum)
     return int(value)
 
 
 def reals(subject: str, values: object) -> NDArray[np.float64]:
     """Return values as a new float array; ValueError for what numpy could only make one by loss."""
+    return np.array(_of_reals(subject, values), dtype=float, order="C")
+
+
+def _of_reals(subject: str, values: object) -> NDArray[Any]:
     needed = "an array of real numbers"
     if np.ma.isMaskedArray(values) or isinstance(values, str | bytes | Mapping | Iterator | None):
         raise ValueError(f"{subject} {needed}, got {shown(values)}")
     try:
         array = np.asarray(values)
-        if array.dtype.kind in "biufO":
-            return np.array(array, dtype=float, order="C")
+        if array.dtype.kind in "biuf":
+            return array
+        if array.dtype.kind == "O":
+            return array.astype(float)
     except (TypeError, ValueError):  # rows of unequal length, texts or objects among the numbers
         pass
     raise ValueError(f"{subject} {needed}, got {shown(values)}")
@@ -175,7 +177,7 @@ def kind_ends(kind: str | tuple[float, ...], lower: float, upper: float) -> tupl
 
 def designs(values: ArrayLike, variables: int) -> NDArray[np.float64]:
     """Return `values` as a float array of shape (n, variables); ValueError for any other."""
-    array = np.ascontiguousarray(values, dtype=float)
+    array = np.ascontiguousarray(_of_reals("designs must be", values), dtype=float)
     if array.ndim != 2 or array.shape[1] != variables:
         raise ValueError(f"designs must have shape (n, {variables}), got {array.shape}")
     return array

@@ -276,3 +276,17 @@ def test_kinds_are_part_of_a_problem():
     assert held.evaluate([[20e3, 2e3]]) == pytest.approx(paper.ride_problem().evaluate([[20e3, 2e3]]), rel=1e-12)
     with pytest.raises(ValueError, match=r"^designs must lie within"):
         held.evaluate([[20.001e3, 2e3]])
+
+
+def test_designs_and_nodes_of_any_type_are_taken_or_refused():
+    """A small whole number of nodes does not wrap round; nothing is stripped in silence."""
+    problem, designs = paper.ride_problem(), [[20_000, 1500], [25_000, 2000]]
+    expected = problem.evaluate(designs)
+    for given_ in (np.array(designs, dtype=np.int32), np.asfortranarray(designs), np.array(designs, dtype=object)):
+        np.testing.assert_array_equal(problem.evaluate(given_), expected)
+    one, other = (paper.ride_problem(nodes=n).evaluate(designs) for n in (np.uint8(250), 250))
+    np.testing.assert_array_equal(one, other)
+    masked, rows = np.ma.array(designs, mask=[[0, 0], [1, 0]]), (row for row in designs)
+    for bad in (masked, np.array(designs) + 0j, [[20e3, 1500.0], [1.0]], {"spring": 1}, rows, "a"):
+        with pytest.raises(ValueError, match=r"^designs must be an array of real numbers, got .{1,40}$"):
+            problem.evaluate(bad)

@@ -229,7 +229,7 @@ class RideProblem(Record):
     def _resolving(self, nodes: int | None) -> int:
         """Return the nodes, found if not given; ValueError where they do not resolve every resonance."""
         if nodes is not None:
-            checks.at_least("nodes", nodes, 2)
+            nodes = checks.at_least("nodes", nodes, 2)
         taken = nodes or next((n for n in NODES if self._error(n) < RESOLVED), NODES[-1])
         if (error := self._error(taken)) < RESOLVED:
             return taken if nodes else _Found(taken)

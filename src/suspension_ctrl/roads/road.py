@@ -114,7 +114,7 @@ class Road(Checked, ABC):
         checks.positive("step", step, "m")
         checks.positive("length", length, "m")
         if not isinstance(seed, np.random.Generator):
-            checks.at_least("seed", seed, 0)
+            seed = checks.at_least("seed", seed, 0)
         y = np.asarray(tracks, dtype=float)
         if y.ndim != 1 or y.size == 0 or not np.isfinite(y).all():
             raise ValueError(f"tracks must be finite and one-dimensional, got {checks.shown(tracks)}")

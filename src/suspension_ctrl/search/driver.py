@@ -89,7 +89,7 @@ def minimise(
     count = _iteration_count(begin, optimiser, problem, iterations, evaluations, seconds)
     if seed is None:
         seed = int(np.random.SeedSequence().generate_state(1)[0])
-    search = _Search(problem, optimiser, toolbox, checks.whole("seed", seed, 0), failures)
+    search = _Search(problem, optimiser, toolbox, checks.at_least("seed", seed, 0), failures)
     if designs is not None:
         search.start_from(designs)
     return search.until(count, seconds, callback)
@@ -255,7 +255,7 @@ def _iteration_count(
         found = f"{iterations!r}, {evaluations!r} and {seconds!r}"
         raise ValueError(f"one of iterations and evaluations, or seconds, must be given, got {found}")
     if iterations is not None:
-        return checks.whole("iterations", iterations, 1)
+        return checks.at_least("iterations", iterations, 1)
     if evaluations is not None:
-        return (checks.whole("evaluations", evaluations, start + per_iteration) - start) // per_iteration
+        return (checks.at_least("evaluations", evaluations, start + per_iteration) - start) // per_iteration
     return inf

@@ -61,7 +61,7 @@ class Gamultiobj(Generational):
     phases: ClassVar[tuple[str, ...]] = ("sample", "evaluate", "tournament", "mate", "mutate", "select")
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "population", checks.whole("population", self.population, 4))
+        object.__setattr__(self, "population", checks.at_least("population", self.population, 4))
         checks.within("crossover_fraction", self.crossover_fraction, 0, 1)
         checks.within("pareto_fraction", self.pareto_fraction, 0, 1)
 

@@ -83,14 +83,14 @@ class MoeadDra:
     phases: ClassVar[tuple[str, ...]] = ("sample", "evaluate", "choose_subproblems", "sweep", "update_utility")
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "population", checks.whole("population", self.population, 4))
+        object.__setattr__(self, "population", checks.at_least("population", self.population, 4))
         for name in ("scale_factor", "mutation_eta", "utility_threshold"):
             checks.positive(name, getattr(self, name))
         for name in ("neighbourhood", "neighbour_probability", "replacement_limit", "mutation_probability"):
             if getattr(self, name) is not None:
                 checks.within(name, getattr(self, name), 0, 1)
         for name in ("tournament", "utility_period"):
-            checks.at_least(name, getattr(self, name), 1)
+            object.__setattr__(self, name, checks.at_least(name, getattr(self, name), 1))
         checks.one_of("normalise", self.normalise, (True, False))
         if self.objective_scales is not None:
             for scale in np.ravel(self.objective_scales):

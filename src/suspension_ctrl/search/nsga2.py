@@ -60,7 +60,7 @@ class Nsga2(Generational):
     phases: ClassVar[tuple[str, ...]] = ("sample", "evaluate", "tournament", "mate", "mutate", "select")
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "population", checks.whole("population", self.population, 4))
+        object.__setattr__(self, "population", checks.at_least("population", self.population, 4))
         checks.within("crossover_probability", self.crossover_probability, 0, 1)
         checks.positive("crossover_eta", self.crossover_eta)
         if self.mutation_probability is not None:

@@ -67,7 +67,7 @@ class Sampling(Generational):
     phases: ClassVar[tuple[str, ...]] = ("evaluate", "filter")
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "population", checks.whole("population", self.population, 4))
+        object.__setattr__(self, "population", checks.at_least("population", self.population, 4))
         checks.one_of("points", self.points, _POINTS)
 
     def toolbox(self, problem: Minimisable) -> Toolbox:

@@ -65,9 +65,8 @@ class Comparison(Record):
     def __post_init__(self) -> None:
         self._keep(**{name: tuple(getattr(self, name)) for name in ("algorithms", "populations", "iterations")})
         for name, least in (("repeats", 1), ("seeds", 1), ("seed", 0)):
-            checks.at_least(name, getattr(self, name), least)
-        for count in self.iterations:
-            checks.at_least("iterations", count, 1)
+            self._keep(**{name: checks.at_least(name, getattr(self, name), least)})
+        self._keep(iterations=tuple(checks.at_least("iterations", count, 1) for count in self.iterations))
         self.cost()
 
     def cost(self) -> dict[tuple[str, int], int]:

@@ -85,12 +85,11 @@ class Study(Record):
         for name in ("problems", "algorithms", "seeds", "budgets"):
             if len(getattr(self, name)) == 0:
                 raise ValueError(f"{name} must be one or more, got {getattr(self, name)!r}")
-        for seed in self.seeds:
-            checks.at_least("seeds", seed, 0)
+        self._keep(seeds=tuple(checks.at_least("seeds", seed, 0) for seed in self.seeds))
         if len(set(self.seeds)) < len(self.seeds):
             raise ValueError(f"seeds must be different, got {list(self.seeds)}")
-        for budget in self.budgets:
-            checks.at_least("budgets", budget, max(o.population for o in self.algorithms.values()))
+        start = max(o.population for o in self.algorithms.values())
+        self._keep(budgets=tuple(checks.at_least("budgets", budget, start) for budget in self.budgets))
         if len({run.name.casefold() for run in self.runs()}) < len(self.runs()):
             names = [*self.problems, *self.algorithms]
             raise ValueError(f"names must not give files of two runs the same name, got {names}")
