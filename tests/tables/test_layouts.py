@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from suspension_ctrl.layouts import HEAD, Layout
+from suspension_ctrl.tables.layouts import HEAD, Layout
 
 SIGNS = [("\t", "."), ("\t", ","), (";", "."), (";", ","), (",", "."), (" ", "."), (" ", ",")]
 

@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from uuid import uuid4
 
-from . import checks, escaping
-from .documents import naming
+from .. import checks, escaping
+from ..documents import naming
+from ..quantities import Real
 from .layouts import HEAD, Layout
-from .quantities import Real
 
 if TYPE_CHECKING:
     import pandas as pd

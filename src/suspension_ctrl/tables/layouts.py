@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self, TextIO
 
 import numpy as np
 
-from . import checks
-from .quantities import Real
+from .. import checks
+from ..quantities import Real
 
 if TYPE_CHECKING:
     import pandas as pd
