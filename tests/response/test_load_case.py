@@ -189,7 +189,7 @@ PLAIN = {"vehicle": FULL, "road": ROAD, "speed": 30.0}
         ({"cases": CASES[0]}, "cases must be a list of load cases, got one by itself"),
         ({**PLAIN, "bounds": {"rear.damper": (0.0, 1e3)}}, "lower bound of rear.damper must be finite and > 0"),
         ({**PLAIN, "bounds": {"front_antiroll": (-1.0, 1e3)}},
-         "bounds of front_antiroll must be finite with 0 <= lower < upper [N m/rad], got (-1.0, 1000.0)"),
+         "bounds of front_antiroll must be finite with 0 <= lower <= upper [N m/rad], got (-1.0, 1000.0)"),
         ({**PLAIN, "bounds": {}}, "bounds must hold one coefficient at least, got none"),
         ({**PLAIN, "bounds": None, "lower": (1e4, 1e3), "upper": (2e4, 2e3)},
          "lower and upper must bound front.spring, front.damper, rear.spring, rear.damper, got (10000.0, 1000.0)"),

@@ -85,7 +85,7 @@ def test_white_noise_road_velocity_gives_the_closed_forms(m_s, m_u, k_t, k, c, s
     car = QuarterCar(body_mass=m_s, wheel_mass=m_u, tyre_stiffness=k_t)
     end = 1000.0
     p = RideProblem(
-        car, road, speed=speed, weighting=None, band=(0.0, end), nodes=1500,
+        car, road, speed=speed, weighting=None, band=(0.0, end), nodes=3000,
         lower=(0.99 * k, 0.99 * c), upper=(1.01 * k, 1.01 * c),
     )  # fmt: skip
     s, m = 2 * np.pi**2 * road.roughness * speed, m_s + m_u
