@@ -118,7 +118,7 @@ def test_compare_takes_any_number_of_objectives(called, tmp_path, measures):
     ],
 )
 def test_limits_that_leave_no_front_are_one_line(called, tmp_path, limit, message):
-    """With limits near the least travel that 20 designs have: none within them, and two with an equal objective."""
+    """With limits near the least travel that 20 designs have: none within them; two, alike in one objective."""
     path = study(tmp_path, f'measures = ["ACC", "SWS", "DTL"]\nconstraints = ["SWS <= {limit}"]\n')
     done = called("compare", "--problem", path, "--populations", 20, "--iterations", 2, "--repeats", 1)
     assert done.returncode == 2
