@@ -130,7 +130,6 @@ class _Search:
         self.repeats_before = 0
         self.rows: list[tuple[float, ...]] = []
         self.state: State | None = None
-        self.clock = PhaseClock(self.toolbox, ())
 
     def start_from(self, designs: Real) -> None:
         """Put designs (k, d) before the samples of the toolbox."""
@@ -177,7 +176,7 @@ class _Search:
         arguments = (self.judged, self.toolbox, self.rng)
         going_on = () if self.state is None else (self.state,)
         number, _, wall, cpu, *phases = self.rows[-1] if self.rows else (-1, 0, 0.0, 0.0)
-        clock = self.clock = PhaseClock(self.toolbox, self.optimiser.phases)
+        clock = PhaseClock(self.toolbox, self.optimiser.phases)
         clock.seconds.update(zip(clock.seconds, phases, strict=False))
         search = self.optimiser.search(*arguments, *going_on)
         for iteration in itertools.count(int(number) + 1):
