@@ -270,3 +270,17 @@ def test_a_worker_of_another_version_is_refused(tmp_path, monkeypatch):
             clusters.scheduler_at(address, timeout=30.0),
         ):
             pass
+
+
+def test_clusters_follow_one_another_in_a_new_process(tmp_path):
+    """Settings of the first one take none of Dask's defaults with them."""
+    script = tmp_path / "script.py"
+    script.write_text(
+        "from suspension_ctrl.study.workers import local_cluster\n"
+        'if __name__ == "__main__":\n'
+        "    for jobs in (1, 2):\n"
+        "        with local_cluster(jobs) as client:\n"
+        "            print(len(client.scheduler_info()['workers']))\n"
+    )
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=120, check=False)
+    assert (done.stdout, done.stderr) == ("1\n2\n", "")

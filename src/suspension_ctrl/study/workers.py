@@ -46,6 +46,7 @@ def local_cluster(jobs: int, dashboard: str | None = None) -> AbstractContextMan
 def _local_cluster(jobs: int, dashboard: str | None) -> Iterator["Client"]:
     with installed("study"):
         import dask
+        import distributed  # noqa: F401  # its defaults come with it: they would leave with the settings below
 
     with ExitStack() as stack:
         stack.enter_context(dask.config.set(_SETTINGS))
