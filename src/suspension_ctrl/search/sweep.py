@@ -54,7 +54,7 @@ def sweep_sequential(
     box = np.array([problem.lower, problem.upper], dtype=float)
     failed, first = np.zeros(1 + box.shape[1]), np.zeros(box.shape[1] + population.values.shape[1])
     try:
-        mark = function(rng, chosen, population, box, ours, judged.strict, failed, first, *verbs)
+        mark = function(rng, chosen, population, None if ours else box, judged.strict, failed, first, *verbs)
     except NumbaError as error:
         raise ValueError(f"verbs must compile together, got {str(error).splitlines()[0]}") from None
     if mark:
@@ -111,8 +111,7 @@ def work_on(
     rng: np.random.Generator,
     chosen: Integer,
     population: Decomposed,
-    box: Real,
-    trusted: bool,
+    box: Real | None,
     strict: bool,
     failed: Real,
     first: Real,
@@ -127,20 +126,20 @@ def work_on(
 
     Into `failed` (1 + d,) go the number of children that could not be evaluated, one at most if `strict`, and the
     first of them; into `first` (d + m + c,) the first child and its values. Return 0, or a mark of `_FAULTS` for
-    a kernel, or verbs that are not `trusted` and leave the `box` (2, d).
+    a kernel, or verbs that leave the `box` (2, d), if there is one.
     """
     designs, values, ideal, weights, neighbours = population
     born = np.empty(values.shape[1])
     for i in chosen:
         partners = call(mating_range, (rng, i, neighbours))
-        if not trusted and not all_below(partners, designs.shape[0]):
+        if box is not None and not all_below(partners, designs.shape[0]):  # numba leaves out what None rules out
             return -2
         child = call(reproduce, (rng, designs, i, partners))
         if child.size != designs.shape[1]:
             return -3
         child = call(repair, (rng, child, designs[i]))
         child = call(mutate, (rng, child))
-        if not trusted and place_of(child, box) < 0:
+        if box is not None and place_of(child, box) < 0:
             return place_of(child, box)
         value = call(evaluate, (child,))
         if value.size != born.size:
