@@ -119,6 +119,41 @@ def test_wrong_results_of_compiled_verbs_name_them_too(verb, function, message):
         searched(MoeadDra(population=30), verb, function, dtlz2(4, compiled=True))
 
 
+@njit
+def five(rng, size):
+    return np.zeros((5, 4))
+
+
+@njit
+def too_far(rng, utility, corners, size):
+    return np.full(size, 5_000_000)
+
+
+@njit
+def doubled(rng, designs):
+    return designs + 2.0
+
+
+@njit
+def wide(rng, child, parent):
+    return np.zeros(100_000)
+
+
+@pytest.mark.parametrize(
+    ("optimiser", "verb", "function", "message"),
+    [
+        (MOEAD, "sample", five, "sample must return an array of shape (40, 4), got (5, 4)"),
+        (NSGA2, "mutate", doubled, "designs of mutate must lie within ["),
+        (MOEAD, "choose_subproblems", too_far, "choose_subproblems must return indices from 0 to 39, got 5000000"),
+        (MoeadDra(population=40, update="batch"), "repair", far_out, "designs of repair must lie within ["),
+        (MOEAD, "repair", wide, "reproduce, repair and mutate must return a value for each variable, got another"),
+    ],
+)
+def test_compiled_verbs_outside_a_compiled_sweep_are_checked_too(optimiser, verb, function, message):
+    with pytest.raises(ValueError, match="^" + re.escape(message)):
+        searched(optimiser, verb, function)
+
+
 def test_misspelt_and_missing_verbs_are_refused():
     toolbox = NSGA2.toolbox(PROBLEM)
     toolbox.register("mutat", lambda rng, x: x)

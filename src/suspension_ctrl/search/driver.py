@@ -147,7 +147,7 @@ class _Search:
     def go_on_from(self, run: Run) -> None:
         """Take up the search of a run."""
         self.state, self.rows = run.checkpoint.state, list(run.log.rows)
-        self.judged.failures, self.judged.first = run.failures, "in the run before"
+        self.judged.failures, self.judged.first = run.failures, "in the run before" if run.failures else ""
         self.rng.bit_generator.state = dict(run.checkpoint.generator)
         self.repeats_before = run.repeats
 

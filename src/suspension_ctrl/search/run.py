@@ -111,14 +111,31 @@ class Run(Population):
         return driver.resumed(self, problem, toolbox, callback, failures, **limits)
 
     def save(self, path: str | Path) -> None:
-        """Write the run to a file (``.npz``), whole or not at all; `load` reads it."""
+        """Write the run to a file, whole or not at all; `load` reads it.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file, such as ``run.npz``: arrays and JSON, without problem and toolbox.
+
+        Raises
+        ------
+        ValueError
+            If the optimiser is none of this package, or the run has no designs.
+        """
         from . import checkpoints
 
         checkpoints.save(self, Path(path))
 
     @classmethod
     def load(cls, path: str | Path) -> "Run":
-        """Return the run that `save` wrote."""
+        """Return the run that `save` wrote; nothing in the file is executed.
+
+        Raises
+        ------
+        ValueError
+            If the file is another one or spoilt.
+        """
         from . import checkpoints
 
         return checkpoints.load(Path(path))

@@ -138,6 +138,8 @@ def work_on(
         if child.size != designs.shape[1]:
             return -3
         child = call(repair, (rng, child, designs[i]))
+        if child.size != designs.shape[1]:
+            return -3
         child = call(mutate, (rng, child))
         if box is not None and place_of(child, box) < 0:
             return place_of(child, box)
@@ -146,8 +148,7 @@ def work_on(
             return -1
         good = all_finite(value, born)
         if i == chosen[0]:
-            copy_into(first, child, 0)
-            copy_into(first, born, child.size)
+            copy_into(first, child, born)
         if not good and count_failure(failed, child) and strict:
             return 0
         call(update, (rng, child, born, partners, designs, values, weights, ideal))
@@ -177,10 +178,12 @@ def count_failure(failed: Real, child: Real) -> bool:
 
 
 @compiled(inline="always")
-def copy_into(target: Real, source: Real, offset: int) -> None:
-    """Copy an array (k,) to a place in another."""
-    for v in range(source.size):
-        target[offset + v] = source[v]
+def copy_into(first: Real, child: Real, born: Real) -> None:
+    """Copy a child (d,) and its values (m + c,) into one array."""
+    for v in range(child.size):
+        first[v] = child[v]
+    for j in range(born.size):
+        first[child.size + j] = born[j]
 
 
 @compilable()

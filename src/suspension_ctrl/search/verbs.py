@@ -14,21 +14,23 @@ from ..compiled import call_compiled
 from ..quantities import Bool, Integer, Real
 from .gamultiobj import intermediate_crossover, select_controlled
 from .problem import Minimisable
+from .sweep import VERBS, sweep_sequential
 
 
 def with_checked_verbs(toolbox: Toolbox, default: Toolbox, problem: Minimisable) -> Toolbox:
     """Return a copy of a toolbox in which each verb that differs from the default one is checked at every call.
 
-    Compiled verbs of MOEA/D-DRA stay as they are: its sweep checks them.
+    Compiled verbs inside a sweep of MOEA/D-DRA stay as they are: it checks them.
     """
     wanted = set(vars(default))
     if strange := sorted(set(vars(toolbox)) ^ wanted):
         verbs = ", ".join(sorted(wanted - {"clone", "map"}))
         raise ValueError(f"toolbox must have the verbs {verbs}, got {'no ' * (strange[0] in wanted)}{strange[0]}")
     checked = copy(toolbox)
+    swept = VERBS if getattr(getattr(default, "sweep", None), "func", None) is sweep_sequential else ()
     for name, own in vars(default).items():
         verb = getattr(toolbox, name)
-        if not _same(verb, own) and not is_compiled(verb):
+        if not _same(verb, own) and not (name in swept and is_compiled(verb)):
             setattr(checked, name, partial(_call_checked, name, verb, own, problem))
     return checked
 
