@@ -73,6 +73,22 @@ def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
     ValueError
         If there are not as many contact points as roads, or the profile lacks a track under one or is too short
         for the wheelbase.
+
+    Examples
+    --------
+    A step of 50 mm at 10 m/s compresses the strut, which then swings out and comes to rest:
+
+    >>> import numpy as np
+    >>> import suspension_ctrl as sc
+    >>> distance = np.arange(0.0, 60.0, 0.1)  # m
+    >>> step = sc.Profile(distance, np.where(distance < 10.0, 0.0, 0.05)[:, None])
+    >>> car = sc.QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3)
+    >>> history = sc.simulate(car, {"spring": 22e3, "damper": 1500.0}, step, speed=10.0)
+    >>> list(history.columns)
+    ['time [s]', 'distance [m]', 'body_acceleration [m/s^2]', 'suspension_travel [m]', 'tyre_load [N]']
+    >>> travel = 1e3 * history["suspension_travel [m]"]
+    >>> print(f"compression {-travel.min():.0f} mm, rebound {travel.max():.0f} mm")
+    compression 59 mm, rebound 24 mm
     """
     drive = _drive_vehicle if isinstance(closed, Vehicle) else _drive
     return drive(closed, *arguments, **options)

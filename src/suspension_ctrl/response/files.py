@@ -48,6 +48,26 @@ def load_problem(path: str | Path, *, allow_outside: bool = False) -> RideProble
         Naming the file and the key if it does not hold a problem.
     OSError
         If it, or a file that it names, cannot be read.
+
+    Examples
+    --------
+    The bounds are those of the vehicle's file where the problem has none:
+
+    >>> from pathlib import Path
+    >>> import suspension_ctrl as sc
+    >>> text = '''
+    ... measures = ["ACC", "DTL"]
+    ... constraints = ["SWS <= 0.03"]
+    ...
+    ... [[cases]]
+    ... vehicle = "yuen_ramli_2010"
+    ... road = "C"
+    ... speed_m_per_s = 20.0
+    ... '''
+    >>> _ = Path("comfort.toml").write_text(text)
+    >>> problem = sc.load_problem("comfort.toml")
+    >>> dict(problem.bounds)
+    {'spring': (1000.0, 30000.0), 'damper': (1000.0, 5000.0)}
     """
     path = Path(path)
     with naming(path):

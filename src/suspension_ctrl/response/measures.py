@@ -69,6 +69,28 @@ class Measure(Record):
         (n,) of its responses by name [unit^2/Hz] at the middles (n,) of 1000 equal parts of the band [Hz]. Of one,
         ``f(designs)``: the values (p,) of designs (p, d), the variables in their order. The mean over several load
         cases by their shares counts, or the worst.
+
+    Examples
+    --------
+    The mean power that the damper dissipates. On a road of waviness 2 and over all frequencies it is pi^2 K_t
+    Gd(n0) n0^2 V for any spring and damper:
+
+    >>> import numpy as np
+    >>> import suspension_ctrl as sc
+    >>> def heat(frequency, spectra):
+    ...     rate = (2 * np.pi * frequency) ** 2 * spectra["suspension_travel"]
+    ...     return 1500.0 * np.trapezoid(rate, frequency)
+    >>> car = sc.QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3)
+    >>> table = sc.ride(
+    ...     car,
+    ...     {"spring": 22e3, "damper": 1500.0},
+    ...     sc.Iso8608Road("C"),
+    ...     speed=20.0,
+    ...     measures=["ACC", sc.Measure("heat", "W", heat)],
+    ...     band=(0.1, 100.0),
+    ... )
+    >>> print(f"{table['value']['heat']:.0f} W, {np.pi**2 * 192e3 * 256e-6 * 0.1**2 * 20.0:.0f} W")
+    97 W, 97 W
     """
 
     name: str

@@ -51,6 +51,31 @@ def ride(
     DataFrame
         By ``name`` the measures, then every response, unweighted; columns ``value``, ``unit`` and ``note``. A
         value whose integral diverges, or is not resolved, is NaN, and the note gives the reason.
+
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("yuen_ramli_2010")
+    >>> road = sc.PowerLawRoad(roughness=5e-6, exponent=2.5)
+    >>> table = sc.ride(file.vehicle, file.setting, road, speed=20.0)
+    >>> print(table[["value", "unit"]].round(3).to_string(index_names=False))
+                          value   unit
+    ACC                   2.260  m/s^2
+    SWS                   0.029      m
+    DTL                1365.255      N
+    body_acceleration     2.991  m/s^2
+    suspension_travel     0.029      m
+    tyre_load          1365.255      N
+
+    Least discomfort asks for a softer damper than least tyre load:
+
+    >>> for damper in (500.0, 1000.0, 2000.0, 3000.0):
+    ...     value = sc.ride(file.vehicle, {"spring": 22e3, "damper": damper}, road, speed=20.0)["value"]
+    ...     print(f"{damper:4.0f} N s/m: ACC {value['ACC']:.2f} m/s^2, DTL {value['DTL']:.0f} N")
+     500 N s/m: ACC 2.17 m/s^2, DTL 2132 N
+    1000 N s/m: ACC 2.08 m/s^2, DTL 1551 N
+    2000 N s/m: ACC 2.50 m/s^2, DTL 1313 N
+    3000 N s/m: ACC 2.99 m/s^2, DTL 1361 N
     """
     import pandas as pd
 
@@ -122,6 +147,24 @@ def response_psds(closed: control.LTI, f: Real, road: Real | Complex) -> dict[st
     -------
     dict of str to (n,) ndarray
         One-sided spectrum by response [response unit^2/Hz].
+
+    Examples
+    --------
+    At the frequency (K_t/M_w)^0.5, here 10.35 Hz, the road accelerates the body by K_t/M_b per metre whatever
+    the strut, an invariant point of the quarter car:
+
+    >>> import numpy as np
+    >>> import suspension_ctrl as sc
+    >>> car = sc.QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3)
+    >>> f = np.array([np.sqrt(192e3 / 45.4) / (2 * np.pi)])
+    >>> road = sc.Iso8608Road("C").psd(f, speed=20.0)
+    >>> for damper in (1000.0, 3000.0):
+    ...     psd = sc.response_psds(car.closed(22e3, damper), f, road)["body_acceleration"]
+    ...     print(np.sqrt(psd / road).round(2))
+    [604.72]
+    [604.72]
+    >>> round(192e3 / 317.5, 2)
+    604.72
     """
     h = paths(closed, f)
     psd = np.einsum("nmi,nij,nmj->mn", h, road.reshape(len(f), h.shape[2], h.shape[2]), h.conj()).real

@@ -52,6 +52,18 @@ def international_roughness_index(profile: Profile) -> RoughnessIndex:
     profile : Profile
         In steps of at most 300 mm and at least 11.25 m long. How the car begins tells in the index of a short
         road: some 20 m of lead, and 100 m of road, are good practice.
+
+    Examples
+    --------
+    The golden car is linear: twice the height gives twice the index.
+
+    >>> import suspension_ctrl as sc
+    >>> profile = sc.Iso8608Road("B").profile(length=1000.0, step=0.1, seed=1)
+    >>> doubled = sc.Profile(profile.distance, 2 * profile.height)
+    >>> for road in (profile, doubled):
+    ...     print(f"{sc.international_roughness_index(road).mean:.1f} mm/m")
+    4.2 mm/m
+    8.4 mm/m
     """
     step, name = profile.step, "a profile for the roughness index"
     if step > _COARSEST * (1 + 1e-9):

@@ -40,6 +40,19 @@ class Isotropic(Record):
        Vibration 31 (1973).
     .. [2] K. M. A. Kamash and J. D. Robson, "Implications of isotropy in random surfaces", Journal of Sound and
        Vibration 54 (1977).
+
+    Examples
+    --------
+    Long waves lift both wheels of an axle together, short ones each by itself. Coherence of tracks 1.5 m apart
+    at wavelengths of 100, 10 and 1 m:
+
+    >>> import numpy as np
+    >>> import suspension_ctrl as sc
+    >>> road = sc.Iso8608Road("C", coherence=sc.Isotropic())
+    >>> wheels = [(0.0, 0.75), (0.0, -0.75)]  # m
+    >>> spectra = road.cross_spectrum([0.2, 2.0, 20.0], speed=20.0, contact_points=wheels)
+    >>> np.abs(spectra[:, 0, 1] / spectra[:, 0, 0]).round(2)
+    array([0.99, 0.63, 0.  ])
     """
 
     exponent: float | None = None
@@ -70,6 +83,15 @@ class Exponential(Checked):
        (2008), on exponential coherence with one parameter.
     .. [2] P. Mucka, "Model of coherence function of road unevenness in parallel tracks for vehicle simulation",
        International Journal of Vehicle Design 67 (2015), on this and others beside measured roads.
+
+    Examples
+    --------
+    Coherence of tracks 1.5 m apart at wavelengths of 100, 10 and 1 m, with a decay of 3 per cycle:
+
+    >>> import numpy as np
+    >>> import suspension_ctrl as sc
+    >>> sc.Exponential(decay=3.0).between(np.array([0.01, 0.1, 1.0]), 1.5).round(2)
+    array([0.96, 0.64, 0.01])
     """
 
     decay: float = field(metadata=unit("", 0.0, 1e6))
@@ -87,6 +109,19 @@ class Constant(Checked):
     ----------
     value : float
         From 0, uncorrelated tracks, to 1, identical tracks (cylindrical road) [-].
+
+    Examples
+    --------
+    Identical tracks do not roll a car with left and right alike:
+
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("jian_2022_full")
+    >>> for coherence in (sc.Constant(1.0), sc.Constant(0.0)):
+    ...     road = sc.Iso8608Road("C", coherence=coherence)
+    ...     table = sc.ride(file.vehicle, file.setting, road, speed=20.0, band=(0.3, 20.0))
+    ...     print(f"{table['value']['roll_acceleration']:.2f} {table['unit']['roll_acceleration']}")
+    0.00 rad/s^2
+    0.71 rad/s^2
     """
 
     value: float = field(metadata=unit("", 0.0, 1.0))
@@ -109,6 +144,19 @@ class Tabulated(Checked):
         Wavenumbers, ascending and above zero [cycle/m], and as many coherences from 0 to 1 [-].
     distance : float
         Distance of the measured tracks, above zero [m].
+
+    Examples
+    --------
+    Measured between tracks 1.5 m apart; tracks at half that distance have the same coherence at half the
+    wavelength:
+
+    >>> import numpy as np
+    >>> import suspension_ctrl as sc
+    >>> measured = sc.Tabulated(wavenumber=(0.05, 0.2, 1.0), coherence=(0.95, 0.7, 0.1), distance=1.5)
+    >>> measured.between(np.array([0.2, 0.6]), 1.5).round(2)
+    array([0.7, 0.4])
+    >>> measured.between(np.array([0.4, 1.2]), 0.75).round(2)
+    array([0.7, 0.4])
     """
 
     wavenumber: tuple[float, ...] = field(metadata=unit("cycle/m"))

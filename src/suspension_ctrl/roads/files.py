@@ -52,6 +52,27 @@ def load_road(source: str | PathLike[str], *, allow_outside: bool = False) -> Ro
     ------
     ValueError
         If it is none of these, or about a key or column of the file; OSError if it cannot be read.
+
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> print(sc.load_road("C-upper").describe())
+    ISO 8608 class C, upper: Gd(0.1 cycle/m) = 512e-6 m^3, waviness 2
+
+    The same class in a file, with identical tracks:
+
+    >>> from pathlib import Path
+    >>> text = '''
+    ... kind = "iso-8608"
+    ... class = "C"
+    ... level = "upper"
+    ... [coherence]
+    ... kind = "constant"
+    ... value = 1.0
+    ... '''
+    >>> _ = Path("road.toml").write_text(text)
+    >>> sc.load_road("road.toml") == sc.Iso8608Road("C", level="upper", coherence=sc.Constant(1.0))
+    True
     """
     path = Path(source)
     if named := _CLASS.fullmatch(str(source)):

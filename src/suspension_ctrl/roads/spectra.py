@@ -24,6 +24,18 @@ class PowerLawRoad(Road):
         Waviness kappa from 0.01 to 20 [-].
     coherence : Coherence
         Model of the coherence of parallel tracks.
+
+    Examples
+    --------
+    The road of Yuen and Ramli. A wave of 20 m is met at 1 Hz by a car at 20 m/s, at 2 Hz by one at 40 m/s, where
+    the same elevation is spread over twice the band:
+
+    >>> import suspension_ctrl as sc
+    >>> road = sc.PowerLawRoad(roughness=5e-6, exponent=2.5)
+    >>> for speed in (20.0, 40.0):
+    ...     print(f"{road.psd([speed / 20.0], speed)[0]:.3g} m^2/Hz")
+    0.000447 m^2/Hz
+    0.000224 m^2/Hz
     """
 
     roughness: float = field(metadata=unit("m^3"))
@@ -55,6 +67,18 @@ class TwoSlopeRoad(Road):
         Wavenumber > 0 at which the exponent changes [cycle/m]; the spectrum is continuous there.
     coherence : Coherence
         Model of the coherence of parallel tracks.
+
+    Examples
+    --------
+    Above the corner, at 20 m/s a frequency of 4 Hz, the spectrum falls by 2^3 per octave in place of 2^2:
+
+    >>> import suspension_ctrl as sc
+    >>> road = sc.TwoSlopeRoad(roughness=64e-6, reference=0.1, lower_exponent=2.0, upper_exponent=3.0, corner=0.2)
+    >>> print(road.describe())
+    two slopes: Gd(0.1 cycle/m) = 6.4e-05 m^3, exponent 2 below and 3 above 0.2 cycle/m
+    >>> density = road.psd([1.0, 2.0, 4.0, 8.0, 16.0], speed=20.0)
+    >>> (density[:-1] / density[1:]).round(2).tolist()
+    [4.0, 4.0, 8.0, 8.0]
     """
 
     roughness: float = field(metadata=unit("m^3"))
@@ -100,6 +124,21 @@ class Iso8608Road(Road):
         Exponent w from 0.01 to 20 [-]; 2 in the standard's classes.
     coherence : Coherence
         Model of the coherence of parallel tracks.
+
+    Examples
+    --------
+    From class to class the spectrum rises by a factor of four, and r.m.s. values by two:
+
+    >>> import suspension_ctrl as sc
+    >>> print(sc.Iso8608Road("C").describe())
+    ISO 8608 class C, geometric mean: Gd(0.1 cycle/m) = 256e-6 m^3, waviness 2
+    >>> car = sc.QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3)
+    >>> for name in "ABC":
+    ...     table = sc.ride(car, {"spring": 22e3, "damper": 1500.0}, sc.Iso8608Road(name), speed=20.0)
+    ...     print(f"class {name}: ACC {table['value']['ACC']:.2f} m/s^2, DTL {table['value']['DTL']:.0f} N")
+    class A: ACC 0.30 m/s^2, DTL 188 N
+    class B: ACC 0.60 m/s^2, DTL 377 N
+    class C: ACC 1.19 m/s^2, DTL 754 N
     """
 
     reference: ClassVar[float] = 0.1  # n0 [cycle/m]

@@ -12,7 +12,24 @@ from ..quantities import Real
 
 
 class InfeasibleWarning(UserWarning):
-    """A search ended without a design that meets all constraints."""
+    """A search ended without a design that meets all constraints.
+
+    Examples
+    --------
+    No design within these bounds keeps the travel below 5 mm on class D:
+
+    >>> import warnings
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("yuen_ramli_2010")
+    >>> problem = sc.RideProblem(
+    ...     file.vehicle, sc.Iso8608Road("D"), speed=20.0, bounds=file.bounds, constraints=["SWS <= 0.005"]
+    ... )
+    >>> with warnings.catch_warnings(record=True) as caught:
+    ...     warnings.simplefilter("always")
+    ...     run = sc.minimise(problem, sc.Nsga2(population=20), iterations=5, seed=1)
+    >>> caught[0].category.__name__, int(run.feasible.sum())
+    ('InfeasibleWarning', 0)
+    """
 
 
 @compiled(inline="always")  # MOEA/D-DRA calls it for each comparison

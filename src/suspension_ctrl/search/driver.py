@@ -83,6 +83,31 @@ def minimise(
         If no design of the final population meets all constraints.
     FailureWarning
         If designs could not be evaluated.
+
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("yuen_ramli_2010")
+    >>> road = sc.PowerLawRoad(roughness=5e-6, exponent=2.5)
+    >>> problem = sc.RideProblem(file.vehicle, road, speed=20.0, bounds=file.bounds)
+    >>> run = sc.minimise(problem, sc.Nsga2(population=100), iterations=20, seed=1)
+    >>> front = run.front()
+    >>> list(front.columns)
+    ['spring [N/m]', 'damper [N s/m]', 'ACC [m/s^2]', 'SWS [m]', 'DTL [N]']
+    >>> print(f"ACC from {front['ACC [m/s^2]'].min():.1f} m/s^2, SWS from {1e3 * front['SWS [m]'].min():.0f} mm")
+    ACC from 1.6 m/s^2, SWS from 15 mm
+
+    A callback ends a search early, here as soon as a design has a discomfort below 1.7 m/s^2:
+
+    >>> early = sc.minimise(
+    ...     problem,
+    ...     sc.Nsga2(population=20),
+    ...     iterations=1000,
+    ...     seed=1,
+    ...     callback=lambda run: run.objectives[:, 0].min() < 1.7,
+    ... )
+    >>> early.evaluations < 20_000
+    True
     """
     designs = None if start is None else _start_designs(problem, start)
     begin = optimiser.population if designs is None else max(optimiser.population, len(designs))

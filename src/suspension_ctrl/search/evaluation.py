@@ -19,7 +19,25 @@ AGREEMENT = 1e-6
 
 
 class FailureWarning(UserWarning):
-    """Designs could not be evaluated and count as worst."""
+    """Designs could not be evaluated and count as worst.
+
+    Examples
+    --------
+    A model has no result below a width of 0.2; the search goes on without these designs:
+
+    >>> import warnings
+    >>> import numpy as np
+    >>> import suspension_ctrl as sc
+    >>> def beam(width):
+    ...     stiffness = np.where(width < 0.2, np.nan, width**3)
+    ...     return np.column_stack([width, 1 / stiffness])
+    >>> problem = sc.Problem(evaluate=beam, lower=(0.1,), upper=(1.0,), objectives=("mass", "deflection"))
+    >>> with warnings.catch_warnings(record=True) as caught:
+    ...     warnings.simplefilter("always")
+    ...     run = sc.minimise(problem, sc.Nsga2(population=20), iterations=5, seed=1)
+    >>> caught[0].category.__name__, run.failures > 0, bool(run.designs.min() >= 0.2)
+    ('FailureWarning', True, True)
+    """
 
 
 class Judged:

@@ -52,6 +52,17 @@ class Gamultiobj(Generational):
     ------
     ValueError
         If a setting is out of range.
+
+    Examples
+    --------
+    Dominated designs stay in the population, as at most 35 % of it come from the first front:
+
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("yuen_ramli_2010")
+    >>> problem = sc.RideProblem(file.vehicle, sc.Iso8608Road("C"), speed=20.0, bounds=file.bounds)
+    >>> run = sc.minimise(problem, sc.Gamultiobj(population=100), iterations=10, seed=1)
+    >>> len(run.front()) < len(run.designs) == 100
+    True
     """
 
     population: int

@@ -64,6 +64,20 @@ class MoeadDra:
     ------
     ValueError
         If a setting is out of range.
+
+    Examples
+    --------
+    An iteration evaluates a fifth of the population. Each objective is divided by its span: tyre load in newtons
+    does not outweigh travel in metres.
+
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("yuen_ramli_2010")
+    >>> problem = sc.RideProblem(file.vehicle, sc.Iso8608Road("C"), speed=20.0, bounds=file.bounds)
+    >>> run = sc.minimise(problem, sc.MoeadDra(population=100), iterations=10, seed=1)
+    >>> run.evaluations
+    300
+    >>> print(run.front()["damper [N s/m]"].agg(["min", "max"]).round(-2).to_list())
+    [1000.0, 5000.0]
     """
 
     population: int

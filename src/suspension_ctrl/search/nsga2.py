@@ -48,6 +48,19 @@ class Nsga2(Generational):
     ------
     ValueError
         If a setting is out of range.
+
+    Examples
+    --------
+    An iteration evaluates a whole population; the survivors cover the front from soft to firm:
+
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("yuen_ramli_2010")
+    >>> problem = sc.RideProblem(file.vehicle, sc.Iso8608Road("C"), speed=20.0, bounds=file.bounds)
+    >>> run = sc.minimise(problem, sc.Nsga2(population=100), iterations=10, seed=1)
+    >>> run.evaluations
+    1100
+    >>> print(run.front()["damper [N s/m]"].agg(["min", "max"]).round(-2).to_list())
+    [1000.0, 5000.0]
     """
 
     population: int

@@ -92,6 +92,33 @@ class Problem(Record):
     (`search.kinds`). Verbs of a toolbox get codes; `evaluate`, `start`, callbacks and results have designs. If all
     variables are whole numbers, of catalogues or held, a search evaluates a design once: a budget counts all
     designs asked for, `Run.repeats` those known before. A kernel, and a resumed search, evaluate them again.
+
+    Examples
+    --------
+    An engine mount: static sag against the force that it transmits at 25 Hz, where the transmissibility at
+    resonance must not exceed 3. Damping harms the isolation: the best mounts have no more than the limit asks
+    for, 1/(2 (3^2 - 1)^0.5) = 0.18.
+
+    >>> import numpy as np
+    >>> import suspension_ctrl as sc
+    >>> def mount(designs):
+    ...     frequency, ratio = designs.T  # Hz, -
+    ...     r = 25.0 / frequency
+    ...     passed = np.hypot(1, 2 * ratio * r) / np.hypot(1 - r**2, 2 * ratio * r)
+    ...     sag = 9.81 / (2 * np.pi * frequency) ** 2
+    ...     return np.column_stack([sag, passed, np.hypot(1, 1 / (2 * ratio)) / 3 - 1])
+    >>> problem = sc.Problem(
+    ...     evaluate=mount,
+    ...     lower=(2.0, 0.02),
+    ...     upper=(12.0, 1.0),
+    ...     variables=("frequency", "damping ratio"),
+    ...     objectives=("sag", "transmissibility"),
+    ...     constraints=("resonance",),
+    ...     units={"frequency": "Hz", "sag": "m"},
+    ... )
+    >>> front = sc.minimise(problem, sc.Nsga2(population=40), iterations=100, seed=1).front()
+    >>> print(list(front.columns), round(front["damping ratio"].median(), 2))
+    ['frequency [Hz]', 'damping ratio', 'sag [m]', 'transmissibility'] 0.18
     """
 
     evaluate: Callable[[Real], Real]

@@ -60,6 +60,27 @@ class Run(Population):
         Designs that could not be evaluated; their objectives are NaN where they are in the population.
     checkpoint : Checkpoint
         The search as it stands, for `resume`.
+
+    Examples
+    --------
+    A run holds the final population; `front` is its non-dominated feasible part with units:
+
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("yuen_ramli_2010")
+    >>> problem = sc.RideProblem(file.vehicle, sc.Iso8608Road("C"), speed=20.0, bounds=file.bounds)
+    >>> run = sc.minimise(problem, sc.Nsga2(population=40), iterations=10, seed=1)
+    >>> run.designs.shape, run.objectives.shape, run.evaluations
+    ((40, 2), (40, 3), 440)
+    >>> list(run.front().columns)
+    ['spring [N/m]', 'damper [N s/m]', 'ACC [m/s^2]', 'SWS [m]', 'DTL [N]']
+
+    A search of ten iterations, kept in a file and resumed for ten more, is the search of twenty:
+
+    >>> run.save("run.npz")
+    >>> resumed = sc.Run.load("run.npz").resume(problem, iterations=10)
+    >>> whole = sc.minimise(problem, sc.Nsga2(population=40), iterations=20, seed=1)
+    >>> bool((resumed.designs == whole.designs).all())
+    True
     """
 
     evaluations: int

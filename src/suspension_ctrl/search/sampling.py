@@ -59,6 +59,17 @@ class Sampling(Generational):
     ------
     ValueError
         If a setting is out of range.
+
+    Examples
+    --------
+    The baseline of any search: the non-dominated designs of a Sobol sequence of 1100 points.
+
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("yuen_ramli_2010")
+    >>> problem = sc.RideProblem(file.vehicle, sc.Iso8608Road("C"), speed=20.0, bounds=file.bounds)
+    >>> run = sc.minimise(problem, sc.Sampling(population=100), iterations=10, seed=1)
+    >>> run.evaluations, len(run.front()) == len(run.designs)
+    (1100, True)
     """
 
     population: int

@@ -70,6 +70,27 @@ class Study(Record):
     ValueError
         If a part is empty, seeds or file names repeat, a budget is below a population, or a reference has no
         problem.
+
+    Examples
+    --------
+    Two searches with as many evaluations, from three seeds each. The first seed's searches give the reference
+    front:
+
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("yuen_ramli_2010")
+    >>> problem = sc.RideProblem(file.vehicle, sc.Iso8608Road("C"), speed=20.0, bounds=file.bounds)
+    >>> study = sc.Study(
+    ...     problems={"class C": problem},
+    ...     algorithms={"nsga2": sc.Nsga2(population=40), "sobol": sc.Sampling(population=40)},
+    ...     seeds=range(3),
+    ...     budgets=[400],
+    ... )
+    >>> quality = study.run()
+    >>> populations = quality[quality["set"] == "population"]
+    >>> populations.groupby("algorithm").size().to_dict()
+    {'nsga2': 3, 'sobol': 3}
+    >>> bool(populations["relative_hypervolume"].between(0.9, 1.1).all())
+    True
     """
 
     problems: Mapping[str, Minimisable] = field(metadata={"show": list})

@@ -26,6 +26,17 @@ class QuarterCar(Checked, AssembledVehicle):
     ----------
     .. [1] T. J. Yuen and R. Ramli, "Comparison of computational efficiency of MOEA/D and NSGA-II for
        passive vehicle suspension optimization", 2010.
+
+    Examples
+    --------
+    The body bounces on spring and tyre in series, the wheel hops between spring and tyre:
+
+    >>> import suspension_ctrl as sc
+    >>> car = sc.QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3)
+    >>> print(car.modes({"spring": 22e3, "damper": 1500.0})[["name", "frequency [Hz]"]].round(2).to_string())
+            name  frequency [Hz]
+    0      heave            1.27
+    1  wheel hop           10.78
     """
 
     body_mass: float = field(metadata=unit("kg"))
@@ -109,6 +120,30 @@ class HalfCar(_TwoAxleCar):
         Vertical stiffness [N/m] and damping [N s/m].
     cg_to_front, cg_to_rear : float
         Distance of the axles from the centre of gravity [m].
+
+    Examples
+    --------
+    With a pitch inertia of mass times both distances (dynamic index 1) the axles are decoupled: the front road
+    does not load the rear tyre.
+
+    >>> import numpy as np
+    >>> import suspension_ctrl as sc
+    >>> for index in (1.0, 0.8):
+    ...     car = sc.HalfCar(
+    ...         body_mass=600.0,
+    ...         pitch_inertia=index * 600.0 * 1.2 * 1.5,
+    ...         front_wheel_mass=40.0,
+    ...         rear_wheel_mass=40.0,
+    ...         front_tyre_stiffness=190e3,
+    ...         rear_tyre_stiffness=190e3,
+    ...         cg_to_front=1.2,
+    ...         cg_to_rear=1.5,
+    ...     )
+    ...     closed = car.closed(front=(20e3, 1500.0), rear=(22e3, 1500.0))
+    ...     load = abs(closed["rear_tyre_load", "front_road"](2j * np.pi * 1.5))  # at 1.5 Hz
+    ...     print(f"index {index}: {load / 1e3:.1f} N/mm")
+    index 1.0: 0.0 N/mm
+    index 0.8: 8.6 N/mm
     """
 
     @cached_property
@@ -141,6 +176,30 @@ class FullCar(_TwoAxleCar):
         Distance of the axles from the centre of gravity [m].
     front_track, rear_track : float
         Distance between left and right wheel [m], the centre of gravity midway. Struts stand over the wheels.
+
+    Examples
+    --------
+    An anti-roll bar acts in roll; heave and pitch keep their frequencies:
+
+    >>> import suspension_ctrl as sc
+    >>> car = sc.FullCar(
+    ...     body_mass=1040.0,
+    ...     roll_inertia=1180.0,
+    ...     pitch_inertia=1580.0,
+    ...     front_wheel_mass=53.0,
+    ...     rear_wheel_mass=76.0,
+    ...     front_tyre_stiffness=200e3,
+    ...     rear_tyre_stiffness=200e3,
+    ...     cg_to_front=1.5,
+    ...     cg_to_rear=1.5,
+    ...     front_track=1.8,
+    ...     rear_track=1.8,
+    ... )
+    >>> for bar in (0.0, 25e3):  # N m/rad
+    ...     modes = car.modes({"front": (10e3, 2000.0), "rear": (13e3, 2000.0), "front_antiroll": bar})
+    ...     print(modes.set_index("name")["frequency [Hz]"][["heave", "roll", "pitch"]].round(2).to_dict())
+    {'heave': 1.08, 'roll': 0.89, 'pitch': 1.3}
+    {'heave': 1.08, 'roll': 1.12, 'pitch': 1.3}
     """
 
     roll_inertia: float = field(metadata=unit("kg m^2"))

@@ -56,6 +56,17 @@ def load_vehicle(source: str | PathLike[str]) -> VehicleFile:
     ------
     ValueError
         If it is neither, or about a key of the file; OSError if it cannot be read.
+
+    Examples
+    --------
+    A vehicle, the setting of its struts and the bounds of a search:
+
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("jian_2022_full")
+    >>> file.setting["front.damper"], file.bounds["front.damper"]  # N s/m
+    (2000.0, (1000.0, 4000.0))
+    >>> file.vehicle.modes(file.setting)["name"].to_list()
+    ['heave', 'roll', 'pitch', 'rear wheel hop', 'rear wheel tramp', 'front wheel hop', 'front wheel tramp']
     """
     path = datafiles.named("vehicle", "vehicles", source)
     with naming(path):

@@ -59,6 +59,24 @@ class Seat(Part):
         mode shapes.
     name : str
         Letters, digits and underscores; none that the vehicle has already.
+
+    Examples
+    --------
+    A seat isolates above its own resonance. Weighted acceleration of the floor under the driver, and of the
+    driver:
+
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("jian_2022_full")
+    >>> seat = sc.Seat(mass=75.0, spring=15.7e3, damper=650.0, position=(0.2, 0.4), name="driver")
+    >>> table = sc.ride(
+    ...     seat.on(file.vehicle),
+    ...     file.setting,
+    ...     sc.Iso8608Road("C"),
+    ...     speed=20.0,
+    ...     measures=["ACC (0.2, 0.4)", "ACC driver"],
+    ... )
+    >>> print(table["value"].head(2).round(2).to_list(), table["unit"].iloc[0])
+    [0.82, 0.35] m/s^2
     """
 
     mass: float = field(metadata=unit("kg"))
@@ -104,6 +122,18 @@ class Payload(Part):
     position : (float, float)
         Place from the centre of gravity of the unladen body, x forward and y to the left [m]; coordinates of the
         body stay those of this point.
+
+    Examples
+    --------
+    A load of 250 kg near the rear axle lowers the frequencies of the body:
+
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("minaker_half")
+    >>> laden = sc.Payload(mass=250.0, position=(-1.5, 0.0)).on(file.vehicle)
+    >>> for vehicle in (file.vehicle, laden):
+    ...     print(vehicle.modes(file.setting)["frequency [Hz]"].head(2).round(2).to_list())  # heave, pitch
+    [0.9, 1.12]
+    [0.89, 0.98]
     """
 
     mass: float = field(metadata=unit("kg"))
@@ -131,6 +161,23 @@ class FlexibleBody(Part):
         to the left of its centre of gravity [m]: all struts, further seats, payloads and points of acceleration.
         Free elastic modes do not move the centre of gravity and the principal axes of the body: the rigid
         coordinates stay those of the mean motion.
+
+    Examples
+    --------
+    A bending mode of the body at 25 Hz, its shape given at the centre of gravity and over both axles. The struts
+    and tyres hardly change its frequency:
+
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("minaker_half")
+    >>> shapes = {(0.0, 0.0): (-0.02,), (1.189, 0.0): (0.025,), (-1.696, 0.0): (0.03,)}  # kg^-1/2
+    >>> car = sc.FlexibleBody(frequencies=(25.0,), damping_ratios=(0.03,), shapes=shapes).on(file.vehicle)
+    >>> print(car.modes(file.setting)[["name", "frequency [Hz]"]].round(1).to_string(index=False))
+               name  frequency [Hz]
+              heave             0.9
+              pitch             1.1
+    front wheel hop            13.0
+     rear wheel hop            13.1
+          bending 1            25.0
     """
 
     frequencies: tuple[float, ...] = field(metadata=unit("Hz"))

@@ -66,6 +66,23 @@ class Plant(Record, Vehicle):
     ValueError
         If the system, its lines or its signals are not as above, or the rate of a deflection is neither given nor
         defined, because an input acts on the deflection directly.
+
+    Examples
+    --------
+    A vehicle of another program is known by the names of its signals, here those of a quarter car:
+
+    >>> import suspension_ctrl as sc
+    >>> known = sc.load_vehicle("yuen_ramli_2010")
+    >>> system = known.vehicle.plant()
+    >>> system.input_labels
+    ['road', 'strut']
+    >>> system.output_labels
+    ['body_acceleration', 'suspension_travel', 'tyre_load', 'deflection', 'deflection_rate']
+    >>> for vehicle in (known.vehicle, sc.Plant(system)):
+    ...     table = sc.ride(vehicle, known.setting, sc.Iso8608Road("C"), speed=20.0)
+    ...     print(table["value"].head(3).round(3).to_dict())
+    {'ACC': 1.195, 'SWS': 0.011, 'DTL': 753.643}
+    {'ACC': 1.195, 'SWS': 0.011, 'DTL': 753.643}
     """
 
     system: System = field(metadata={"show": _brief})
