@@ -1,6 +1,5 @@
 """Files of a finished campaign, spoilt in many ways: each is named, and what it held is made again."""
 
-import io
 import json
 import os
 import shutil
@@ -33,19 +32,6 @@ def _replaced(put: Spoil) -> Spoil:
 
 def _json(change: Callable[[dict[str, Any]], Any]) -> Spoil:
     return lambda path: path.write_bytes(json.dumps(change(json.loads(path.read_bytes()))).encode())
-
-
-def _front(**arrays: Any) -> Spoil:
-    """Change arrays of a reference front."""
-
-    def spoil(path: Path) -> None:
-        with np.load(path) as there:
-            content = dict(there) | arrays
-        file = io.BytesIO()
-        np.savez(file, **content)
-        path.write_bytes(file.getvalue())
-
-    return spoil
 
 
 def _flipped(content: bytes) -> bytes:
@@ -93,12 +79,6 @@ RECORD: dict[str, Spoil] = {
     "another digest": _json(lambda record: record | {"final": record["final"] | {"sha256": "0" * 64}}),
     "without a table": _json(lambda record: {"runs": record["runs"]}),
 }
-FRONT: dict[str, Spoil] = {
-    "an empty front": _front(objectives=np.empty((0, 2))),
-    "a front with NaN": _front(objectives=np.full((3, 2), np.nan)),
-    "without a volume": _front(volume=np.array([])),
-    "pickled": _front(objectives=np.array([None, {}], dtype=object)),
-}
 PLAN: dict[str, Spoil] = {
     "a list": _json(lambda plan: [plan]),
     "null": _json(lambda _: None),
@@ -110,7 +90,7 @@ FILES: dict[str, dict[str, Spoil]] = {
     "quality/final/*sobol*.csv": ANY | TABLE,
     "timed/runs/*nsga2*.csv": ANY | TABLE,
     "quality/records/*.json": ANY | RECORD,
-    "reference.npz": ANY | FRONT,
+    "reference/final/grid.csv": ANY,
     "quality/plan.json": ANY | PLAN,
 }
 

@@ -14,7 +14,7 @@ import pytest
 from suspension_ctrl import Problem
 from suspension_ctrl.study.campaign import Campaign
 from suspension_ctrl.study.comparison import Comparison
-from suspension_ctrl.study.store import FolderStore
+from suspension_ctrl.study.store import FolderStore, SpoiltRunWarning
 
 RUNS, BUDGET, POPULATION = 24, 200, 20
 
@@ -25,7 +25,7 @@ import numpy as np
 from suspension_ctrl import Nsga2, Problem, Sampling
 from suspension_ctrl.commands import terminal
 from suspension_ctrl.search.indicators import ReferenceFront
-from suspension_ctrl.study.store import FolderStore
+from suspension_ctrl.study.store import FolderStore, SpoiltRunWarning
 from suspension_ctrl.study.study import Study
 
 def main(folder: Path, pause: float):
@@ -176,41 +176,83 @@ def test_a_folder_without_permission_is_refused_in_one_line(tmp_path):
     assert error.count("\n") == 1
 
 
-def test_a_campaign_in_a_program_resumes_from_its_folder(tmp_path):
-    """A cheap problem whose front is f2 = 1 - f1; what is stored is not evaluated again."""
-    evaluated = []
+class Line:
+    """f1 = x, f2 = 1 - x + y, whose front is f2 = 1 - f1; it counts its designs."""
 
-    def evaluate(x):
-        evaluated.append(len(x))
+    def __init__(self):
+        self.designs = 0
+
+    def __call__(self, x):
+        self.designs += len(x)
         return np.stack([x[:, 0], 1 - x[:, 0] + x[:, 1]], axis=1)
 
-    problem = Problem(evaluate=evaluate, lower=(0, 0), upper=(1, 1), objectives=("f1", "f2"))
-    comparison = Comparison(
+
+def compared(evaluate, **changes) -> Comparison:
+    problem = Problem(evaluate=evaluate, lower=(0, 0), upper=(1, 1), objectives=("f1", "f2"), **changes)
+    return Comparison(
         problem=problem, algorithms=["nsga2", "sobol"], populations=[20], iterations=[2], repeats=2, seeds=3
     )
-    watched = []
+
+
+SAMPLE = 64  # designs that tell one problem from another
+
+
+def test_a_campaign_in_a_program_resumes_from_its_folder(tmp_path):
+    line, watched = Line(), []
 
     def watch(runs, total, text):
         watched.append((text, total))
         return runs
 
-    campaign = Campaign(comparison, tmp_path, tolerance=0.02, watch=watch)
+    campaign = Campaign(compared(line), tmp_path, tolerance=0.02, watch=watch)
     store = campaign.time()
-    assert sorted(store) == sorted(run.name for run in comparison.timed_runs())
+    assert sorted(store) == sorted(run.name for run in campaign.comparison.timed_runs())
     front, origin = campaign.reference(store, grid=False)
     assert origin == "the non-dominated designs of all these runs"
     table, judged = campaign.judge(front)
     assert table.groupby(["algorithm", "seed"]).ngroups == len(judged) == 2 * 3
-    finals = comparison.studies()[20].finals(judged)
+    finals = campaign.comparison.studies()[20].finals(judged)
     assert finals.groupby(["algorithm", "seed"]).size().between(1, 20).all()
     assert (finals.f2 >= 1 - finals.f1 - 1e-12).all()
     assert watched == [("timed runs", 4), ("quality, N = 20", 6)]
 
-    before = sum(evaluated)
+    before = line.designs
     again, _ = campaign.judge(front)
     pd.testing.assert_frame_equal(again, table)
     assert watched[-1] == ("quality, N = 20", 0)
-    assert sum(evaluated) == before + 64  # the sample that tells one problem from another
-    grid, origin = campaign.reference(store, grid=True)
-    assert origin.startswith("the non-dominated designs of a ")
-    assert grid.hypervolume(front.objectives) <= grid.volume
+    assert line.designs == before + SAMPLE
+
+
+def test_the_reference_front_of_a_grid_is_made_once_for_a_folder(tmp_path):
+    line = Line()
+    campaign = Campaign(compared(line), tmp_path, tolerance=0.02)
+    front, origin = campaign.reference({}, grid=True)
+    assert origin.startswith("the non-dominated designs of a 200 x 200 grid (")
+    assert front.volume == pytest.approx(0.71, abs=0.5 / 199)  # closed form, less triangles between points
+    before = line.designs
+    assert campaign.reference({}, grid=True) == (front, origin)
+    assert line.designs == before + SAMPLE
+
+    (tmp_path / "reference" / "final" / "grid.csv").write_text("0,1\n")
+    with pytest.warns(SpoiltRunWarning, match=r"grid.csv: must be as it was stored"):
+        assert campaign.reference({}, grid=True) == (front, origin)
+
+
+@pytest.mark.parametrize(
+    ("evaluate", "changes", "key"),
+    [
+        (lambda x: Line()(x) * (1 + 1e-15), {}, "problem"),
+        (Line(), {"kinds": {"x1": (0, 0.5, 1)}}, "problem.kinds.x1"),
+        (Line(), {"constraints": ("g",)}, "problem.constraints"),
+    ],
+)
+def test_a_reference_front_of_another_problem_is_refused(tmp_path, evaluate, changes, key):
+    Campaign(compared(Line()), tmp_path, tolerance=0.02).reference({}, grid=True)
+    with pytest.raises(ValueError, match=f"^{key}.* must be .* to go on there"):
+        Campaign(compared(evaluate, **changes), tmp_path, tolerance=0.02).reference({}, grid=True)
+
+
+def test_another_tolerance_makes_no_use_of_a_reference_front(tmp_path):
+    Campaign(compared(Line()), tmp_path, tolerance=0.02).reference({}, grid=True)
+    with pytest.raises(ValueError, match=r"^tolerance must be 0.02 as in .* to go on there, got 0.01$"):
+        Campaign(compared(Line()), tmp_path, tolerance=0.01).reference({}, grid=True)

@@ -7,7 +7,7 @@ from functions import srn, srn_set
 from suspension_ctrl import Problem
 from suspension_ctrl.search.indicators import ReferenceFront
 from suspension_ctrl.study import reference as references
-from suspension_ctrl.study.store import SpoiltRunWarning
+from suspension_ctrl.study.store import FolderStore
 
 
 class Line:
@@ -45,49 +45,22 @@ def test_a_grid_has_the_values_of_discrete_variables_and_none_of_a_held_one():
     np.testing.assert_array_equal(np.unique(found.front.objectives, axis=0), [[0, 1.5], [0.25, 1.25], [1, 0.5]])
     assert found.points == 200
     assert found.describe(line).startswith("the non-dominated designs of a 3 x 4 grid (hypervolume ")
-    plain = Line().problem()
-    keys = {references.key(problem, 1e-2) for problem in (plain, plain.replace(kinds={"x1": (0, 0.5, 1)}))}
-    assert len(keys) == 2
 
 
-def test_a_front_is_made_once(tmp_path):
-    line = Line()
-    first = references.kept(tmp_path / "front.npz", line.problem(), 1e-2)
-    made = line.designs
-    second = references.kept(tmp_path / "front.npz", line.problem(), 1e-2)
-    assert line.designs - made == 64  # the designs that tell which problem it is
-    for name, value in vars(first.front).items():
-        np.testing.assert_array_equal(value, getattr(second.front, name))
+def test_a_front_comes_back_from_its_tables_to_the_last_bit(tmp_path):
+    first = references.refined(Line(1 / 3).problem(), 1e-2)
+    FolderStore(tmp_path, {})["grid"] = first.stored()
+    second = references.Refined.of(FolderStore(tmp_path, {})["grid"])
+    assert second.front == first.front
     assert second[1:] == first[1:]
-    assert len(list(tmp_path.iterdir())) == 1
 
 
-def test_a_front_of_another_problem_is_made_anew(tmp_path):
-    path = tmp_path / "front.npz"
-    first = references.kept(path, Line().problem(), 1e-2)
-    other = references.kept(path, Line(2.0).problem(), 1e-2)
-    assert other.front.nadir[1] == pytest.approx(2 * first.front.nadir[1])
-    assert references.kept(path, Line(2.0).problem(), 1e-2)[1:] == other[1:]
-
-
-def test_whatever_it_depends_on_makes_another_front(monkeypatch):
+def test_values_tell_one_problem_from_another():
+    """By rounding, and by a constraint that is met throughout the sample."""
     line = Line()
-    keys = {references.key(line.problem(), 1e-2), references.key(line.problem(), 1e-3)}
-    keys.add(references.key(Line(1 + 1e-15).problem(), 1e-2))
-    wider = Problem(evaluate=line, lower=(0, 0), upper=(1, 1.0001), objectives=("f1", "f2"))
-    keys.add(references.key(wider, 1e-2))
-    monkeypatch.setattr(references, "provenance", lambda: {"numpy": "0"})
-    keys.add(references.key(line.problem(), 1e-2))
-    assert len(keys) == 5
-
-
-def test_a_spoilt_copy_is_made_anew(tmp_path):
-    first = references.kept(tmp_path / "front.npz", Line().problem(), 1e-2)
-    (path,) = tmp_path.iterdir()
-    for spoilt in (b"", path.read_bytes()[:200]):
-        path.write_bytes(spoilt)
-        with pytest.warns(SpoiltRunWarning, match=r"front.npz: must be a reference front as it was stored \("):
-            assert references.kept(tmp_path / "front.npz", Line().problem(), 1e-2)[1:] == first[1:]
+    problems = [line.problem(), Line(1 + 1e-15).problem(), limited(-1.0, line), limited(-2.0, line)]
+    assert len(set(map(references.fingerprint, problems))) == len(problems)
+    assert references.fingerprint(line.problem()) == references.fingerprint(Line().problem())
 
 
 def test_too_many_variables_are_refused():
@@ -139,15 +112,6 @@ def test_a_feasible_region_that_the_coarsest_grid_misses_is_found():
     )  # fmt: skip
     assert len(references.grid_front(problem, 100)) == 0
     assert references.refined(problem, 0.25).points > 200
-
-
-def test_constraints_make_another_front():
-    """Also where they are met throughout the sample that tells problems apart, as far as their values differ."""
-    line = Line()
-    keys = {
-        references.key(problem, 1e-2) for problem in (line.problem(), limited(-1.0, line), limited(-2.0, line))
-    }
-    assert len(keys) == 3
 
 
 def test_a_fine_front_is_measured_by_an_even_sample():

@@ -13,7 +13,7 @@ from ..search.constraints import InfeasibleWarning
 from ..search.indicators import ReferenceFront
 from . import lock, machine, reference, timing
 from .comparison import Comparison
-from .store import FolderStore, keeping
+from .store import FolderStore
 from .study import PlannedRun
 
 if TYPE_CHECKING:
@@ -67,9 +67,11 @@ class Campaign:
         """Return the front of a grid, kept in the folder, or of the best timed runs, and its origin in words."""
         problem = self.comparison.problem
         if grid:
-            with keeping(self.folder):
-                grid_front = reference.kept(self.folder / "reference.npz", problem, self.tolerance)
-            return grid_front.front, grid_front.describe(problem)
+            kept = self._store("reference")
+            if "grid" not in kept:
+                kept["grid"] = reference.refined(problem, self.tolerance).stored()
+            refined = reference.Refined.of(kept["grid"])
+            return refined.front, refined.describe(problem)
         runs = (store[run.name] for run in self.comparison.timed_runs())
         found = [timing.feasible_objectives(problem, run) for run in runs]
         return reference.best_known(found), "the non-dominated designs of all these runs"

@@ -1,24 +1,20 @@
-"""The reference front of a problem: a grid refined until its hypervolume converges, kept in a file."""
+"""The reference front of a problem: a grid refined until its hypervolume converges."""
 
 import hashlib
-import json
-import warnings
 from collections.abc import Sequence
 from math import prod
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
+import pandas as pd
 
-from .. import checks, tables
+from .. import checks
 from ..quantities import Real
 from ..search.constraints import feasible_objectives
 from ..search.indicators import ReferenceFront, best_of
 from ..search.kinds import box, coded, decoded, grid_axes
 from ..search.problem import Minimisable
-from . import lock
-from .machine import provenance
-from .store import SpoiltRunWarning
+from .store import StoredRun
 
 TOLERANCE = 1e-4
 FIRST, MOST = 100, 20_000_000
@@ -27,12 +23,27 @@ _CHUNK = 500_000  # designs at a time
 
 
 class Refined(NamedTuple):
-    """A reference front and the grid it was made from."""
+    """A reference front with its grid."""
 
     front: ReferenceFront
     points: int  # per variable
     change: float  # of the hypervolume from half as many points, relative
     second: float  # from a second grid, of sqrt(2) fewer points: only corners are common to both
+
+    @classmethod
+    def of(cls, run: StoredRun) -> Self:
+        """Return the front that `stored` gave."""
+        numbers = run.course.iloc[0]
+        ideal, nadir = run.course[["ideal", "nadir"]].to_numpy().T
+        front = ReferenceFront(run.final.to_numpy(), ideal, nadir, numbers.volume)
+        return cls(front, int(numbers.points), numbers.change, numbers.second)
+
+    def stored(self) -> StoredRun:
+        """Return the tables of the front: its corners and numbers, a row per objective, and its points."""
+        front, points, change, second = self
+        corners = pd.DataFrame({"ideal": front.ideal, "nadir": front.nadir})
+        numbers = {"volume": front.volume, "points": points, "change": change, "second": second}
+        return StoredRun(corners.assign(**numbers), pd.DataFrame(front.objectives))
 
     def describe(self, problem: Minimisable) -> str:
         """Return the grid of a problem and its convergence in words."""
@@ -96,73 +107,19 @@ def best_known(found: Sequence[Real]) -> ReferenceFront:
 
 
 def summary(front: ReferenceFront) -> dict[str, Any]:
-    """Return what tells a front from another: its size, corners and volume, and a digest of all."""
+    """Return size, corners, volume and a digest of a front, to tell it from another."""
     digest = _digest(front.objectives.tobytes() + np.float64(front.volume).tobytes())
     corners = {"ideal": front.ideal.tolist(), "nadir": front.nadir.tolist()}
     return {"points": len(front.objectives), **corners, "volume": front.volume, "digest": digest}
-
-
-def _digest(content: bytes) -> str:
-    return hashlib.sha256(content).hexdigest()[:32]
-
-
-def kept(path: Path, problem: Minimisable, tolerance: float = TOLERANCE) -> Refined:
-    """Return `refined` from a file, written anew if it is absent, of another `key`, or spoilt, with a warning."""
-    wanted = key(problem, tolerance)
-    try:
-        found = _read(path, wanted)
-    except FileNotFoundError:
-        found = None
-    except Exception as error:  # numpy, zip and memory have many of them
-        message = f"{path}: must be a reference front as it was stored ({type(error).__name__}); it is made again"
-        warnings.warn(message, SpoiltRunWarning, stacklevel=2)
-        lock.set_aside(path)
-        found = None
-    if found is not None:
-        return found
-    found = refined(problem, tolerance)
-    numbers = dict(zip(found._fields[1:], found[1:], strict=True))
-    content = {"key": wanted, "digest": summary(found.front)["digest"], **vars(found.front), **numbers}
-    tables.write_whole(path, lambda temporary: np.savez(temporary, **content))
-    return found
-
-
-def _read(path: Path, wanted: str) -> Refined | None:
-    """Return a stored front, None if it is of another key; an error of any kind if it is spoilt."""
-    if (path.exists() or path.is_symlink()) and not path.is_file():
-        raise ValueError("must be a regular file")
-    with path.open("rb") as file, np.load(file) as there:
-        if there["key"].item() != wanted:
-            return None
-        arrays = {name: there[name] for name in ("objectives", "ideal", "nadir")}
-        volume, points, change, second = (there[name].item() for name in ("volume", *Refined._fields[1:]))
-        front = ReferenceFront(**arrays, volume=volume)
-        if summary(front)["digest"] != there["digest"].item():
-            raise ValueError("must have the digest of its content")
-    if len(front.objectives) == 0 or not all(np.isfinite(value).all() for value in vars(front).values()):
-        raise ValueError("must be finite and not empty")
-    return Refined(front, points, change, second)
-
-
-def key(problem: Minimisable, tolerance: float) -> str:
-    """Return a digest of all that the front depends on: versions, bounds, kinds, tolerance, 64 designs."""
-    lower, upper = box(coded(problem))
-    settings = {
-        "versions": provenance(),
-        "outputs": [list(problem.objectives), list(problem.constraints)],
-        "kinds": sorted(getattr(problem, "kinds", {}).items()),
-        "bounds": [lower.tolist(), upper.tolist()],
-        "grid": [tolerance, FIRST, MOST],
-        "front": [ReferenceFront.SAMPLE, ReferenceFront.HYPERVOLUME_REFERENCE],
-        "values": fingerprint(problem),
-    }
-    return _digest(json.dumps(settings, sort_keys=True).encode())
 
 
 def fingerprint(problem: Minimisable) -> str:
     """Return a digest of the values of 64 designs: a parameter or a line of code that changes them changes it."""
     rng, searched = np.random.default_rng(0), coded(problem)
     lower, upper = box(searched)
-    return _digest(
-        problem.evaluate(decoded(searched, lower + (upper - lower) * rng.random((64, lower.size)))).tobytes()
-    )
+    codes = lower + (upper - lower) * rng.random((64, lower.size))
+    return _digest(problem.evaluate(decoded(searched, codes)).tobytes())
+
+
+def _digest(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()[:32]
