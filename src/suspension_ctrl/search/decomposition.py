@@ -8,7 +8,6 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy.spatial.distance import cdist
 
 from ..compiled import compilable, compiled
 from ..quantities import Integer, Real, frozen_array
@@ -52,9 +51,14 @@ def neighbourhoods(size: int, objectives: int, neighbours: int) -> Integer:
     """Return the indices (N, T), read-only, of the nearest of `weight_vectors` to each, itself first."""
     weights = weight_vectors(size, objectives)
     low = (1 << (size - 1).bit_length()) - 1  # a distance's last bits hold the index: plain sorting will do
+    squares, ones, indices = (weights**2).sum(axis=1), np.ones(size), np.arange(size)
+    left = np.column_stack([-2 * weights, ones, 1 + squares])  # 1 + |a - b|^2 as a product of matrices: bits of
+    right = np.stack([*weights.T, squares, ones])  # positive numbers have the numbers' order
     nearest = np.empty((size, neighbours), dtype=np.int64)
     for rows in range(0, size, _ROWS):
-        key = cdist(weights[rows : rows + _ROWS], weights, "sqeuclidean").view(np.int64) & ~low | np.arange(size)
+        key = (left[rows : rows + _ROWS] @ right).view(np.int64)
+        key &= ~low
+        key |= indices
         key.partition(neighbours - 1, axis=1)
         nearest[rows : rows + _ROWS] = key[:, :neighbours]
     nearest.sort(axis=1)
