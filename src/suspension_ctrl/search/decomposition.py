@@ -141,17 +141,17 @@ class ReplaceWorse(NamedTuple):
         lower_ideal(ideal, child_values, violation == 0.0, values)
         bettered = np.empty_like(partners)
         count = 0
+        constrained = child_values.size > ideal.size
         for p in partners:
-            mine, theirs = violation, violation_of(values[p], ideal.size)
+            mine, theirs = violation, violation_of(values[p], ideal.size) if constrained else 0.0
             if mine == 0.0 and theirs == 0.0:
                 for j in range(ideal.size):  # `tchebycheff` of both
                     g = weights[p, j] * abs(child_values[j] - ideal[j])
                     mine = g if g > mine else mine
                     g = weights[p, j] * abs(values[p, j] - ideal[j])
                     theirs = g if g > theirs else theirs
-            if mine < theirs:
-                bettered[count] = p
-                count += 1
+            bettered[count] = p
+            count += mine < theirs
         for left in range(count, max(count - self.limit, 0), -1):
             drawn = draw_below(rng, left)
             p = bettered[drawn]
