@@ -34,10 +34,13 @@ class Decomposed(NamedTuple):
 
     def span(self) -> Real:
         """Return the span (m,) from ideal point to worst feasible design (any, if none), 1 where it is zero."""
-        m = self.ideal.size
-        found = self.values[self.values[:, 0] < WORST]
+        m, evaluated = self.ideal.size, self.values[:, 0] < WORST
+        found = self.values if evaluated.all() else self.values[evaluated]
         feasible = feasible_objectives(found, m)
-        span = (feasible if len(feasible) else found[:, :m]).max(axis=0, initial=-np.inf) - self.ideal
+        columns = np.ascontiguousarray(
+            (feasible if len(feasible) else found[:, :m]).T
+        )  # numpy is quick along these
+        span = columns.max(axis=1, initial=-np.inf) - self.ideal
         return np.where(span > 0, span, 1.0)
 
 
