@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from hypothesis import strategies as st
 
-from suspension_ctrl import FlexibleBody, FullCar, HalfCar, PowerLawRoad, QuarterCar, Seat
+from suspension_ctrl import FlexibleBody, FullCar, HalfCar, LoadCase, PowerLawRoad, QuarterCar, RollGeometry, Seat
 from suspension_ctrl.response import weightings
 from suspension_ctrl.response.quadrature import frequency_nodes
 from suspension_ctrl.vehicles.assembly import ResponseName
@@ -64,6 +64,14 @@ def struts_of(vehicle: Vehicle) -> dict[str, float | tuple[float, float]]:
     """Return usual coefficients of those that have no default."""
     needed = {p.name for p in vehicle.parameters if p.default is None}
     return {name: value for name, value in _VALUES.items() if name in needed or f"{name}.spring" in needed}
+
+
+GEOMETRY = RollGeometry(roll_arm=0.5, front_roll_centre=0.05, rear_roll_centre=0.12, wheel_centre=0.31)
+
+
+def on_road(vehicle: Vehicle) -> LoadCase:
+    """Return a load case with roll geometry."""
+    return LoadCase(vehicle=vehicle, road=ROAD, speed=SPEED, roll_geometry=GEOMETRY)
 
 
 def from_roads(

@@ -14,7 +14,6 @@ from suspension_ctrl.response import weightings
 from suspension_ctrl.response.blocks import Pairs
 from suspension_ctrl.response.many_struts import ManyStruts
 from suspension_ctrl.response.mean_squares import case_of
-from suspension_ctrl.response.measures import case_measure
 from suspension_ctrl.response.one_strut import OneStrut
 from suspension_ctrl.response.quadrature import frequency_nodes
 from suspension_ctrl.roads.coherence import Constant, Exponential
@@ -198,7 +197,7 @@ def test_responses_alike_left_and_right_are_worked_out_once():
 def test_pairing_changes_no_value(vehicle):
     p = problem(vehicle, STRUTS, ("ACC", "SWS", "DTL", "roll_acceleration", "ACC (1, 0.5)"))
     (case,), designs = p.cases, draws(p, 4)
-    terms = [term for text in p.measures for term in case_measure(text, case, "Wk").terms]
+    terms = [term for measure in p.measures for term in measure.in_case(case, "Wk").terms]
     setting = vehicle.coefficients({**p.struts, **dict(zip(p.variables, designs[0].tolist(), strict=True))})
     paired, plain = (
         case_of(case, terms, setting, p.variables, p.band, p.nodes, pairs) for pairs in (Pairs.of, Pairs.none)

@@ -13,7 +13,11 @@ from hypothesis import strategies as st
 
 from spoilt import VALUES, changed, spelt
 from suspension_ctrl import (
+    ACC,
+    DTL,
+    SWS,
     Iso8608Road,
+    Limit,
     LoadCase,
     MoeadDra,
     Nsga2,
@@ -239,8 +243,8 @@ def test_a_study_in_full(tmp_path):
     )
     assert problem.bounds == {"front.spring": (2e4, 4e4), "driver.damper": (300.0, 1000.0)}
     assert problem.struts == {"front.damper": 1500.0, "rear.spring": 32e3, "rear.damper": 1600.0}
-    assert problem.measures == ("ACC driver", "SWS", "DTL rear")
-    assert problem.constraints == ("SWS rear <= 0.05",)
+    assert problem.measures == (ACC("driver"), SWS(), DTL("rear"))
+    assert problem.constraints == (Limit(SWS("rear"), 0.05),)
     assert (problem.weighting, problem.band, problem.worst_case) == ("Wb", (0.5, 20.0), True)
 
 

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from garage import FULL, QUARTER, ROAD, SPEED, from_roads, mean_squares, struts_of
-from suspension_ctrl import LoadCase, PowerLawRoad, QuarterCar
+from suspension_ctrl import LoadCase, PowerLawRoad, QuarterCar, Term
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.response.mean_squares import case_of
-from suspension_ctrl.response.measures import Term
 from suspension_ctrl.response.one_strut import OneStrut
 from suspension_ctrl.response.quadrature import frequency_nodes
 from suspension_ctrl.vehicles.assembly import Assembly, Link, StrutParameter

@@ -29,7 +29,8 @@ from ..vehicles.mounted import Payload
 from ..vehicles.vehicle import Vehicle
 from . import weightings
 from .load_case import LoadCase
-from .measures import case_limit, case_measure
+from .measures.limits import Limit
+from .measures.measure import Measure
 from .problem import RideProblem
 
 _KEYS = (
@@ -108,11 +109,14 @@ def _bounds_and_struts(
 
 def _check_texts(case: LoadCase, settings: Mapping[str, Any]) -> None:
     """Raise ValueError that says which measure or constraint means nothing in a case."""
-    weighting = settings.get("weighting", "Wk")
-    for key, meaning in (("measures", case_measure), ("constraints", case_limit)):
-        for i, text in enumerate(settings[key], start=1):
-            with under(f"{key}[{i}]"):
-                meaning(text, case, weighting)
+    weighting, measures = settings.get("weighting", "Wk"), []
+    for i, text in enumerate(settings["measures"], start=1):
+        with under(f"measures[{i}]"):
+            measures.append(Measure.parse(text))
+            measures[-1].in_case(case, weighting)
+    for i, text in enumerate(settings["constraints"], start=1):
+        with under(f"constraints[{i}]"):
+            Limit.parse(text, measures).in_case(case, weighting)
 
 
 def _case(table: Table, case: Table, folder: Path, allow_outside: bool) -> tuple[VehicleFile, LoadCase]:

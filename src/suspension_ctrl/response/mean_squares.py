@@ -13,7 +13,7 @@ from . import weightings
 from .blocks import Pairs, Variables, in_blocks
 from .load_case import LoadCase
 from .many_struts import ManyStruts
-from .measures import Term
+from .measures.terms import Term
 from .one_strut import OneStrut
 from .ports import Ports
 from .quadrature import frequency_nodes

@@ -15,7 +15,9 @@ from ..quantities import FrozenMapping, Real, Record, wrapped
 from ..vehicles.vehicle import Struts, Vehicle
 from .bounds import checked_bounds
 from .load_case import LoadCase, Road, load_cases
-from .measures import Measure, case_limit, case_measure, name_of
+from .measures.limits import Limit
+from .measures.measure import Measure, MeasureLike, OwnMeasure, measure_of
+from .measures.terms import CaseMeasure
 from .scores import NODES, RESOLVED, Kernel, Score, Scores
 from .weightings import Weighting, checked
 
@@ -52,10 +54,10 @@ class RideProblem(Record):
         and searches the damper by its logarithm.
     struts : mapping of str to float, optional
         Coefficients that do not vary.
-    measures : sequence of str or Measure
-        The objectives, texts as in `measures` or a `Measure`.
-    constraints : sequence of str
-        Limits on measures in the worst load case, ``"SWS <= 0.0287"``; on a `Measure` by its name.
+    measures : sequence of Measure or str
+        The objectives; also by texts, ``"ACC driver"``, and classes, `DTL` for ``DTL()``.
+    constraints : sequence of Limit or str
+        Limits on measures; also by texts, ``"SWS <= 0.0287"``, on a measure with a name of its own by that.
     cases : sequence of LoadCase, optional
         Several load cases; a vehicle, road or speed replaces theirs. An objective is the root mean square over
         them by their shares, of handling and a `Measure` the mean, or if `worst_case` the worst of them.
@@ -93,8 +95,8 @@ class RideProblem(Record):
     struts: Struts
     weighting: Weighting | None
     band: tuple[float, float]
-    measures: tuple[str | Measure, ...]
-    constraints: tuple[str, ...]
+    measures: tuple[Measure, ...]
+    constraints: tuple[Limit, ...]
     worst_case: bool
     nodes: int
 
@@ -111,8 +113,8 @@ class RideProblem(Record):
         bounds: Mapping[str, tuple[float, float]] | None = None,
         kinds: Mapping[str, str | Sequence[float]] | None = None,
         struts: Struts | None = None,
-        measures: Sequence[str | Measure] = ("ACC", "SWS", "DTL"),
-        constraints: Sequence[str] = (),
+        measures: Sequence[MeasureLike] = ("ACC", "SWS", "DTL"),
+        constraints: Sequence[Limit | str] = (),
         cases: Sequence[LoadCase] = (),
         worst_case: bool = False,
         nodes: int | None = None,
@@ -128,10 +130,11 @@ class RideProblem(Record):
             struts=FrozenMapping(fixed),
             weighting=checked(weighting),
             band=(float(band[0]), float(band[1])),
-            measures=tuple(measures),
-            constraints=tuple(constraints),
+            measures=tuple(map(measure_of, measures)),
             worst_case=bool(worst_case),
         )
+        limits = (one if isinstance(one, Limit) else Limit.parse(one, self.measures) for one in constraints)
+        self._keep(constraints=tuple(limits))
         self._keep(kinds=FrozenMapping(checks.kinds(kinds or {}, self.variables, self.lower, self.upper)))
         self._keep(nodes=self._resolving(None if isinstance(nodes, _Found) else nodes))
 
@@ -172,20 +175,19 @@ class RideProblem(Record):
     @cached_property
     def objectives(self) -> tuple[str, ...]:
         """Names of the objectives."""
-        return tuple(name_of(text) for text in self.measures)
+        return tuple(measure.label for measure in self.measures)
 
     @cached_property
     def units(self) -> Mapping[str, str]:
         """Unit of each variable and each objective by name."""
         units = {one.name: one.unit for one in self.cases[0].vehicle.parameters if one.name in self.bounds}
-        scores = zip(self.objectives, self._scores.scores, strict=False)  # those of limits come last
-        return FrozenMapping(units | {name: score.measures[0].unit for name, score in scores})
+        return FrozenMapping(units | {measure.label: measure.unit for measure in self.measures})
 
     @cached_property
     def weighted(self) -> bool:
         """Whether a measure depends on the weighting of the problem."""
         case, weightings = self.cases[0], (None, self.weighting)
-        plain, weighted = ([case_measure(one, case, w).terms for one in self.measures] for w in weightings)
+        plain, weighted = ([one.in_case(case, w).terms for one in self.measures] for w in weightings)
         return plain != weighted
 
     def evaluate(self, designs: ArrayLike) -> Real:
@@ -215,7 +217,7 @@ class RideProblem(Record):
     def describe(self) -> list[str]:
         """Return limits and load cases in words, a line each."""
         lines = [f"Variables: {'; '.join(self._variables())}."] if self.kinds else []
-        lines += [f"Limits: {', '.join(self.constraints)}."] if self.constraints else []
+        lines += [f"Limits: {', '.join(map(str, self.constraints))}."] if self.constraints else []
         if len(self.cases) > 1:
             how = "their worst" if self.worst_case else "their mean square by shares"
             lines.append(f"Objectives are over {len(self.cases)} load cases, {how}; limits hold in each.")
@@ -225,7 +227,7 @@ class RideProblem(Record):
     def __repr__(self) -> str:
         parts = [
             ", ".join(f"{name} [{self.units[name]}]" for name in self.objectives),
-            *self.constraints,
+            *map(str, self.constraints),
             *self._variables(),
             *(f"{type(case.vehicle).__name__} at {case.speed:g} m/s" for case in self.cases),
             f"{self.band[0]:g} to {self.band[1]:g} Hz, weighting {self.weighting}, {self.nodes} nodes",
@@ -261,23 +263,25 @@ class RideProblem(Record):
 
     @cached_property
     def _scores(self) -> Scores:
+        texts = list(map(str, self.constraints))
         if len(set(self.objectives)) < max(2, len(self.measures)):
-            raise ValueError(f"measures must be 2 or more with different names, got {checks.shown(self.measures)}")
-        for names, what in ((self.objectives, "measures"), (self.constraints, "constraints")):
+            got = checks.shown(tuple(map(str, self.measures)))
+            raise ValueError(f"measures must be 2 or more with different names, got {got}")
+        for names, what in ((list(self.objectives), "measures"), (texts, "constraints")):
             if len({*names, *self.bounds}) < len(names) + len(self.bounds):
-                raise ValueError(f"{what} must have names of their own, got {checks.shown(list(names))}")
-        scores = []
-        for measure in self.measures:
-            judged = tuple(case_measure(measure, case, self.weighting) for case in self.cases)
-            scores.append(Score(judged, self.worst_case, judged[0].sign))
-        for text in self.constraints:
-            limits = [case_limit(text, case, self.weighting, self.measures) for case in self.cases]
-            scores.append(Score(tuple(limit.measure for limit in limits), True, *limits[0][1:]))
-        own = any(isinstance(measure, Measure) for measure in self.measures)
-        if not own and all(score.measures[0].values for score in scores):
-            raise ValueError(f"measures must hold one of the ride, got {checks.shown(self.measures)}")
+                raise ValueError(f"{what} must have names of their own, got {checks.shown(names)}")
+        scores = [Score(self._in_cases(one), self.worst_case, one.sign) for one in self.measures]
+        scores += [Score(self._in_cases(one), True, one.scale, one.offset) for one in self.constraints]
+        own = any(isinstance(one, OwnMeasure) for one in self.measures)
+        if not own and all(score.by_function for score in scores):
+            raise ValueError(f"measures must hold one of the ride, got {checks.shown(list(self.objectives))}")
         middle = {name: (low + high) / 2 for name, (low, high) in self.bounds.items()}
-        return Scores(self.cases, scores, middle, self.struts, self.band)
+        settings = [case.vehicle.coefficients({**self.struts, **middle}) for case in self.cases]
+        return Scores(self.cases, scores, settings, self.variables, self.band)
+
+    def _in_cases(self, judged: Measure | Limit) -> tuple[CaseMeasure, ...]:
+        """Return a measure or a limit in each load case."""
+        return tuple(judged.in_case(case, self.weighting) for case in self.cases)
 
     def _error(self, nodes: int) -> float:
         """Return the largest error of a term at corners of the box, where resonances are sharpest."""

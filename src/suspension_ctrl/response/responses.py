@@ -7,11 +7,13 @@ import control
 import numpy as np
 
 from .. import checks
-from ..quantities import Complex, Real, signal_unit
+from ..quantities import Complex, Real
 from ..vehicles.assembly import ResponseName
 from ..vehicles.vehicle import Setting, Vehicle
 from .load_case import LoadCase, Road
-from .measures import CaseMeasure, Measure, Term, case_measure
+from .measures.measure import MeasureLike, measure_of
+from .measures.terms import CaseMeasure, Term
+from .measures.vibration import RootSumSquare
 from .ports import paths
 from .scores import NODES, RESOLVED, Score, Scores
 from .weightings import Weighting, checked
@@ -30,7 +32,7 @@ def ride(
     *,
     weighting: Weighting | control.LTI | None = "Wk",
     band: tuple[float, float] = (0.0, 20.0),
-    measures: Sequence[str | Measure] = ("ACC", "SWS", "DTL"),
+    measures: Sequence[MeasureLike] = ("ACC", "SWS", "DTL"),
 ) -> "pd.DataFrame":
     """Return the ride of a vehicle with its struts: measures, and the root mean square of every response.
 
@@ -83,19 +85,20 @@ def ride(
     checks.listed("measures", measures)
     case = LoadCase(vehicle=vehicle, road=road, speed=speed)
     known = checked(weighting)
-    judged = [case_measure(one, case, known) for one in measures]
-    own = {one.name for one in judged}
-    others = [name for name in vehicle.responses if name not in own]
-    judged += [CaseMeasure(name, signal_unit(name), (Term(name),)) for name in others]
-    values = vehicle.coefficients(setting)
-    scores = Scores([case], [Score((one,), False, one.sign) for one in judged], values, {}, band)
-    design = np.array([list(values.values())])
-    diverging = _diverging(case, values, scores.terms[0]) if band[0] == 0 else set()
+    judged = [measure_of(one) for one in measures]
+    labels = {one.label for one in judged}
+    judged += [RootSumSquare([Term(name)]) for name in vehicle.responses if name not in labels]
+    in_case = [one.in_case(case, known) for one in judged]
+    setting = vehicle.coefficients(setting)
+    signed = [Score((found,), False, one.sign) for found, one in zip(in_case, judged, strict=True)]
+    scores = Scores([case], signed, [setting], list(setting), band)
+    design = np.array([list(setting.values())])
+    diverging = _diverging(case, setting, scores.terms[0]) if band[0] == 0 else set()
     nodes, off = _resolved(scores, design, diverging)
-    notes = [_note(one, diverging, off, nodes) for one in judged]
-    found = np.where([bool(note) for note in notes], np.nan, scores.evaluate(design, nodes)[0])
-    index = pd.Index([one.name for one in judged], name="name")
-    return pd.DataFrame({"value": found, "unit": [one.unit for one in judged], "note": notes}, index=index)
+    notes = [_note(found, diverging, off, nodes) for found in in_case]
+    values = np.where([bool(note) for note in notes], np.nan, scores.evaluate(design, nodes)[0])
+    index = pd.Index([one.label for one in judged], name="name")
+    return pd.DataFrame({"value": values, "unit": [one.unit for one in judged], "note": notes}, index=index)
 
 
 def _diverging(case: LoadCase, setting: Setting, terms: Iterable[Term]) -> set[ResponseName]:

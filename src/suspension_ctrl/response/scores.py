@@ -1,9 +1,9 @@
 """Objectives and constraints of designs from the mean squares of every load case."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from math import sqrt
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from ..vehicles.feedback import gains_by_order
 from ..vehicles.vehicle import assembled
 from .load_case import LoadCase
 from .mean_squares import Case, cases_of
-from .measures import CaseMeasure, Designs, Term
+from .measures.terms import CaseMeasure, Designs, Term
 from .ports import Ports, dynamic_stiffness
 
 RESOLVED = 1e-6
@@ -26,10 +26,15 @@ _PARTS = 1000  # equal parts of the band, in whose middles a user's own measure 
 class Score(NamedTuple):
     """A measure in each load case, whether the worst case counts or the mean, its factor and its constant."""
 
-    measures: tuple[CaseMeasure, ...]
+    cases: tuple[CaseMeasure, ...]
     worst_case: bool
     scale: float = 1.0
     offset: float = 0.0
+
+    @property
+    def by_function(self) -> bool:
+        """Whether a function of designs stands in place of mean squares."""
+        return self.cases[0].values is not None
 
 
 class Kernel(NamedTuple):
@@ -87,37 +92,37 @@ class Kernel(NamedTuple):
 class Scores:
     """Scores of designs in load cases, at any number of quadrature nodes.
 
-    The `variables` have a value each in the middle of its range; `fixed` holds the other coefficients.
+    A setting for each case has all coefficients, of the `variables` a value in the middle of the range.
     """
 
     def __init__(
         self,
         cases: Sequence[LoadCase],
         scores: Sequence[Score],
-        variables: Mapping[str, float],
-        fixed: Mapping[str, Any],
+        settings: Sequence[Mapping[str, float]],
+        variables: Sequence[str],
         band: tuple[float, float],
     ) -> None:
-        self.cases, self.scores, self.variables, self.band = cases, scores, variables, band
-        self.settings = [case.vehicle.coefficients({**fixed, **variables}) for case in cases]
+        self.cases, self.scores, self.settings = cases, scores, settings
+        self.variables, self.band = variables, band
         shares = np.array([case.share for case in cases])
         self.shares = shares / shares.sum()
         self._kernels: dict[int, Kernel] = {}
 
     @cached_property
     def terms(self) -> list[tuple[Term, ...]]:
-        """The terms to be integrated in each case."""
-        by_case = zip(*(score.measures for score in self.scores), strict=True)
+        """Integrals of each case: the distinct terms without factors."""
+        by_case = zip(*(score.cases for score in self.scores), strict=True)
         return [tuple(dict.fromkeys(term.integral for one in each for term in one.terms)) for each in by_case]
 
     def kernel(self, nodes: int) -> Kernel:
-        """Return the scores as data of a compiled function; those of measures with a function are offsets."""
+        """Return the scores as data of a compiled function; those by a function are their offsets."""
         if nodes not in self._kernels:
             self._kernels[nodes] = Kernel(
-                cases_of(self.cases, self.terms, self.settings, list(self.variables), self.band, nodes),
+                cases_of(self.cases, self.terms, self.settings, self.variables, self.band, nodes),
                 self._squares,
                 self.shares,
-                np.array([score.measures[0].worst for score in self.scores]),
+                np.array([score.cases[0].largest for score in self.scores]),
                 np.array([score.worst_case for score in self.scores]),
                 np.array([score.scale for score in self.scores]),
                 np.array([score.offset for score in self.scores]),
@@ -127,7 +132,7 @@ class Scores:
     @property
     def compiled(self) -> bool:
         """Whether the kernel alone gives all scores."""
-        return not any(score.measures[0].values for score in self.scores)
+        return not any(score.by_function for score in self.scores)
 
     def evaluate(self, designs: Real, nodes: int) -> Real:
         """Return the scores (p, s) of designs (p, v)."""
@@ -138,18 +143,18 @@ class Scores:
             return np.asarray(kernel.scale * np.sqrt(factor * found).T + kernel.offset)
         scores = kernel.scores(designs)
         for column, score in enumerate(self.scores):
-            if score.measures[0].values:
+            if score.by_function:
                 scores[:, column] = score.scale * self._by_function(score, designs) + score.offset
         return scores
 
     def errors(self, designs: Real, nodes: int) -> list[Real]:
-        """Return, by case, the largest change (k,) of each term's root mean square by twice the nodes."""
+        """Return by case the largest change (k,) of each root mean square by twice the nodes."""
         both = zip(self.kernel(nodes).cases, self.kernel(2 * nodes).cases, strict=True)
         return [_change(*(np.sqrt(case(designs)) for case in pair)) for pair in both]
 
     @cached_property
     def _simple(self) -> tuple[Integer, Real] | None:
-        """The mean square (s,) and its factor (s, 1) in each score, if of one case and one term; else None."""
+        """Index (s,) and factor (s, 1) of the mean square of each score if each has one in one case, else None."""
         squares = self._squares[0]
         if len(self.cases) > 1 or (np.count_nonzero(squares, axis=1) != 1).any():
             return None
@@ -157,41 +162,39 @@ class Scores:
 
     @cached_property
     def _squares(self) -> Real:
-        """The factor (c, s, k) of each mean square of a case in each score."""
+        """Factors (c, s, k) of the mean squares of each case in each score."""
         squares = np.zeros((len(self.cases), len(self.scores), max(map(len, self.terms))))
         for c, terms in enumerate(self.terms):
             for s, score in enumerate(self.scores):
-                for term in score.measures[c].terms:
+                for term in score.cases[c].terms:
                     factor = term.factor / (self._static_load(c, term) if term.relative else 1.0)
                     squares[c, s, terms.index(term.integral)] += factor**2
         return squares
 
     def _static_load(self, c: int, term: Term) -> float:
-        """Return the load of the term's tyre on level ground [N], on struts in the middle of their range.
-
-        A left-right symmetric vehicle has that load on any struts.
-        """
+        """Return the static load of the term's tyre [N]; of a symmetric vehicle it is the same on any struts."""
         vehicle = assembled(self.cases[c].vehicle)
         loads = vehicle.statics.static_loads(np.array([list(self.settings[c].values())]))[0]
         return float(loads[vehicle.tyres.index(str(vehicle.meanings[str(term.response)].where))])
 
     def _by_function(self, score: Score, designs: Real) -> Real:
-        """Return a measure with a function (p,): its mean over the cases by their shares, or the worst."""
-        by_case = np.array([self._values(c, measure, designs) for c, measure in enumerate(score.measures)])
+        """Return a measure by a function (p,): its mean over the cases by shares, or the worst."""
+        functions = [one.values for one in score.cases if one.values]
+        by_case = np.array([values(self._designs(c, designs)) for c, values in enumerate(functions)])
         if not score.worst_case:
             return np.asarray(self.shares @ by_case)
         sign = np.sign(score.scale)
         return np.asarray(sign * (sign * by_case).max(axis=0))
 
-    def _values(self, c: int, measure: CaseMeasure, designs: Real) -> Real:
+    def _designs(self, c: int, designs: Real) -> Designs:
+        """Return designs (p, v) in a load case."""
         known = self.settings[c]
         coefficients = np.tile(list(known.values()), (len(designs), 1))
         coefficients[:, [list(known).index(name) for name in self.variables]] = designs
-        values: Callable[..., Real] = measure.values  # type: ignore[assignment]
-        return values(Designs(designs, coefficients, lambda: self._spectra(c, coefficients)))
+        return Designs(designs, coefficients, lambda: self._spectra(c, coefficients))
 
     def _spectra(self, c: int, coefficients: Real) -> Iterator[tuple[Real, Mapping[str, Real]]]:
-        """Yield for each of the coefficients (p, c) the frequencies (n,) [Hz] and the spectra of all responses."""
+        """Yield frequencies (n,) [Hz] and the spectra of all responses for each design (p, c)."""
         case, known, (low, high) = self.cases[c], self.settings[c], self.band
         f = low + (high - low) * (np.arange(_PARTS) + 0.5) / _PARTS
         vehicle, names = case.vehicle, case.vehicle.responses
@@ -204,6 +207,6 @@ class Scores:
 
 
 def _change(coarse: Real, fine: Real) -> Real:
-    """Return the largest relative change (k,) over designs (p, k); a zero is resolved."""
+    """Return the largest relative change (k,) over designs (p, k), none where both are zero."""
     ratio = np.divide(coarse, fine, out=np.ones_like(fine), where=fine > 0)
     return np.asarray(np.abs(ratio - 1).max(axis=0))

@@ -255,9 +255,9 @@ def _start_designs(problem: Minimisable, start: Any) -> Real:
     return designs
 
 
-def _infeasible(names: Sequence[str], run: Run) -> str:
+def _infeasible(constraints: Sequence[object], run: Run) -> str:
     least = int(run.violation.argmin())
-    broken = [f"{name} {g:.3g}" for name, g in zip(names, run.constraints[least], strict=True) if g > 0]
+    broken = [f"{name} {g:.3g}" for name, g in zip(constraints, run.constraints[least], strict=True) if g > 0]
     violation = f"least total violation {run.violation[least]:.3g}: {', '.join(broken)}"
     return f"no feasible design among {run.evaluations} evaluated, {violation}"
 

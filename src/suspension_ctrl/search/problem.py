@@ -30,8 +30,8 @@ class Minimisable(Protocol):
         """Names of the objectives (m,)."""
 
     @property
-    def constraints(self) -> Sequence[str]:
-        """Names of the constraints (c,)."""
+    def constraints(self) -> Sequence[object]:
+        """Constraints (c,), whose texts are their names."""
 
     @property
     def kernel(self) -> Kernel | None:

@@ -193,6 +193,6 @@ def distributed(problem: Described, client: "Client", chunk: int = 16) -> Proble
         parts = [designs[start : start + chunk] for start in range(0, len(designs), chunk)]
         return np.concatenate(client.gather(client.map(problem.evaluate, parts, pure=False)))
 
-    names = ("lower", "upper", "objectives", "constraints", "variables", "units")
-    same = {name: getattr(problem, name) for name in names}
-    return Problem(evaluate=evaluate, kinds=getattr(problem, "kinds", {}), **same)
+    same = {name: getattr(problem, name) for name in ("lower", "upper", "objectives", "variables", "units")}
+    constraints = tuple(map(str, problem.constraints))
+    return Problem(evaluate=evaluate, constraints=constraints, kinds=getattr(problem, "kinds", {}), **same)

@@ -54,15 +54,19 @@ class RollGeometry(Checked):
     wheel_centre: float = field(metadata=unit("m"))
 
 
-def check_cornering(measure: str, assembly: Assembly) -> None:
-    """Raise ValueError unless a measure of handling is defined on this vehicle."""
+def check_roll(measure: str, assembly: Assembly) -> None:
+    """Raise ValueError about a measure unless the body rolls."""
     if "roll" not in assembly.coordinates:
         coordinates = ", ".join(assembly.coordinates)
         raise ValueError(f"{measure} must be of a vehicle that rolls, got one with {coordinates}")
+
+
+def check_cornering(measure: str, assembly: Assembly) -> None:
+    """Raise ValueError about a measure unless the body rolls on the wheels of two axles."""
+    check_roll(measure, assembly)
     corners = [f"{axle}_{side}" for axle in _AXLES for side in _SIDES]
     wheels = {f"{corner}_wheel" for corner in corners}
-    cornering = set(assembly.contacts) == set(corners) and wheels <= set(assembly.coordinates)
-    if measure != "roll_damping" and not cornering:
+    if set(assembly.contacts) != set(corners) or not wheels <= set(assembly.coordinates):
         needed, got = f"tyres {', '.join(corners)} on wheels of these names", ", ".join(assembly.contacts)
         raise ValueError(f"{measure} must be of a vehicle with {needed}, got tyres {got}")
 

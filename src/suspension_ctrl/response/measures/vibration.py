@@ -1,0 +1,223 @@
+"""Measures of the vibration on a random road: root mean squares of responses, equations (3) to (13)."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from ... import checks
+from ...quantities import signal_unit
+from ...vehicles.assembly import Position, ResponseName, label
+from ...vehicles.vehicle import Vehicle, assembled
+from ..load_case import LoadCase
+from ..weightings import Weighting
+from .measure import Measure
+from .terms import NUMBER, CaseMeasure, Term, checked_point, place_text
+
+_POINT = rf"\(\s*({NUMBER})\s*,\s*({NUMBER})\s*\)"
+_PLUS = re.compile(r"\+(?![^(]{0,99}\))")  # outside the parentheses of a point
+_TERM = re.compile(rf"(?:({NUMBER})\s+)?(?:(\S+)\s+)?(\w+|acceleration\s*{_POINT})")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PlacedMeasure(Measure):
+    """A measure at a place of the vehicle: a name or a point (x, y) of the body [m]."""
+
+    where: str | Position = ""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not isinstance(self.where, str):
+            self._keep(where=checked_point(self.where))
+
+    @classmethod
+    def read(cls, rest: str, **options: Any) -> Measure:
+        """Return the measure of a text after its word; options name and maximise."""
+        point = re.fullmatch(_POINT, rest)
+        return cls((float(point[1]), float(point[2])) if point else rest, **options)
+
+    def _rest(self) -> str:
+        return place_text(self.where)
+
+
+class ACC(PlacedMeasure, word="ACC", unit="m/s^2"):
+    """Root mean square of a vertical acceleration with the weighting of the problem, equation (6).
+
+    Parameters
+    ----------
+    where : str or (float, float)
+        A seat by name or a point (x, y) of the body [m]; the body's centre of gravity by default.
+    name, maximise
+        As of `Measure`; the name is optional.
+
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> print(sc.ACC("driver"), sc.ACC((1.2, -0.4)), sc.ACC(name="comfort"), sep="; ")
+    ACC driver; ACC (1.2, -0.4); comfort = ACC
+    """
+
+    def in_case(self, case: LoadCase, weighting: Weighting | None, /) -> CaseMeasure:
+        """Return the measure in a load case; ValueError if the vehicle lacks the place."""
+        return CaseMeasure((Term(self.response(case.vehicle), weighting),))
+
+    def response(self, vehicle: Vehicle) -> ResponseName:
+        """Return the acceleration at the place."""
+        if not isinstance(self.where, str):
+            return ("acceleration", *self.where)
+        known = vehicle.meanings.items()
+        vertical = [r for r, m in known if m.kind == "acceleration" and m.where not in ("pitch", "roll")]
+        if (name := f"{self.where or 'body'}_acceleration") not in vertical:
+            places = ", ".join(r.removesuffix("_acceleration") for r in vertical)
+            got = checks.shown(self.where)
+            raise ValueError(f"{self.word} must be of one of {places} or a point (x, y), got {got}")
+        return name
+
+
+class WheelMeasure(PlacedMeasure):
+    """The largest root mean square of responses of one kind: of all wheels, an axle, a wheel or a seat."""
+
+    kind: ClassVar[str]
+
+    def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
+        """Return the measure in a load case; ValueError if the vehicle lacks the place."""
+        return CaseMeasure(tuple(map(Term, self.responses(case.vehicle))), largest=True)
+
+    def responses(self, vehicle: Vehicle) -> list[str]:
+        """Return the responses at the place."""
+        tyres = set(vehicle.tyres)
+        found = {
+            str(response.where): name
+            for name, response in vehicle.meanings.items()
+            if response.kind == self.kind and (self.where or response.where in tyres)
+        }
+        axle = {f"{self.where}_left", f"{self.where}_right"} & tyres
+        chosen = [name for end, name in found.items() if self.where in ("", end) or end in axle]
+        if not found:
+            raise ValueError(f"{self.word} must be of a vehicle that has it by name, got one without")
+        if not chosen:
+            known = ", ".join(filter(None, found)) or "all wheels"
+            raise ValueError(f"{self.word} must be of one of {known}, got {checks.shown(self.where)}")
+        return chosen
+
+
+class SWS(WheelMeasure, word="SWS", unit="m"):
+    """Suspension working space: root mean square of travel, of several struts the largest, equation (10).
+
+    Parameters
+    ----------
+    where : str
+        An axle, a wheel or a seat: ``"front"``, ``"front_left"``, ``"driver"``; all wheels by default.
+    name, maximise
+        As of `Measure`; the name is optional.
+
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> print(sc.SWS("front"))
+    SWS front
+    """
+
+    kind = "travel"
+
+
+class DTL(WheelMeasure, word="DTL", unit="N"):
+    """Dynamic tyre load: root mean square of tyre load, of several tyres the largest, equation (13).
+
+    Parameters
+    ----------
+    where : str
+        An axle or a wheel: ``"rear"``, ``"rear_left"``; all wheels by default.
+    name, maximise
+        As of `Measure`; the name is optional.
+
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> print(sc.DTL("rear_left"))
+    DTL rear_left
+    """
+
+    kind = "load"
+
+
+class DLC(DTL, word="DLC", unit="-"):
+    """Dynamic load coefficient: root mean square of tyre load over static load, of several tyres the largest.
+
+    Static loads are those on struts in the middle of their ranges.
+
+    Parameters
+    ----------
+    where, name, maximise
+        As of `DTL`.
+
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> print(sc.DLC())
+    DLC
+    """
+
+    def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
+        """Return the measure in a load case; ValueError if the vehicle lacks masses or the place."""
+        responses = self.responses(assembled(case.vehicle))
+        return CaseMeasure(tuple(Term(name, relative=True) for name in responses), largest=True)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class RootSumSquare(Measure, word=""):
+    """Root sum of squares of responses, each with a weighting and a factor.
+
+    Parameters
+    ----------
+    terms : sequence of Term
+        All accelerations, all travels or all loads; factors may carry further units.
+    name, maximise
+        As of `Measure`; the name is optional.
+
+    Examples
+    --------
+    The vibration total value of a seated person, with the factors [m/rad] of ISO 2631-1, 8.2.2.1, for rotations:
+
+    >>> import suspension_ctrl as sc
+    >>> rotations = [sc.Term("roll_acceleration", "We", 0.63), sc.Term("pitch_acceleration", "We", 0.4)]
+    >>> print(sc.RootSumSquare([sc.Term("driver_acceleration", "Wk"), *rotations]))
+    Wk driver_acceleration + 0.63 We roll_acceleration + 0.4 We pitch_acceleration
+    """
+
+    terms: Sequence[Term]
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        terms = tuple(self.terms)
+        if not terms or any(not isinstance(term, Term) or term.moment or term.relative for term in terms):
+            raise ValueError(f"terms must be a list of Term without moment, got {checks.shown(self.terms)}")
+        self._keep(terms=terms, unit=signal_unit(label(terms[0].response)))
+
+    @classmethod
+    def read(cls, rest: str, **options: Any) -> Measure:
+        """Return the measure of a text; options name and maximise."""
+        return cls([_term(part.strip()) for part in _PLUS.split(rest)], **options)
+
+    def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
+        """Return the measure in a load case; ValueError unless the vehicle has its responses."""
+        for term in self.terms:
+            if isinstance(term.response, str):
+                checks.one_of("response", term.response, case.vehicle.meanings)
+        units = [signal_unit(label(term.response)) for term in self.terms]
+        if len({unit.removeprefix("rad").removeprefix("m") for unit in units}) > 1:
+            raise ValueError(f"measure must be a sum of responses of one kind, got {checks.shown(self._rest())}")
+        return CaseMeasure(tuple(self.terms))
+
+    def _rest(self) -> str:
+        return " + ".join(map(str, self.terms))
+
+
+def _term(text: str) -> Term:
+    """Return the term of a text."""
+    found = _TERM.fullmatch(text)
+    if not found:
+        known = f"{', '.join(filter(None, Measure.words))}, or terms like '0.4 We pitch_acceleration'"
+        raise ValueError(f"measure must be {known}, got {checks.shown(text)}")
+    factor, weighting, response, x, y = found.groups()
+    return Term(response if x is None else ("acceleration", float(x), float(y)), weighting, float(factor or 1))
