@@ -14,17 +14,18 @@ PACKAGE = Path(suspension_ctrl.__file__).parent
 MODULES = sorted(path for path in PACKAGE.rglob("*.py") if path.name != "__init__.py")
 
 ROOMS = {
-    *("checks", "compiled", "datafiles", "documents", "escaping", "quantities", "tables"),
+    *("checks", "compiled", "datafiles", "documents", "escaping", "quantities", "schema", "tables"),
     *("commands", "paper", "response", "roads", "search", "study", "vehicles"),
 }
 
 PUBLIC = {
-    "FlexibleBody", "FullCar", "HalfCar", "Payload", "Plant", "QuarterCar", "RollGeometry", "Seat", "load_vehicle",
+    "FlexibleBody", "FullCar", "HalfCar", "Payload", "Plant", "QuarterCar", "RollGeometry", "Seat",
+    "VehicleFile", "load_vehicle", "save_vehicle",
     "Constant", "Exponential", "Iso8608Road", "Isotropic", "MeasuredRoad", "PowerLawRoad", "Profile", "Tabulated",
-    "TwoSlopeRoad", "load_road",
+    "TwoSlopeRoad", "load_road", "save_road",
     "ACC", "DLC", "DTL", "FrontLoadTransfer", "Limit", "LoadCase", "Measure", "RideProblem", "RollDamping",
     "RollGradient", "RootSumSquare", "SWS", "Term", "exposure", "international_roughness_index", "load_problem",
-    "response_psds", "ride", "simulate", "weighting",
+    "save_problem",    "response_psds", "ride", "simulate", "weighting",
     "FailureWarning", "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run",
     "Sampling", "minimise", "non_dominated", "Study",
 }  # fmt: skip

@@ -1,120 +1,139 @@
-"""TOML tables: values by keys with units, and one line about a key that is wrong."""
+"""Files of TOML: an error names file, line and key, several mistakes are a line each, no more is quoted."""
 
 import re
-from dataclasses import dataclass, field
 
 import pytest
 
-from suspension_ctrl.documents import Table, keyed, made, naming, read_toml, under
-from suspension_ctrl.quantities import Checked, unit
+from suspension_ctrl.documents import FileError, Mistakes, Table, document, keyed, line_numbers, lines_of, naming
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Wheel(Checked):
-    mass: float = field(metadata=unit("kg"))
-    place: tuple[float, float] = field(metadata=unit("m"))
-    name: str = field(metadata={"key": "called"})
-    camber: float = field(default=0.0, metadata=unit("rad"))
-    slip: float | None = None
-    spokes: tuple[float, ...] = ()
-    other: object = None
-
-
-GOOD = {"mass_kg": 20, "place_m": [1, 0.5], "called": "left"}
-
-
-def test_a_dataclass_is_made_by_the_names_and_units_of_its_fields():
-    table = Table("wheel.", GOOD | {"camber_rad": 0.1, "slip": 2, "spokes": [1, 2], "beside": 3})
-    wheel = made(table, Wheel, beside=["beside"], other="given")
-    assert wheel == Wheel(20.0, (1.0, 0.5), "left", 0.1, 2.0, (1.0, 2.0), "given")
-    assert made(Table("", GOOD), Wheel) == Wheel(20.0, (1.0, 0.5), "left")
-
-
-NUMBER = "a number from 1e-12 to 1e+12 in size or 0"
-KEYS = "mass_kg, place_m, called, camber_rad, slip, spokes"
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"mass_kg": -1}, "wheel.mass_kg must be finite and > 0 kg, got -1.0"),
-        ({"mass_kg": "1"}, f"wheel.mass_kg must be {NUMBER}, got '1'"),
-        ({"mass_kg": True}, f"wheel.mass_kg must be {NUMBER}, got True"),
-        ({"mass_kg": 1e13}, f"wheel.mass_kg must be {NUMBER}, got 10000000000000.0"),
-        ({"place_m": [1]}, "wheel.place_m must be an array of two numbers, got [1.0]"),
-        ({"place_m": 1}, f"wheel.place_m must be an array of up to 100, each {NUMBER}, got 1"),
-        ({"place_m": []}, f"wheel.place_m must be an array of up to 100, each {NUMBER}, got []"),
-        ({"called": " "}, "wheel.called must be a text, got ' '"),
-        ({"camber_rad": -0.1}, "wheel.camber_rad must be finite and >= 0 rad, got -0.1"),
-        ({"mass_t": 1}, "wheel.mass_t must be mass_kg, got 1"),
-        ({"colour": 1}, f"wheel.colour must be one of the keys {KEYS}, got 1"),
-    ],
-)
-def test_a_wrong_key_is_one_line(changes, message):
-    with pytest.raises(ValueError, match="^" + re.escape(message) + "$"):
-        made(Table("wheel.", GOOD | changes), Wheel)
-
-
-def test_a_key_that_is_needed_is_missed():
-    with pytest.raises(ValueError, match=f"^called must be given, got none: keys are {KEYS}$"):
-        made(Table("", {"mass_kg": 1, "place_m": [0, 0]}), Wheel)
-
-
-def test_tables_in_tables():
-    table = Table("", {"a": {"b": {"c": 1}, "d": 2}, "e": [{"f": 3}], "on": True})
-    assert table.table("a").name == "a."
-    assert table.table("none").content == {}
-    assert table.table("a").flat().content == {"b.c": 1, "d": 2}
-    assert [one.name for one in table.tables("e")] == ["e[1]."]
-    assert table.tables("none") == []
-    assert table.boolean("on") is True
-    assert Table("x.", {"kind": "b"}).choice("kind", {"a": 1, "b": 2}) == 2
-
-
-@pytest.mark.parametrize(
-    ("read", "message"),
-    [
-        (lambda table: table.table("number"), "x.number must be a table, got 3"),
-        (lambda table: table.tables("number"), "x.number must be an array of up to 100 tables, got 3"),
-        (lambda table: table.tables("numbers"), "x.numbers[1] must be a table, got 1"),
-        (lambda table: table.boolean("number"), "x.number must be true or false, got 3"),
-        (lambda table: table.choice("number", {"a": 1, "b": 2}), "x.number must be one of a, b, got 3"),
-        (lambda table: table.choice("none", {"a": 1, "b": 2}), "x.none must be one of a, b, got None"),
-    ],
-)
-def test_values_of_another_kind_are_one_line(read, message):
-    with pytest.raises(ValueError, match="^" + re.escape(message) + "$"):
-        read(Table("x.", {"number": 3, "numbers": [1]}))
-
-
-def test_arrays_have_an_end():
-    table = Table("", {"tables": [{}] * 3, "numbers": [1.0] * 101})
-    assert len(table.tables("tables", most=3)) == 3
-    with pytest.raises(ValueError, match=r"^tables must be an array of up to 2 tables, got \[\{\}, \{\}, \{\}\]$"):
-        table.tables("tables", most=2)
-    with pytest.raises(
-        ValueError, match=f"^numbers must be an array of up to 100, each {re.escape(NUMBER)}, got "
-    ):
-        table.numbers("numbers")
-
-
-def test_errors_name_the_file_and_the_key(tmp_path):
+def test_an_error_of_a_document_names_the_file_the_line_and_the_key(tmp_path):
     path = tmp_path / "a.toml"
-    refused = pytest.raises(ValueError, match=r"> 0 kg$")
-    with refused as error, naming(path), under("cases[2]"), keyed("seats[1].", {"mass_kg": "mass"}):
-        raise ValueError("mass must be\n> 0 kg")
-    assert str(error.value) == f"{path}: cases[2]: seats[1].mass_kg must be > 0 kg"
+    path.write_text("x = 1\n[a]\nb = 2\n")
+    with pytest.raises(FileError, match=rf"^{re.escape(str(path))}:3: a.b must be 1$"), document(path):
+        raise ValueError("a.b must be 1")
+    with document(path) as table:
+        assert table == Table("", {"x": 1, "a": {"b": 2}})
+
+
+def test_several_mistakes_are_one_error_of_a_line_each(tmp_path):
+    path = tmp_path / "a.toml"
+    path.write_text("x = 1\ny = 2\n")
+    mistakes = Mistakes()
+    with mistakes.noted():
+        raise ValueError("y must be\n3")
+    with mistakes.noted("x: "), naming("b.csv"):
+        raise ValueError("row 1 must be 4")
+    with mistakes.noted("x: "):
+        raise FileError("one\ntwo")
+    mistakes.note("none of these")
+    assert len(mistakes) == 5
+    with pytest.raises(FileError) as error, document(path):
+        mistakes.settle()
+    assert lines_of(error.value) == [
+        f"{path}:2: y must be 3",
+        f"{path}:1: x: b.csv: row 1 must be 4",
+        f"{path}:1: x: one",
+        f"{path}:1: x: two",
+        f"{path}: none of these",
+    ]
+
+
+def test_without_mistakes_nothing_is_raised():
+    Mistakes().settle()
+
+
+def test_the_same_mistake_is_noted_once():
+    mistakes = Mistakes()
+    for _ in range(3):
+        mistakes.note("x must be 1")
+    assert len(mistakes) == 1
+
+
+def test_an_error_lists_twenty_mistakes_and_the_number_of_the_others():
+    with pytest.raises(FileError) as error, naming("a.toml"):
+        raise FileError("\n".join(f"x{i} must be 1" for i in range(25)))
+    lines = lines_of(error.value)
+    assert lines[19] == "a.toml: x19 must be 1"
+    assert lines[20:] == ["a.toml: 5 further mistakes"]
+
+
+TEXT = """
+title = "a"
+[[seats]]
+name = 'x'
+"mass_kg" = 3
+[[seats]]
+source = \"\"\"
+name = "no key"
+[nor.a.table]
+\"\"\"
+name = "y" # name = 3
+[struts]
+front.spring_N_per_m = 1
+[struts . rear]
+spring_N_per_m=2
+[[cases]]
+[[cases.payload]]
+[[cases]]
+[cases.roll_geometry]
+[[cases.payload]]
+mass_kg = 3
+[[cases.payload]]
+  mass_kg = 4
+"""
+
+
+@pytest.mark.parametrize(
+    ("key", "line"),
+    [
+        ("title", 2), ("seats[1]", 3), ("seats[1].name", 4), ("seats[1].mass_kg", 5), ("seats[2].source", 7),
+        ("seats[2].name", 11), ("struts.front.spring_N_per_m", 13), ("struts.rear", 14),
+        ("struts.rear.spring_N_per_m", 15), ("cases[1].payload[1]", 17), ("cases[2]", 18),
+        ("cases[2].roll_geometry", 19), ("cases[2].payload[1].mass_kg", 21), ("cases[2].payload[2].mass_kg", 23),
+    ],
+)  # fmt: skip
+def test_lines_of_keys_and_tables(key, line):
+    assert line_numbers(TEXT)[key] == line
+
+
+@pytest.mark.parametrize(
+    ("message", "place"),
+    [
+        ("title must", ":2"),
+        ("seats[1].mass_kg must", ":5"),
+        ("seats[2].mass_kg must be given", ":6"),
+        ("measures[3]: ACC must", ""),
+        ("title[3]: ACC must", ":2"),
+        ("cases[1].vehicle: a.toml:3: x must", ":16"),
+        ("the file must", ""),
+        ("", ""),
+    ],
+)
+def test_an_error_has_the_line_of_its_key_or_of_the_table_around_it(message, place):
+    with pytest.raises(FileError, match=f"^a{place}: {re.escape(message)}$"), naming("a", line_numbers(TEXT)):
+        raise ValueError(message)
+
+
+def test_the_key_stands_in_place_of_the_name_of_a_field():
+    for message, named in (("mass must be 1", "seats[1].mass_kg must be 1"), ("it must", "seats[1]: it must")):
+        with pytest.raises(ValueError, match=f"^{re.escape(named)}$"), keyed("seats[1].", {"mass": "mass_kg"}):
+            raise ValueError(message)
+
+
+def test_a_flat_table_has_dotted_keys():
+    assert Table("x.", {"a": {"b": 1}, "c": {}, "d": 2}).flat() == Table("x.", {"a.b": 1, "c": {}, "d": 2})
 
 
 def test_a_file_is_toml_in_utf_8_with_or_without_a_mark(tmp_path):
     path = tmp_path / "a.toml"
     path.write_bytes(b"\xef\xbb\xbfx = 1")
-    assert read_toml(path).content == {"x": 1}
+    with document(path) as table:
+        assert table.content == {"x": 1}
     path.write_bytes(b"x = ")
-    with pytest.raises(
-        ValueError, match=r"^the file must be TOML in UTF-8, got Invalid value \(at end of document\)$"
-    ):
-        read_toml(path)
+    needed = r": the file must be TOML in UTF-8, got Invalid value \(at end of document\)$"
+    with pytest.raises(ValueError, match=needed), document(path):
+        pass
 
 
 @pytest.mark.parametrize(
@@ -133,8 +152,9 @@ def test_a_file_is_toml_in_utf_8_with_or_without_a_mark(tmp_path):
 def test_an_error_about_a_file_that_is_no_toml_quotes_nothing_of_it(tmp_path, content, got):
     path = tmp_path / "a.toml"
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
-    with pytest.raises(ValueError, match="^the file must be TOML in UTF-8, got " + re.escape(got)) as error:
-        read_toml(path)
+    needed = ": the file must be TOML in UTF-8, got " + re.escape(got)
+    with pytest.raises(ValueError, match=needed) as error, document(path):
+        pass
     assert "secret" not in str(error.value)
 
 
@@ -151,15 +171,26 @@ def test_tables_and_numbers_that_go_too_far_are_one_line(error):
 def test_deep_tables_are_one_line(tmp_path):
     path = tmp_path / "a.toml"
     path.write_text(f"x = {'[' * 5000}")
-    with pytest.raises(ValueError, match=r"got a RecursionError$"), naming(path):
-        read_toml(path)
+    with pytest.raises(ValueError, match=r"got a RecursionError$"), document(path):
+        pass
 
 
-def test_keys_values_and_paths_are_printable_and_values_short():
-    table = Table("x.", {"\x1b[31m" + "k" * 99: "\u202e" + "v" * 99})
-    with pytest.raises(ValueError, match=r"^[^\n]*$") as error, naming("\x1b]0;.toml"):
-        table.check_keys({"a": "a"})
-    said = str(error.value)
-    assert said.isprintable()
-    assert said.startswith(rf"\x1b]0;.toml: x.\x1b[31m{'k' * 32} must be one of the keys a, got '\u202e")
-    assert len(said.partition(", got ")[2]) <= 40
+def test_files_and_their_sizes_are_looked_at_first(tmp_path):
+    path = tmp_path / "a.toml"
+    path.write_text("#" * 250_001)
+    with (
+        pytest.raises(ValueError, match=r"a.toml: the file must be a regular one of at most 0.25 MB"),
+        document(path),
+    ):
+        pass
+    with (
+        pytest.raises(ValueError, match=r"must be a regular one of at most 0.25 MB, got another"),
+        document(tmp_path),
+    ):
+        pass
+
+
+def test_paths_and_mistakes_are_printable_lines():
+    with pytest.raises(ValueError, match=r"^[^\n]*$") as error, naming("\x1b]0;\n.toml"):
+        raise ValueError("x\u202e must be 1")
+    assert str(error.value) == r"\x1b]0;\n.toml: x\u202e must be 1"

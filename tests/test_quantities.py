@@ -6,8 +6,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from suspension_ctrl.quantities import Checked, FrozenMapping, Record, frozen_array, unit
+from suspension_ctrl.quantities import Checked, FrozenMapping, Record, frozen_array, quantity, unit
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -72,3 +74,75 @@ def test_numbers_with_units_are_checked_at_birth(values, message):
     assert Spring(rate=1.0, offset=-1.0, count=-3.0).damping == 0.0
     with pytest.raises(ValueError, match="^" + re.escape(message) + "$"):
         Spring(**values)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [
+        ("100km/h", "m/s", 100 / 3.6),
+        ("60 mph", "m/s", 60 * 1609.344 / 3600),  # the international mile
+        ("1500mm", "m", 1.5),
+        ("-1.2e1 cm", "m", -0.12),
+        ("1.2 t", "kg", 1200.0),
+        ("20 kN/m", "N/m", 20e3),
+        ("100 lbf/in", "N/m", 100 * 0.45359237 * 9.80665 / 0.0254),
+        ("1.5 N s/mm", "N s/m", 1500.0),
+        ("1.5 kN*s/m", "N s/m", 1500.0),
+        ("400 N m/deg", "N m/rad", 400 * 180 / np.pi),
+        ("4 deg/g", "rad s^2/m", 4 * np.pi / 180 / 9.80665),
+        ("5 cm^3", "m^3", 5e-6),
+        ("0.1 cycle/m", "cycle/m", 0.1),
+        ("120 min^-1", "Hz", 2.0),
+        ("30%", "", 0.3),
+        ("0.3", "", 0.3),
+        (" 7 ", "m", 7.0),
+    ],
+)
+def test_values_with_units_are_numbers_in_the_unit_of_the_field(text, unit, value):
+    """By definitions of the units, to a rounding of either side."""
+    assert quantity("x", text, unit) == pytest.approx(value, rel=2e-15)
+
+
+@given(st.floats(-1e12, 1e12).filter(lambda x: x == 0 or abs(x) > 1e-12))
+def test_a_bare_number_is_read_as_python_writes_it(value):
+    assert quantity("x", repr(value), "N/m") == value
+
+
+@given(st.integers(0, 10**9))
+def test_decimal_factors_are_exact(millimetres):
+    assert quantity("x", f"{millimetres}mm", "m") == millimetres / 1000
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "message"),
+    [
+        ("60kg", "m/s", "speed must be in m/s or a unit like it, got '60kg' in kg"),
+        ("60 m", "", "speed must be a number without unit, got '60 m' in m"),
+        ("60 furlong/h", "m/s", "speed must be in units of kg, m, s, .*, got 'furlong/h'"),
+        ("60 km//h", "m/s", "speed must be in units of .*, got 'km//h'"),
+        ("fast", "m/s", "speed must be a number with a unit like m/s, got 'fast'"),
+        ("nan", "m/s", "speed must be a number with a unit like m/s, got 'nan'"),
+        ("1e999", "m/s", "speed must be in units of .*, got 'e999'"),
+        ("1\n2", "m/s", "speed must be in units of .*, got '2'"),
+        ("", "m/s", "speed must be a number with a unit like m/s, got ''"),
+        (3.0, "m/s", "speed must be a number with a unit like m/s, got 3.0"),
+    ],
+)
+def test_a_unit_that_does_not_fit_is_one_line(text, unit, message):
+    with pytest.raises(ValueError, match=f"^{message}$"):
+        quantity("speed", text, unit)
+
+
+@given(st.text(max_size=40))
+def test_any_text_is_a_number_or_refused_in_one_line(text):
+    try:
+        said = str(quantity("x", text, "m/s"))
+    except ValueError as error:
+        said = str(error)
+    assert said.isprintable()
+    assert said not in ("inf", "nan")
+
+
+def test_a_bare_number_is_refused_where_a_unit_is_needed():
+    with pytest.raises(ValueError, match=r"^x must be a number with a unit like m, got '3'$"):
+        quantity("x", "3", "m", bare=False)

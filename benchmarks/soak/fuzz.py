@@ -1,4 +1,4 @@
-"""Fuzzed files for every reader: whatever a file holds, it is read, or refused in one line.
+"""Fuzzed files for every reader: whatever a file holds, it is read, or refused in a line for each mistake.
 
 ``python -m soak.fuzz 10000`` in the folder ``benchmarks`` prints a table of counts.
 """
@@ -16,6 +16,7 @@ import numpy as np
 
 from suspension_ctrl import Iso8608Road, MeasuredRoad, Plant, datafiles, international_roughness_index
 from suspension_ctrl.commands.bode import read_designs
+from suspension_ctrl.documents import FileError
 from suspension_ctrl.paper import experiment
 from suspension_ctrl.response.files import load_problem
 from suspension_ctrl.roads.files import load_road
@@ -23,6 +24,7 @@ from suspension_ctrl.roads.measured import COHERENCE, read_curve
 from suspension_ctrl.roads.profiles import read_profile, write_profile
 from suspension_ctrl.vehicles.files import load_vehicle
 
+MISTAKES = 21  # most lines of an error
 SECONDS, MEGABYTES = 20.0, 500.0
 """Processor time for one file, and memory of all: more counts as a failure."""
 
@@ -164,8 +166,9 @@ def fuzz(reader: Reader, count: int, seed: int = 0) -> Outcome:
                 read += 1
             except (ValueError, OSError) as error:
                 refused += 1
-                if not (text := str(error)).isprintable():
-                    failures.append(f"{number}: {text!r}")
+                lines = str(error).split("\n") if isinstance(error, FileError) else [str(error)]
+                if not all(line.isprintable() for line in lines) or len(lines) > MISTAKES:
+                    failures.append(f"{number}: {str(error)!r}")
             except BaseException as error:  # of any kind: that is looked for
                 failures.append(f"{number}: {error!r}")
             slowest = max(slowest, time.process_time() - began)

@@ -1,5 +1,6 @@
 from .response.driving import simulate as simulate
 from .response.files import load_problem as load_problem
+from .response.files import save_problem as save_problem
 from .response.histories import exposure as exposure
 from .response.load_case import LoadCase as LoadCase
 from .response.measures.handling import FrontLoadTransfer as FrontLoadTransfer
@@ -23,6 +24,7 @@ from .roads.coherence import Exponential as Exponential
 from .roads.coherence import Isotropic as Isotropic
 from .roads.coherence import Tabulated as Tabulated
 from .roads.files import load_road as load_road
+from .roads.files import save_road as save_road
 from .roads.measured import MeasuredRoad as MeasuredRoad
 from .roads.profiles import Profile as Profile
 from .roads.spectra import Iso8608Road as Iso8608Road
@@ -43,7 +45,9 @@ from .study.study import Study as Study
 from .vehicles.cars import FullCar as FullCar
 from .vehicles.cars import HalfCar as HalfCar
 from .vehicles.cars import QuarterCar as QuarterCar
+from .vehicles.files import VehicleFile as VehicleFile
 from .vehicles.files import load_vehicle as load_vehicle
+from .vehicles.files import save_vehicle as save_vehicle
 from .vehicles.handling import RollGeometry as RollGeometry
 from .vehicles.mounted import FlexibleBody as FlexibleBody
 from .vehicles.mounted import Payload as Payload

@@ -1,39 +1,69 @@
-"""TOML files whose keys end in their units; an error names the file and the key in one line.
-
-A quantity called ``body_mass`` in kg has the key ``body_mass_kg``; of units, ``^`` is left out and ``/`` spelt
-``per``: ``pitch_inertia_kg_m2``, ``spring_N_per_m``.
-"""
+"""TOML files in and out; an error names the file, the line and the key, and one error may list many mistakes."""
 
 import re
 import tomllib
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import MISSING, dataclass, fields
 from os import PathLike
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NamedTuple
 
 from . import checks, escaping
-from .quantities import key_of
 
-T = TypeVar("T")
-
-_SMALLEST, _LARGEST = 1e-12, 1e12  # beyond any vehicle; their squares, products and quotients are finite
-_NUMBER = f"a number from {_SMALLEST:g} to {_LARGEST:g} in size or 0"
-_MOST = 100  # numbers or tables in an array: equations of motion of more take gigabytes
+_LINES = 20  # most mistakes that an error lists
 _MEGABYTES, _DOTS = 0.25, 500  # of a file, in a line: tomllib takes quadratic time for a key a.b.c. ...
 _QUOTED = re.compile(r"(character|declare|namespace|key) ['\"(].*(?=\(at )")  # of the file, by tomllib
+_HEADER = re.compile(r"\s*(\[\[?)([^\[\]]{1,200})\]")
+_KEY = re.compile(r"\s*([\w.\"'-]{1,200})\s*=")
+
+
+class FileError(ValueError):
+    """One or more mistakes in a file, a line each."""
+
+
+def lines_of(error: ValueError) -> list[str]:
+    """Return the mistakes that an error lists, each as one line."""
+    return str(error).split("\n") if isinstance(error, FileError) else [" ".join(str(error).split())]
+
+
+class Mistakes:
+    """The mistakes found in a file so far."""
+
+    def __init__(self) -> None:
+        self._lines: dict[str, None] = {}
+
+    def __len__(self) -> int:
+        return len(self._lines)
+
+    def note(self, line: str) -> None:
+        """Note a mistake."""
+        self._lines[line] = None
+
+    @contextmanager
+    def noted(self, prefix: str = "") -> Iterator[None]:
+        """Note a ValueError of the block, each of its lines after the prefix, and go on after the block."""
+        try:
+            yield
+        except ValueError as error:
+            self._lines |= dict.fromkeys(f"{prefix}{line}" for line in lines_of(error))
+
+    def settle(self) -> None:
+        """Raise a FileError that lists the mistakes, if there are any."""
+        if self._lines:
+            raise FileError("\n".join(self._lines))
 
 
 @contextmanager
-def naming(path: str | PathLike[str]) -> Iterator[None]:
-    """Name the file in a ValueError about its content, in one line; likewise if tables or numbers go too far."""
+def naming(path: str | PathLike[str], numbers: Mapping[str, int] | None = None) -> Iterator[None]:
+    """Name the file, and by the `numbers` of lines the line, in an error about the content of a file."""
     try:
         yield
     except (ValueError, RecursionError, ArithmeticError, MemoryError) as error:
         far = "the file must have tables of moderate depth and numbers of moderate size, got a"
-        said = str(error) if isinstance(error, ValueError) else f"{far} {type(error).__name__}"
-        raise ValueError(escaping.terminal(f"{path}: {' '.join(said.split())}")) from None
+        said = lines_of(error) if isinstance(error, ValueError) else [f"{far} {type(error).__name__}"]
+        more = [f"{len(said) - _LINES} further mistakes"] if len(said) > _LINES else []
+        named = [f"{path}{_place(line, numbers or {})}: {line}" for line in [*said[:_LINES], *more]]
+        raise FileError("\n".join(map(escaping.terminal, named))) from None
 
 
 @contextmanager
@@ -42,101 +72,16 @@ def keyed(prefix: str, names: Mapping[str, str]) -> Iterator[None]:
     try:
         yield
     except ValueError as error:
-        keys = {name: prefix + key for key, name in names.items()}
         name, space, rest = str(error).partition(" ")
-        raise ValueError(keys.get(name, name) + space + rest) from None
+        known = prefix + names[name] if name in names else f"{prefix[:-1]}: {name}" if prefix else name
+        raise ValueError(known + space + rest) from None
 
 
-@contextmanager
-def under(key: str) -> Iterator[None]:
-    """Put the key before a ValueError about its value."""
-    try:
-        yield
-    except ValueError as error:
-        raise ValueError(f"{key}: {error}") from None
-
-
-def read_toml(path: Path) -> "Table":
-    """Read a TOML file in UTF-8; ValueError if it is none, which quotes nothing of it."""
-    checks.regular(path, _MEGABYTES)
-    try:
-        text = path.read_bytes().decode("utf-8-sig")
-        if (dots := max(line.count(".") for line in text.split("\n"))) > _DOTS:
-            raise ValueError(f"a line of {dots} dots, {_DOTS} are the most")
-        return Table("", tomllib.loads(text))
-    except ValueError as error:
-        encoded = isinstance(error, UnicodeDecodeError)
-        got = "another encoding" if encoded else _QUOTED.sub(r"\1 ", str(error))
-        raise ValueError(f"the file must be TOML in UTF-8, got {got}") from None
-
-
-@dataclass(frozen=True)
-class Table:
+class Table(NamedTuple):
     """A table of a file."""
 
     name: str  # before its keys in errors: "struts.front."
-    content: Mapping[str, object]
-
-    def check_keys(self, allowed: Mapping[str, str], needed: Collection[str] = ()) -> None:
-        """Raise ValueError unless all `needed` keys are present and all keys are `allowed` (names by key)."""
-        for key, value in self.content.items():
-            if key not in allowed:
-                got = checks.shown(value)
-                named = self.name + escaping.terminal(key)[:40]
-                raise ValueError(f"{named} must be {_meant(key, allowed)}, got {got}")
-        for key in needed:
-            if key not in self.content:
-                raise ValueError(f"{self.name}{key} must be given, got none: keys are {', '.join(allowed)}")
-
-    def value(self, key: str, fits: Callable[[Any], bool], words: str, default: object = None) -> Any:
-        """Return the value of a key; ValueError with the allowed `words` unless it `fits`."""
-        value = self.content.get(key, default)
-        if not fits(value):
-            raise ValueError(f"{self.name}{key} must be {words}, got {checks.shown(value)}")
-        return value
-
-    def text(self, key: str) -> str:
-        """Return a text that is not empty."""
-        return str(self.value(key, lambda value: isinstance(value, str) and bool(value.strip()), "a text"))
-
-    def texts(self, key: str) -> tuple[str, ...]:
-        """Return an array of texts, empty if there is none."""
-        return tuple(self.value(key, _are_texts, "an array of texts", []))
-
-    def choice(self, key: str, choices: Mapping[str, T]) -> T:
-        """Return the choice that the key names."""
-        checks.one_of(f"{self.name}{key}", self.content.get(key), tuple(choices))
-        return choices[self.text(key)]
-
-    def boolean(self, key: str) -> bool:
-        """Return true or false."""
-        return bool(self.value(key, lambda value: isinstance(value, bool), "true or false"))
-
-    def number(self, key: str) -> float:
-        """Return a finite number."""
-        return float(self.value(key, _is_number, _NUMBER))
-
-    def numbers(self, key: str) -> tuple[float, ...]:
-        """Return an array of finite numbers, one or more."""
-        return tuple(map(float, self.value(key, _are_numbers, f"an array of up to {_MOST}, each {_NUMBER}")))
-
-    def pair(self, key: str) -> tuple[float, float]:
-        """Return an array of two finite numbers."""
-        value = self.numbers(key)
-        if len(value) != 2:
-            raise ValueError(f"{self.name}{key} must be an array of two numbers, got {checks.shown(list(value))}")
-        return value[0], value[1]
-
-    def table(self, key: str) -> "Table":
-        """Return a table in this one, empty if there is none."""
-        return Table(f"{self.name}{key}.", self.value(key, lambda value: isinstance(value, dict), "a table", {}))
-
-    def tables(self, key: str, most: int = _MOST) -> "list[Table]":
-        """Return an array of tables, numbered from 1 in errors, empty if there is none."""
-        words = f"an array of up to {most} tables"
-        array = self.value(key, lambda value: isinstance(value, list) and len(value) <= most, words, [])
-        numbered = Table(self.name, {f"{key}[{i}]": one for i, one in enumerate(array, start=1)})
-        return [numbered.table(one) for one in numbered.content]
+    content: Mapping[str, Any]
 
     def flat(self) -> "Table":
         """Return the table with the values of its tables under dotted keys."""
@@ -147,36 +92,49 @@ class Table:
         return Table(self.name, flat)
 
 
-def made(table: Table, kind: type[T], beside: Collection[str] = (), **given: object) -> T:
-    """Return a dataclass by a table of its numbers and texts; other keys may be `beside` them.
-
-    A key is a field's metadata ``key``, or its name and unit.
-    """
-    read: dict[Any, Callable[[str], object]] = dict.fromkeys([float, float | None], table.number)
-    read |= {str: table.text, tuple[float, float]: table.pair, tuple[float, ...]: table.numbers}
-    found = [one for one in fields(kind) if one.type in read and one.name not in given]  # type: ignore[arg-type]
-    own = {one.metadata.get("key", key_of(one.name, one.metadata.get("unit", ""))): one for one in found}
-    names = {key: one.name for key, one in own.items()}
-    needed = [key for key, one in own.items() if one.default is MISSING]
-    table.check_keys(names | {key: key for key in beside}, needed)
-    with keyed(table.name, names):
-        return kind(**given, **{one.name: read[one.type](key) for key, one in own.items() if key in table.content})
-
-
-def _is_number(value: Any) -> bool:
-    real = isinstance(value, int | float) and not isinstance(value, bool)
-    return real and (value == 0 or _SMALLEST <= abs(value) <= _LARGEST)
+@contextmanager
+def document(path: Path) -> Iterator[Table]:
+    """Yield the table of a TOML file in UTF-8; an error of the block names the file and the lines of its keys."""
+    numbers: dict[str, int] = {}
+    with naming(path, numbers):
+        checks.regular(path, _MEGABYTES)
+        try:
+            text = path.read_bytes().decode("utf-8-sig")
+            if (dots := max(line.count(".") for line in text.split("\n"))) > _DOTS:
+                raise ValueError(f"a line of {dots} dots, {_DOTS} are the most")
+            content = tomllib.loads(text)
+        except ValueError as error:  # nothing of the file is quoted
+            encoded = isinstance(error, UnicodeDecodeError)
+            got = "another encoding" if encoded else _QUOTED.sub(r"\1 ", str(error))
+            raise ValueError(f"the file must be TOML in UTF-8, got {got}") from None
+        numbers |= line_numbers(text)
+        yield Table("", content)
 
 
-def _are_texts(value: Any) -> bool:
-    return isinstance(value, list) and all(isinstance(text, str) for text in value)
+def line_numbers(text: str) -> dict[str, int]:
+    """Return the line of each key and header in a TOML text, named as in errors: ``seats[1].mass_kg``."""
+    found: dict[str, int] = {}
+    lengths: dict[str, int] = {}  # of arrays of tables
+    table, inside = "", False
+    for number, line in enumerate(text.split("\n"), start=1):
+        if not inside and (header := _HEADER.match(line)):
+            table = ""
+            for part in re.sub(r"[\s\"']", "", header[2]).split("."):
+                table += f".{part}" if table else part
+                if header[1] == "[[" and header[2].rstrip().endswith(part):
+                    lengths[table] = lengths.get(table, 0) + 1
+                table += f"[{lengths[table]}]" if table in lengths else ""
+            found.setdefault(table, number)
+            table += "."
+        elif not inside and (key := _KEY.match(line)):
+            found.setdefault(table + re.sub("[\"']", "", key[1]), number)
+        inside ^= (line.count('"""') + line.count("'''")) % 2 == 1
+    return found
 
 
-def _are_numbers(value: Any) -> bool:
-    return isinstance(value, list) and 0 < len(value) <= _MOST and all(map(_is_number, value))
-
-
-def _meant(key: str, allowed: Mapping[str, str]) -> str:
-    """Return the allowed key of the same name in another unit, or all allowed keys."""
-    meant = [(len(name), right) for right, name in allowed.items() if f"{key}_".startswith(f"{name}_")]
-    return max(meant)[1] if meant else f"one of the keys {', '.join(allowed)}"
+def _place(message: str, numbers: Mapping[str, int]) -> str:
+    """Return ``:12``, the line of the key at the start of a message or of the table around it, if known."""
+    key = message.split(" ", 1)[0].rstrip(":")
+    while key and key not in numbers:
+        key = key[: max(key.rfind("."), key.rfind("["), 0)]
+    return f":{numbers[key]}" if key else ""

@@ -1,8 +1,12 @@
-"""Names and units of quantities; frozen records of them, compared, hashed and shown by their fields."""
+"""Quantities: values and names with units, and frozen records that are compared, hashed and shown by fields."""
 
+import re
 import textwrap
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import MISSING, Field, fields
+from fractions import Fraction
+from math import pi
 from typing import Any, TypeVar
 
 import numpy as np
@@ -18,11 +22,66 @@ K = TypeVar("K")
 V = TypeVar("V", covariant=True)
 
 _WIDTH, _LINES = 88, 6  # most columns and lines of a record's repr
+_QUANTITY = re.compile(
+    r"\s*([+-]?(?:\d{1,20}\.?\d{0,20}|\.\d{1,20})(?:[eE][+-]?\d{1,2})?)([^\d.].{0,29})?", re.ASCII
+)
+_TERM = re.compile(r"([A-Za-z%]+)\^?(-?\d?)", re.ASCII)
+_BASE = ("kg", "m", "s", "rad", "cycle")
+_UNITS = {  # by other units; g is standard gravity as in deg/g, a gram has no symbol here
+    "t": "1000 kg", "lb": "0.45359237 kg", "km": "1000 m", "cm": "0.01 m", "mm": "0.001 m", "in": "0.0254 m",
+    "ft": "0.3048 m", "ms": "0.001 s", "min": "60 s", "h": "3600 s", "mph": "0.44704 m/s", "Hz": "1 s^-1",
+    "N": "1 kg m/s^2", "kN": "1000 N", "lbf": "4.4482216152605 N", "g": "9.80665 m/s^2", "%": "0.01",
+}  # fmt: skip
 
 
 def unit(text: str, *limits: float) -> dict[str, Any]:
     """Return the metadata of a field in this unit and from a lowest to a highest value, if there are `limits`."""
     return {"unit": text, "limits": limits} if limits else {"unit": text}
+
+
+def quantity(name: str, text: str, unit: str = "", *, bare: bool = True) -> float:
+    """Return a number in `unit` by a text with a unit of that dimension, ``"100 km/h"``, or of a `bare` number.
+
+    The result is rounded once: products of the factors are exact, but for degrees.
+    """
+    found = _QUANTITY.fullmatch(text) if isinstance(text, str) else None
+    if not found or not (found[2] or bare):
+        raise ValueError(f"{name} must be a number with a unit like {unit or '%'}, got {checks.shown(text)}")
+    number, given = Fraction(found[1]), (found[2] or "").strip()
+    try:
+        (factor, dimension), (_, needed) = _dimension(given or unit), _dimension(unit)
+    except KeyError:
+        known = ", ".join([*_BASE, "deg", *_UNITS])
+        raise ValueError(f"{name} must be in units of {known}, got {checks.shown(given)}") from None
+    if dimension != needed:
+        needed_unit = f"in {unit} or a unit like it" if unit else "a number without unit"
+        raise ValueError(f"{name} must be {needed_unit}, got {checks.shown(text)} in {given}")
+    return float(number * factor)
+
+
+def _dimension(unit: str) -> tuple[Fraction, Counter[str]]:
+    """Return the factor of a unit to SI base units and their exponents; KeyError with a name that is unknown."""
+    terms = re.split(r"\s*([/ *])\s*", unit) if unit else []
+    factor, exponents = Fraction(1), Counter[str]()
+    for sign, term in zip(["*", *terms[1::2]], terms[::2], strict=False):
+        if not (found := _TERM.fullmatch(term)):
+            raise KeyError(term)
+        power = int(found[2] or 1) * (-1 if sign == "/" else 1)
+        size, base = _definition(found[1])
+        factor *= size**power
+        exponents.update({name: n * power for name, n in base.items()})
+    return factor, Counter({name: n for name, n in exponents.items() if n})
+
+
+def _definition(name: str) -> tuple[Fraction, Counter[str]]:
+    """Return factor and exponents of one symbol."""
+    if name in _BASE:
+        return Fraction(1), Counter({name: 1})
+    if name == "deg":
+        return Fraction(pi) / 180, Counter({"rad": 1})
+    number, _, unit = _UNITS[name].partition(" ")
+    factor, exponents = _dimension(unit)
+    return Fraction(number) * factor, exponents
 
 
 def wrapped(text: str) -> str:
@@ -84,7 +143,7 @@ class Record:
         self.__dict__.update(state)
 
     def __repr__(self) -> str:
-        shown = (f for f in self._fields() if f.repr and not _is_default(f, getattr(self, f.name)))
+        shown = (f for f in self._fields() if f.repr and not same(default_of(f), getattr(self, f.name)))
         text = f"{type(self).__name__}({', '.join(f'{f.name}={_shown(getattr(self, f.name), f)}' for f in shown)})"
         return wrapped(text)
 
@@ -105,12 +164,16 @@ class Checked(Record):
 
     def __post_init__(self) -> None:
         for one in self._fields():
-            value, metadata = getattr(self, one.name), one.metadata
-            if "limits" in metadata:
-                checks.within(one.name, value, *metadata["limits"])
-            elif one.type is float and "unit" in metadata:
-                check = checks.not_negative if one.default == 0 else checks.positive
-                check(one.name, value, metadata["unit"])
+            check_limits(one.name, getattr(self, one.name), one)
+
+
+def check_limits(name: str, value: Any, one: Field[Any]) -> None:
+    """Raise ValueError about `name` if the value is outside the limits of a field that has some."""
+    if "limits" in one.metadata:
+        checks.within(name, value, *one.metadata["limits"])
+    elif one.type is float and "unit" in one.metadata:
+        check = checks.not_negative if one.default == 0 else checks.positive
+        check(name, value, one.metadata["unit"])
 
 
 def _hashable(value: object) -> object:
@@ -123,9 +186,14 @@ def _hashable(value: object) -> object:
     return value
 
 
-def _is_default(one: Field[Any], value: object) -> bool:
-    default = one.default if one.default_factory is MISSING else one.default_factory()
-    return type(default) is type(value) and _hashable(default) == _hashable(value)
+def default_of(one: Field[Any]) -> object:
+    """Return the default of a field, MISSING if it has none."""
+    return one.default if one.default_factory is MISSING else one.default_factory()
+
+
+def same(one: object, other: object) -> bool:
+    """Whether two values of a field are equal and of the same type."""
+    return type(one) is type(other) and _hashable(one) == _hashable(other)
 
 
 def _shown(value: object, one: Field[Any]) -> str:

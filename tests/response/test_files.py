@@ -274,13 +274,13 @@ def test_kinds_have_the_keys_of_bounds(tmp_path):
             "kinds of front.spring must be integer, log, fixed or values from 20000",
         ),
         ("front.spring_N_per_m = [1e3]", "kinds of front.spring must be integer, log, fixed or values from 20000"),
-        ("front.spring_N_per_m = 2", "kinds.front.spring_N_per_m must be an array of up to 100, each a number"),
+        ("front.spring_N_per_m = 2", "kinds.front.spring_N_per_m must be an array of up to 100 numbers, got 2"),
         ("front.damper_N_s_per_m = 'log'", "kinds must be one of front.spring, driver.damper, got 'front.damper'"),
     ],
 )
 def test_kinds_of_a_file_that_do_not_fit_are_named(tmp_path, kinds, message):
     path = written(tmp_path, study("[struts.front]", f"[kinds]\n{kinds}\n[struts.front]"))
-    with pytest.raises(ValueError, match="^" + re.escape(f"{path}: {message}")):
+    with pytest.raises(ValueError, match=rf"^{re.escape(str(path))}:\d+: {re.escape(message)}"):
         load_problem(path)
 
 
@@ -318,7 +318,9 @@ def test_a_road_of_a_case_names_files_outside_its_folder_if_that_is_allowed(tmp_
         'road = "roads/r.toml"\nspeed_m_per_s = 15'
     )
     path = written(tmp_path, text)
-    with pytest.raises(ValueError, match=r"cases\[1\].road: .*r.toml: file must be beside this file or below it"):
+    with pytest.raises(
+        ValueError, match=r"cases\[1\].road: .*r.toml:2: file must be beside this file or below it"
+    ):
         load_problem(path)
     assert load_problem(path, allow_outside=True).cases[0].road.band == (1e-3, 10.0)
 
@@ -340,7 +342,7 @@ FIRST = '[[cases]]\nvehicle = "minaker_half"\nroad = "C"\nspeed_m_per_s = 15\n'
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "cases must be given, got none: keys are title, measures, "),
+        ("", r"measures must be given, got none\n.*: cases must be given, got none$"),
         ("x = ", "the file must be TOML in UTF-8, got Invalid value"),
         (b"\xff", "the file must be TOML in UTF-8, got another encoding"),
         ('measures = ["ACC"]\ncases = []', "cases must be an array of tables, one at least, got none"),
@@ -348,7 +350,7 @@ FIRST = '[[cases]]\nvehicle = "minaker_half"\nroad = "C"\nspeed_m_per_s = 15\n'
         ('measures = ["ACC"]\ncases = [3]', r"cases\[1\] must be a table, got 3"),
         (study("title", "name"), "name must be one of the keys title, measures, "),
         (study('"a"', "3"), "title must be a text, got 3"),
-        (study("measures", "measure"), "measure must be one of the keys "),
+        (study("measures", "measure"), r"measure must be a known key, got .*: did you mean measures\?$"),
         (study('["ACC driver", "SWS", "DTL rear"]', '"SWS"'), "measures must be an array of texts, got"),
         (study('"ACC driver", "SWS", "DTL rear"', "1"), "measures must be an array of texts, got"),
         (study('"ACC driver", "SWS", "DTL rear"', ""), "measures must be 2 or more with different names"),
@@ -368,17 +370,17 @@ FIRST = '[[cases]]\nvehicle = "minaker_half"\nroad = "C"\nspeed_m_per_s = 15\n'
         (study('"Wb"', '"Wz"'), "weighting must be one of Wk, "),
         (study('"Wb"', '""'), "weighting must be a text, got ''"),
         (study("true", "1"), "worst_case must be true or false, got 1"),
-        (study("band_Hz", "band_kHz"), "band_kHz must be one of the keys title, "),
+        (study("band_Hz", "band_kHz"), r"band_kHz must be a known key, got .*: did you mean band_Hz\?$"),
         (study("[0.5, 20]", "[20, 0.5]"), r"band_Hz must be finite with 0 <= lower < upper \[Hz\], got"),
-        (study("[0.5, 20]", "[0.5, nan]"), "band_Hz must be an array of up to 100, each a number from .* nan"),
+        (study("[0.5, 20]", "[0.5, nan]"), r"band_Hz\[2\] must be a number from .* nan"),
         (study("[0.5, 20]", "[0.5]"), "band_Hz must be an array of two numbers, got "),
         (study("= 60", "= 0"), r"seats\[1\].mass_kg must be finite and > 0 kg, got 0.0"),
-        (study("mass_kg = 60", "mass_lb = 60"), r"seats\[1\].mass_lb must be mass_kg, got 60"),
+        (study("mass_kg = 60", "mass_lb = 60"), r"seats\[1\].mass_lb must be .* did you mean mass_kg\?$"),
         (study('"driver"', '"front"'), r"seats\[1\].name must be one that the vehicle does not have yet"),
         (study("[bounds.driver]", "[bounds.pilot]"), "bounds.pilot.damper_N_s_per_m must be one of the keys"),
         (
             study("[bounds.front]\nspring_N_per_m", "[bounds.front]\nspring_N_per_mm"),
-            "bounds.front.spring_N_per_mm must be front.spring_N_per_m, got",
+            r"bounds.front.spring_N_per_mm must be a known key, got .*: did you mean front.spring_N_per_m\?$",
         ),
         (study("[2e4, 4e4]", "[4e4, 2e4]"), "bounds.front.spring_N_per_m must be finite with 0 <= lower"),
         (
@@ -389,11 +391,11 @@ FIRST = '[[cases]]\nvehicle = "minaker_half"\nroad = "C"\nspeed_m_per_s = 15\n'
         ),
         (study("3e4\ndamper_N_s_per_m = 1500", "3e4"), "struts.front.damper_N_s_per_m must be given"),
         (study("= 3e4\n", '= "stiff"\n'), "struts.front.spring_N_per_m must be a number .* got 'stiff'"),
-        (study(FIRST, "[[cases]]\n"), r"cases\[1\].vehicle must be given, got none: keys are vehicle, "),
+        (study(FIRST, "[[cases]]\n"), r"cases\[1\].vehicle must be given, got none\n"),
         (study("= 15\n", '= "15"\n'), r"cases\[1\].speed_m_per_s must be a number .* got '15'"),
         (study("= 15\n", "= 0\n"), r"cases\[1\].speed_m_per_s must be finite and > 0 m/s, got 0.0"),
         (study("= 15\n", "= nan\n"), r"cases\[1\].speed_m_per_s must be a number .* got nan"),
-        (study("speed_m_per_s = 15", "speed_km_per_h = 15"), r"cases\[1\].speed_km_per_h must be one of the"),
+        (study("speed_m_per_s = 15", "speed_km_per_h = 15"), r"cases\[1\].speed_km_per_h .*mean speed_m_per_s\?$"),
         (study("share = 0.5", "share = -1"), r"cases\[2\].share must be finite and > 0, got -1.0"),
         (study("mass_kg = 100", "mass_kg = -100"), r"cases\[2\].payload\[1\].mass_kg must be finite and > 0"),
         (study("mass_kg = 100\n", ""), r"cases\[2\].payload\[1\].mass_kg must be given, got none"),
@@ -404,7 +406,7 @@ FIRST = '[[cases]]\nvehicle = "minaker_half"\nroad = "C"\nspeed_m_per_s = 15\n'
         (study('"D-upper"', '"bad.csv"'), r"cases\[2\].road: [^ ]*bad.csv: "),
         (study('"D-upper"', '"measured.csv"'), r"band_Hz must lie from .* Hz at 10 m/s, as the road is known"),
         (study(FIRST, FIRST.replace("minaker_half", "x")), r"cases\[1\].vehicle: vehicle must be one of "),
-        (study(FIRST, FIRST.replace("minaker_half", "bad.toml")), r"cases\[1\].vehicle: [^ ]*bad.toml: kind"),
+        (study(FIRST, FIRST.replace("minaker_half", "bad.toml")), r"cases\[1\].vehicle: [^ ]*bad.toml:1: kind"),
         (STUDY + "[cases.roll_geometry]\nroll_arm_m = 1", r"cases\[2\].roll_geometry.front_roll_centre_m must be"),
         (STUDY + FIRST.replace("minaker_half", "car.toml"), r"measures\[3\]: DTL must be of one of .* 'rear'"),
         (
@@ -420,7 +422,7 @@ def test_bad_files_are_one_line(tmp_path, text, message):
     written(tmp_path, CAR, "car.toml")
     written(tmp_path, "wavenumber [cycle/m],psd [m^3]\n0.1,1e-6\n1,1e-8\n", "measured.csv")
     path = written(tmp_path, text)
-    with pytest.raises(ValueError, match=rf"^{path}: {message}[^\n]*$"):
+    with pytest.raises(ValueError, match=rf"^{re.escape(str(path))}(:\d+)?: {message}"):
         load_problem(path)
 
 
@@ -494,9 +496,10 @@ def test_whatever_the_text_of_a_file_it_is_read_or_refused(tmp_path_factory, tex
         return
     except ValueError as error:
         refusal = str(error)
-    assert refusal.startswith(f"{path}: ")
-    assert len(refusal.splitlines()) == 1
-    assert len(refusal) < 1500
+    lines = refusal.split("\n")
+    assert all(re.match(rf"{re.escape(str(path))}(:\d+)?: ", line) and line.isprintable() for line in lines)
+    assert len(lines) <= 21
+    assert max(map(len, lines)) < 1500
 
 
 def test_good_files_are_mutated_from(tmp_path):

@@ -222,15 +222,24 @@ def test_keys_end_in_their_units(unit, key):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (changed(QUARTER, "body_mass_kg", "body_mass_t"), "body_mass_t must be body_mass_kg, got 300"),
-        (changed(QUARTER, "body_mass_kg", "body_mass"), "body_mass must be body_mass_kg, got 300"),
+        (
+            changed(QUARTER, "body_mass_kg", "body_mass_t"),
+            r"body_mass_t must be a known key, got 300: did you mean body_mass_kg\?$",
+        ),
+        (
+            changed(QUARTER, "body_mass_kg", "body_mass"),
+            "body_mass must be a text with a unit like '1 kg', or body_mass_kg a number, got 300$",
+        ),
         (
             changed(QUARTER, "damper_N_s_per_m", "damper_Ns_per_mm"),
-            r"struts.damper_Ns_per_mm must be damper_N_s_per_m, got 1000.0",
+            r"struts.damper_Ns_per_mm must be a known key, got 1000.0: did you mean damper_N_s_per_m\?$",
         ),
-        (changed(QUARTER, "body_mass_kg = 300\n", ""), "body_mass_kg must be given, got none: keys are body"),
+        (changed(QUARTER, "body_mass_kg = 300\n", ""), "body_mass_kg must be given, got none$"),
         (changed(QUARTER, "damper_N_s_per_m = 1e3", ""), "struts.damper_N_s_per_m must be given, got none"),
-        (changed(QUARTER, "300", "300\nmass_kg = 3"), "mass_kg must be one of the keys body_mass_kg, "),
+        (
+            changed(QUARTER, "300", "300\nmass_kg = 3"),
+            r"mass_kg must be a known key, got 3: did you mean body_mass_kg\?$",
+        ),
         (changed(QUARTER, "300", "nan"), "body_mass_kg must be a number from 1e-12 to .* got nan"),
         (changed(QUARTER, "300", "1e-300"), "body_mass_kg must be a number from 1e-12 to .* got 1e-300"),
         (changed(QUARTER, "300", "1e400"), "body_mass_kg must be a number .* got inf"),
@@ -245,7 +254,7 @@ def test_keys_end_in_their_units(unit, key):
         (changed(QUARTER, '"quarter-car"', "[1]"), r"kind must be one of .* got \[1\]"),
         (changed(QUARTER, '"b"', '" "'), "source must be a text, got ' '"),
         (changed(QUARTER, '"a"', "3"), "name must be a text, got 3"),
-        (changed(QUARTER, "[struts]", "[strut]"), "strut must be one of the keys body_mass_kg"),
+        (changed(QUARTER, "[struts]", "[strut]"), r"strut must be a known key, got \{.*: did you mean struts\?$"),
         (changed(QUARTER, "[struts]", "[[struts]]"), r"struts must be a table, got \[\{"),
         (QUARTER + "x = \ny = 1", r"the file must be TOML in UTF-8, got Invalid value \(at line 11, column 5\)"),
         (QUARTER.encode() + b"\xff", "the file must be TOML in UTF-8, got another encoding"),
@@ -253,11 +262,11 @@ def test_keys_end_in_their_units(unit, key):
         ("", "kind must be one of quarter-car, half-car, full-car, got None"),
         (
             QUARTER + "[bounds]\nspring_N_per_m = 3",
-            "bounds.spring_N_per_m must be an array of up to 100, each a number .* got 3",
+            "bounds.spring_N_per_m must be an array of two numbers, got 3",
         ),
         (
             QUARTER + "[bounds]\nspring_N_per_m = [1]",
-            r"bounds.spring_N_per_m must be an array of two .* got \[1.0\]",
+            r"bounds.spring_N_per_m must be an array of two .* got \[1\]",
         ),
         (
             QUARTER + "[bounds]\nspring_N_per_m = [3, 1]",
@@ -267,7 +276,10 @@ def test_keys_end_in_their_units(unit, key):
             QUARTER + "[bounds]\nspring_N_per_m = [0, 1]",
             r"bounds.spring_N_per_m must be finite and > 0 N/m, got 0.0",
         ),
-        (QUARTER + "[bounds]\ndamper_N_per_m = [0, 1]", "bounds.damper_N_per_m must be damper_N_s_per_m, got"),
+        (
+            QUARTER + "[bounds]\ndamper_N_per_m = [0, 1]",
+            r"bounds.damper_N_per_m must be a known key, got \[0, 1\]: did you mean damper_N_s_per_m\?$",
+        ),
         (QUARTER + "[roll_geometry]", "roll_geometry.roll_arm_m must be given, got none"),
         (
             QUARTER + "[roll_geometry]\nroll_arm_m = 0\nfront_roll_centre_m = 0\nrear_roll_centre_m = 0\n"
@@ -281,7 +293,10 @@ def test_keys_end_in_their_units(unit, key):
             changed(HALF, "mass_kg = 60", "mass_kg = -60"),
             r"seats\[1\].mass_kg must be finite and > 0 kg, got -60.0",
         ),
-        (changed(HALF, "mass_kg = 60", "mass_lb = 60"), r"seats\[1\].mass_lb must be mass_kg, got 60"),
+        (
+            changed(HALF, "mass_kg = 60", "mass_lb = 60"),
+            r"seats\[1\].mass_lb must be a known key, got 60: did you mean mass_kg\?$",
+        ),
         (
             changed(HALF, '"driver"', '"a b"'),
             r"seats\[1\].name must be of letters, digits and underscores, got 'a b'",
@@ -312,27 +327,27 @@ def test_keys_end_in_their_units(unit, key):
         (changed(HALF, "[0.06, 0.05]", "[]"), r"flexible_body.shapes\[1\].shape_per_sqrt_kg must be an array"),
         (
             changed(HALF, "position_m = [1.2", "position_m = [1.3"),
-            "flexible_body.shapes.position_m must be one with",
+            "flexible_body: position must be one with",
         ),
         (
             changed(HALF, "position_m = [1.2", "position_mm = [1"),
-            r"flexible_body.shapes\[1\].position_mm must be posit",
+            r"flexible_body.shapes\[1\].position_mm must be a known key, .* did you mean position_m\?$",
         ),
         (
             changed(HALF, "position_m = [1.2, 0]", "position_m = [-1.5, 0]"),
-            r"flexible_body.shapes\[2\].position_m must be that of no other shape, got \(-1.5, 0.0\)",
+            "flexible_body.shapes must be an array of tables, one at least, each for a place of its own, got ",
         ),
         (
             changed(
                 QUARTER, "[struts]", "[flexible_body]\nfrequencies_Hz=[1]\ndamping_ratios=[0]\nshapes=[]\n[struts]"
             ),
-            "flexible_body.shapes must be an array of tables, one at least, got none",
+            r"flexible_body.shapes must be an array of tables, one at least, .* got \[\]",
         ),
     ],
 )
 def test_bad_files_are_one_line(tmp_path, text, message):
     path = written(tmp_path, text)
-    with pytest.raises(ValueError, match=rf"^{re.escape(str(path))}: {message}[^\n]*$"):
+    with pytest.raises(ValueError, match=rf"^{re.escape(str(path))}(:\d+)?: {message}"):
         load_vehicle(path)
 
 
@@ -388,9 +403,10 @@ def test_whatever_the_text_of_a_file_it_is_read_or_refused(tmp_path_factory, tex
         refusal = f"{path}: "
     except ValueError as error:
         refusal = str(error)
-    assert refusal.startswith(f"{path}: ")
-    assert len(refusal.splitlines()) == 1
-    assert len(refusal) < 1000
+    lines = refusal.split("\n")
+    assert all(re.match(rf"{re.escape(str(path))}(:\d+)?: ", line) and line.isprintable() for line in lines)
+    assert len(lines) <= 21
+    assert max(map(len, lines)) < 1000
 
 
 def test_good_files_are_mutated_from(tmp_path):

@@ -65,7 +65,8 @@ def labelled_designs(
     """Return the designs of texts and of a file by label; if none, the vehicle's own, or the paper's two."""
     from ..paper import experiment as paper
 
-    designs: list[Sequence[float]] = [o.numbers("design", text, len(problem.variables)) for text in texts]
+    units = [problem.units[name] for name in problem.variables]
+    designs: list[Sequence[float]] = [o.numbers("design", text, units) for text in texts]
     designs += [] if file is None else read_designs(file, problem)
     if not designs and vehicle is not None:
         return {vehicle: [own[name] for name in problem.variables]}

@@ -1,6 +1,6 @@
 """Options of the commands, each declared once, and the parsers of their texts."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -8,17 +8,12 @@ from typing import Annotated, Any
 from typer import BadParameter, Option
 
 
-def number(text: str, kind: type[float] = float, what: str = "a number") -> float:
-    """Parse a number; BadParameter names the option and the text."""
+def whole_number(text: str) -> int:
+    """Parse a whole number; BadParameter names the option and the text."""
     try:
-        return kind(text)
+        return int(text)
     except ValueError:
-        raise BadParameter(f"must be {what}, got {text!r}") from None
-
-
-def whole_number(text: str) -> float:
-    """Parse a whole number."""
-    return number(text, int, "a whole number")
+        raise BadParameter(f"must be a whole number, got {text!r}") from None
 
 
 def whole_numbers(name: str, text: str) -> list[int]:
@@ -29,21 +24,34 @@ def whole_numbers(name: str, text: str) -> list[int]:
         raise ValueError(f"{name} must be whole numbers separated by commas, got {text!r}") from None
 
 
-def numbers(name: str, text: str, count: int) -> tuple[float, ...]:
-    """Return the `count` numbers of a comma-separated list; ValueError naming `name` otherwise."""
-    try:
-        return tuple(float(part) for part, _ in zip(text.split(","), range(count), strict=True))
-    except ValueError:
-        raise ValueError(f"{name} must be {count} numbers separated by commas, got {text!r}") from None
+def numbers(name: str, text: str, units: Sequence[str]) -> tuple[float, ...]:
+    """Return the numbers of a comma-separated list, bare or with units like `units`; ValueError naming `name`."""
+    from ..quantities import quantity
+
+    parts = text.split(",")
+    if len(parts) != len(units):
+        raise ValueError(f"{name} must be {len(units)} numbers separated by commas, got {text!r}")
+    return tuple(quantity(name, part, unit) for part, unit in zip(parts, units, strict=True))
 
 
-def by_name(name: str, text: str) -> dict[str, float]:
-    """Return numbers by name of a list such as ``front.spring=1e4,front.damper=2000``; ValueError otherwise."""
+def by_name(name: str, text: str, units: Mapping[str, str]) -> dict[str, float]:
+    """Return numbers by name of a list such as ``front.spring=10kN/m,front.damper=2000``; ValueError otherwise."""
+    from ..quantities import quantity
+
     pairs = [part.partition("=") for part in text.split(",") if part]
-    try:
-        return {key.strip(): float(value) for key, _, value in pairs}
-    except ValueError:
-        raise ValueError(f"{name} must be like front.spring=1e4,front.damper=2000, got {text!r}") from None
+    if not all(sign for _, sign, _ in pairs):
+        raise ValueError(f"{name} must be like front.spring=10kN/m,front.damper=2000, got {text!r}")
+    named = {key.strip(): value for key, _, value in pairs}
+    return {key: quantity(f"{name} {key}", value, units.get(key, "")) for key, value in named.items()}
+
+
+def band(text: str) -> tuple[float, float]:
+    """Return the band [Hz] of a text such as ``0.5,20``, ``0.5Hz..20Hz`` or ``0.5Hz..``, which ends at 20 Hz."""
+    if ".." in text:
+        low, _, high = text.partition("..")
+        text = f"{low.strip() or 0},{high.strip() or 20}"
+    lower, upper = numbers("band", text, ("Hz", "Hz"))
+    return lower, upper
 
 
 def names(text: str) -> list[str]:
@@ -51,10 +59,24 @@ def names(text: str) -> list[str]:
     return list(dict.fromkeys(part.strip() for part in text.split(",")))
 
 
-def settings(weighting: str | None, band: str | None) -> dict[str, Any]:
+def settings(weighting: str | None, frequencies: str | None) -> dict[str, Any]:
     """Return the given settings of a ride problem."""
     given: dict[str, Any] = {} if weighting is None else {"weighting": weighting}
-    return given if band is None else given | {"band": numbers("band", band, 2)}
+    return given if frequencies is None else given | {"band": band(frequencies)}
+
+
+def in_unit(unit: str) -> Callable[[str], float]:
+    """Return the parser of a number, bare or with a unit like this one."""
+
+    def parse(text: str) -> float:
+        from ..quantities import quantity
+
+        try:
+            return quantity("", text, unit)
+        except ValueError as error:
+            raise BadParameter(str(error).strip()) from None
+
+    return parse
 
 
 def _option(metavar: str | None, text: str, *name: str, parser: Callable[[str], Any] | None = None) -> Any:
@@ -62,7 +84,11 @@ def _option(metavar: str | None, text: str, *name: str, parser: Callable[[str], 
 
 
 _whole = partial(_option, "NUMBER", parser=whole_number)
-_real = partial(_option, "NUMBER", parser=number)
+
+
+def _real(text: str, unit: str = "") -> Any:
+    return _option("NUMBER", text, parser=in_unit(unit))
+
 
 Text = str | None
 Texts = list[str] | None
@@ -75,20 +101,20 @@ Road = Annotated[Text, _option("ROAD", "ISO 8608 class: C, C-lower; CSV or TOML 
 AllowOutside = Annotated[
     bool, _option(None, "Let a road's TOML file name files outside its folder.", "--allow-outside")
 ]
-Speed = Annotated[Real, _real("Speed [m/s].  [default: 20]")]
-Band = Annotated[Text, _option("LOW,HIGH", "Frequencies [Hz].  [default: 0,20]")]
+Speed = Annotated[Real, _real("Speed [m/s], or with a unit: 72km/h.  [default: 20]", "m/s")]
+Band = Annotated[Text, _option("LOW,HIGH", "Frequencies [Hz]: 0.5,20 or 0.5Hz..  [default: 0,20]")]
 Weighting = Annotated[Text, _option("NAME", "ISO 2631 weighting of ACC: Wk, Wb, Wb-table, ...  [default: Wk]")]
 Setting = Annotated[Text, _option("NAME=NUMBER,...", "Coefficients of struts [N/m, N s/m, ...] to change.")]
-BodyMass = Annotated[Real, _real("Body mass of a quarter car [kg].")]
-WheelMass = Annotated[Real, _real("Wheel mass of a quarter car [kg].")]
-TyreStiffness = Annotated[Real, _real("Tyre stiffness of a quarter car [N/m].")]
-Spring = Annotated[Real, _real("Spring of a quarter car [N/m].")]
-Damper = Annotated[Real, _real("Damper of a quarter car [N s/m].")]
+BodyMass = Annotated[Real, _real("Body mass of a quarter car [kg].", "kg")]
+WheelMass = Annotated[Real, _real("Wheel mass of a quarter car [kg].", "kg")]
+TyreStiffness = Annotated[Real, _real("Tyre stiffness of a quarter car [N/m].", "N/m")]
+Spring = Annotated[Real, _real("Spring of a quarter car [N/m].", "N/m")]
+Damper = Annotated[Real, _real("Damper of a quarter car [N s/m].", "N s/m")]
 Design = Annotated[Texts, _option("NUMBER,...", "Spring [N/m], damper [N s/m]: 22000,1500. Repeatable.")]
 Designs = Annotated[File, _option("FILE", "CSV of designs with columns 'spring [N/m]', 'damper [N s/m]'.")]
 Response = Annotated[Texts, _option("NAME", "Response to draw, e.g. pitch_acceleration. Repeatable.")]
 Points = Annotated[int, _whole("Frequencies on each curve.")]
-SwsLimit = Annotated[float, _real("Suspension working space [m].")]
+SwsLimit = Annotated[float, _real("Suspension working space [m]: 0.0287 or 28.7mm.", "m")]
 Population = Annotated[int, _whole("Population of MOEA/D-DRA.")]
 Generations = Annotated[int, _whole("Iterations of MOEA/D-DRA.", "--iterations")]
 Problem = Annotated[File, _option("FILE", "TOML file of load cases, measures, limits.")]

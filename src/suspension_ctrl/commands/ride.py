@@ -40,7 +40,8 @@ def ride(
     masses = {"body_mass": body_mass, "wheel_mass": wheel_mass, "tyre_stiffness": tyre_stiffness}
     title, car, own = chosen_vehicle(vehicle, masses)
     strut = {name: value for name, value in {"spring": spring, "damper": damper}.items() if value is not None}
-    values = car.coefficients({**own, **o.by_name("setting", setting or ""), **strut})
+    units = {parameter.name: parameter.unit for parameter in car.parameters}
+    values = car.coefficients({**own, **o.by_name("setting", setting or "", units), **strut})
     settings = o.settings(weighting, band)
     problem, _ = paper.chosen(None, road, speed, allow_outside=allow_outside, **settings)
     case, (low, high) = LoadCase(vehicle=car, road=problem.road, speed=problem.speed), problem.band
@@ -51,7 +52,6 @@ def ride(
     folder = results.results_folder(out)
     write_csv(folder / "ride.csv", table)
     write_csv(folder / "modes.csv", modes)
-    units = {parameter.name: parameter.unit for parameter in car.parameters}
     terminal.note(f"{title}: {', '.join(f'{name} {value:g} {units[name]}' for name, value in values.items())}.")
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table)
@@ -69,7 +69,7 @@ def chosen_vehicle(
     given = {parameter: value for parameter, value in masses.items() if value is not None}
     if not given:
         file = load_vehicle(PAPERS if name is None else name)
-        return file.name, file.vehicle, file.setting
+        return file.name or str(name), file.vehicle, file.setting
     if name is not None:
         raise ValueError(f"vehicle must stand without {', '.join(masses)}, got {name!r} with one")
     if missing := masses.keys() - given.keys():

@@ -45,17 +45,19 @@ def run(app: typer.Typer, *before: str, name: str | None = None) -> NoReturn:
     except BaseException as error:
         result = signals.ended() or _ending(error)
     message, status = signals.ended() or result
-    if message:
-        complain(message)
+    for line in filter(None, message.split("\n")):
+        complain(line)
     sys.exit(status)
 
 
 def _ending(error: BaseException) -> tuple[str, int]:
-    """Return line and exit status for an error; others than those of input and surroundings are raised."""
+    """Return lines and exit status for an error; others than those of input and surroundings are raised."""
     if isinstance(error, typer.TyperException):
-        return error.format_message(), 2
+        return " ".join(error.format_message().split()), 2
     if isinstance(error, ValueError):
-        return str(error), 2
+        from ..documents import lines_of
+
+        return "\n".join(lines_of(error)), 2
     if isinstance(error, ArithmeticError | RuntimeWarning):
         return f"numbers must be of moderate size, got {error.args[-1]}", 2
     if isinstance(error, OSError | ImportError):

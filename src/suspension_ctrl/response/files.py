@@ -1,52 +1,119 @@
-"""Ride problems from TOML files, and from a vehicle, a road and a speed named on a command line.
+"""Ride problems in TOML files, see `schema`: measures, limits, bounds, and load cases with vehicles and roads.
 
-A file holds ``measures`` and, as wanted, ``constraints`` (see those modules), ``weighting``, ``band_Hz``,
-``worst_case`` and ``title``; ``[bounds]`` and ``[struts]`` as the file of a vehicle has them, in place of those of
-the first case's vehicle; ``[kinds]`` with the keys of ``[bounds]``, each "integer", "log", "fixed" or an array of
-values; ``[[seats]]`` that are put on the vehicle of every case; and ``[[cases]]``, each with
-
-- vehicle: the path of a file from this one, or the name of one that comes with the package (see `vehicle_files`);
-- road: a class of ISO 8608 or the path of a file from this one (see `road_files`), and speed_m_per_s;
-- if wanted share, ``[[cases.payload]]`` of mass_kg and position_m, and ``[cases.roll_geometry]``.
+``vehicle`` and ``road`` of a case are tables, as in their own files, or texts: what `load_vehicle` and `load_road`
+take, paths as seen from the problem's file.
 """
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
-from ..documents import Table, keyed, made, naming, read_toml, under
-from ..roads.files import load_road
+from .. import checks
+from ..documents import Mistakes, Table, document, keyed
+from ..quantities import unit
+from ..roads.files import KINDS as ROADS
+from ..roads.files import Folder, load_road, read_road
+from ..roads.spectra import Iso8608Road
+from ..schema import BAD, bad, content, keys_of, read, toml
+from ..tables import write_text
 from ..vehicles.files import (
     VehicleFile,
+    coefficient_table,
     load_vehicle,
-    read_bounds,
-    read_kinds,
-    read_roll_geometry,
-    read_setting,
-    with_seats,
+    mounted,
+    read_coefficients,
+    read_vehicle,
+    vehicle_table,
 )
-from ..vehicles.mounted import Payload
-from ..vehicles.vehicle import Vehicle
+from ..vehicles.handling import RollGeometry
+from ..vehicles.mounted import Mounted, Payload, Seat
+from ..vehicles.vehicle import Vehicle, assembled
 from . import weightings
 from .load_case import LoadCase
 from .measures.limits import Limit
 from .measures.measure import Measure
 from .problem import RideProblem
 
-_KEYS = (
-    "title", "measures", "constraints", "weighting", "band_Hz", "worst_case", "bounds", "kinds", "struts", "seats",
-    "cases",
-)  # fmt: skip
-_CASE = ("vehicle", "road", "speed_m_per_s", "share", "payload", "roll_geometry")
+
+@dataclass(frozen=True, kw_only=True)
+class CaseDocument:
+    """A load case.
+
+    Parameters
+    ----------
+    vehicle, road : str or table
+        Path, or name in the package, of a vehicle; path, or class of ISO 8608, of a road; or a table as in a file.
+    speed : float
+        Vehicle speed [m/s].
+    share : float
+        How much of the time; cases count by their shares of the sum [-].
+    payload : array of tables
+        Loads fixed to the body.
+    roll_geometry : table
+        Heights for cornering; those of the vehicle's file if not given.
+    """
+
+    vehicle: str | Mapping[str, Any]
+    road: str | Mapping[str, Any]
+    speed: float = field(metadata=unit("m/s"))
+    share: float = field(default=1.0, metadata=unit(""))
+    payload: tuple[Payload, ...] = ()
+    roll_geometry: RollGeometry | None = None
 
 
-def load_problem(path: str | Path, *, allow_outside: bool = False) -> RideProblem:
+@dataclass(frozen=True, kw_only=True)
+class Document:
+    """Keys of a problem file.
+
+    Parameters
+    ----------
+    title : str
+        A line about the problem.
+    measures, constraints : array of str
+        Objectives, and limits on measures.
+    weighting : str
+        Weighting of ``ACC``.
+    band : (float, float)
+        Frequencies over which the spectra are integrated [Hz].
+    worst_case : bool
+        Whether an objective is the worst load case, in place of the mean square over them.
+    nodes : int
+        Quadrature nodes; found if not given.
+    bounds : table
+        Lowest and highest value of each coefficient that varies; those of the first case's vehicle if not given.
+    kinds : table
+        By the keys of ``bounds``: "integer", "log", "fixed" or an array of values.
+    struts : table
+        Coefficients that do not vary; those of the first case's vehicle if not given.
+    seats : array of tables
+        Seats that are put on the vehicle of every case.
+    cases : array of tables
+        The load cases.
+    """
+
+    title: str = ""
+    measures: tuple[str, ...]
+    constraints: tuple[str, ...] = ()
+    weighting: str = "Wk"
+    band: tuple[float, float] = field(default=(0.0, 20.0), metadata=unit("Hz"))
+    worst_case: bool = False
+    nodes: int | None = None
+    bounds: Mapping[str, Any] = field(default_factory=dict)
+    kinds: Mapping[str, Any] = field(default_factory=dict)
+    struts: Mapping[str, Any] = field(default_factory=dict)
+    seats: tuple[Seat, ...] = field(default=(), metadata={"most": 50})
+    cases: tuple[CaseDocument, ...]
+
+
+def load_problem(path: str | PathLike[str], *, allow_outside: bool = False) -> RideProblem:
     """Return the problem of a TOML file, `allow_outside` as in `load_road`.
 
     Raises
     ------
     ValueError
-        Naming the file and the key if it does not hold a problem.
+        That lists the mistakes of the file, each with file, line, key and value.
     OSError
         If it, or a file that it names, cannot be read.
 
@@ -70,77 +137,154 @@ def load_problem(path: str | Path, *, allow_outside: bool = False) -> RideProble
     >>> dict(problem.bounds)
     {'spring': (1000.0, 30000.0), 'damper': (1000.0, 5000.0)}
     """
-    path = Path(path)
-    with naming(path):
-        table = read_toml(path)
-        table.check_keys(dict(zip(_KEYS, _KEYS, strict=True)), ["cases", "measures"])
-        settings = _settings(table)
-        if not (given := table.tables("cases")):
-            raise ValueError("cases must be an array of tables, one at least, got none")
-        files, cases = zip(*(_case(table, one, path.parent, allow_outside) for one in given), strict=True)
-        bounds, struts = _bounds_and_struts(table, files[0], cases[0].vehicle)
-        settings["kinds"] = read_kinds(table.table("kinds").flat(), cases[0].vehicle)
-        settings |= {key: table.texts(key) for key in ("measures", "constraints")}
-        for case in cases:
-            _check_texts(case, settings)
-        with keyed("", {"band_Hz": "band"}), keyed("", {"band_Hz": "f"}):  # f of a road that is not known there
-            return RideProblem(cases=cases, bounds=bounds, struts=struts, **settings)
+    with document(Path(path)) as table:
+        return _problem(table, Folder(Path(path).parent, allow_outside))
 
 
-def _settings(table: Table) -> dict[str, Any]:
-    """Return weighting, band and worst case where the file has them."""
-    readers = {"title": table.text, "weighting": table.text, "band_Hz": table.pair, "worst_case": table.boolean}
-    found = {key: read(key) for key, read in readers.items() if key in table.content}
-    weightings.checked(found.get("weighting"))
-    return {key.removesuffix("_Hz"): value for key, value in found.items() if key != "title"}
+def save_problem(path: str | PathLike[str], problem: RideProblem) -> None:
+    """Write a file that `load_problem` reads as `problem`, vehicles and roads in it; ValueError if it cannot.
 
-
-def _bounds_and_struts(
-    table: Table, file: VehicleFile, vehicle: Vehicle
-) -> tuple[dict[str, tuple[float, float]], dict[str, float]]:
-    """Return the bounds of coefficients that vary and the values of those that do not."""
-    own = "bounds" in table.content
-    bounds = read_bounds(table.table("bounds").flat(), vehicle) if own else dict(file.bounds)
-    if not bounds:
-        raise ValueError("bounds must be given, one at least, where the first case's vehicle has none, got none")
-    struts = read_setting(table.table("struts").flat(), vehicle) if "struts" in table.content else file.setting
-    return bounds, {name: value for name, value in struts.items() if name not in bounds}
-
-
-def _check_texts(case: LoadCase, settings: Mapping[str, Any]) -> None:
-    """Raise ValueError that says which measure or constraint means nothing in a case."""
-    weighting, measures = settings.get("weighting", "Wk"), []
-    for i, text in enumerate(settings["measures"], start=1):
-        with under(f"measures[{i}]"):
-            measures.append(Measure.parse(text))
-            measures[-1].in_case(case, weighting)
-    for i, text in enumerate(settings["constraints"], start=1):
-        with under(f"constraints[{i}]"):
-            Limit.parse(text, measures).in_case(case, weighting)
-
-
-def _case(table: Table, case: Table, folder: Path, allow_outside: bool) -> tuple[VehicleFile, LoadCase]:
-    """Return the file of a case's vehicle, and the case."""
-    case.check_keys(dict(zip(_CASE, _CASE, strict=True)), _CASE[:3])
-    names = {key: _beside(folder, case.text(key)) for key in _CASE[:2]}
-    with under(f"{case.name}vehicle"):
-        file = load_vehicle(names["vehicle"])
-    with under(f"{case.name}road"):
-        road = load_road(names["road"], allow_outside=allow_outside)
-    vehicle = with_seats(file.vehicle, table)
-    for load in case.tables("payload"):
-        with keyed(load.name, {"position_m": "position"}):
-            vehicle = made(load, Payload).on(vehicle)
-    with keyed(case.name, {"speed_m_per_s": "speed", "share": "share"}):
-        return file, LoadCase(
-            vehicle=vehicle,
-            road=road,
-            speed=case.number("speed_m_per_s"),
-            share=case.number("share") if "share" in case.content else 1.0,
-            roll_geometry=read_roll_geometry(case) or file.roll_geometry,
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> file, road = sc.load_vehicle("yuen_ramli_2010"), sc.load_road("C")
+    >>> problem = sc.RideProblem(file.vehicle, road, speed=20.0, bounds=file.bounds)
+    >>> sc.save_problem("problem.toml", problem)
+    >>> sc.load_problem("problem.toml") == problem
+    True
+    """
+    vehicle, bounds, weighting = problem.cases[0].vehicle, problem.bounds, cast(str, problem.weighting)
+    order = [one.name for one in vehicle.parameters if one.name in bounds]
+    if list(bounds) != order:
+        raise ValueError(f"bounds must be in the vehicle's order, {', '.join(order)}, got {', '.join(bounds)}")
+    flat: dict[str, float] = {}
+    for name, value in problem.struts.items():
+        flat |= (
+            {f"{name}.spring": value[0], f"{name}.damper": value[1]} if isinstance(value, tuple) else {name: value}
         )
+    file = Document(
+        measures=tuple(map(str, problem.measures)),
+        constraints=tuple(map(str, problem.constraints)),
+        weighting=weighting,
+        band=problem.band,
+        worst_case=problem.worst_case,
+        nodes=problem.nodes if type(problem.nodes) is int else None,  # those that were found are of a subclass
+        bounds=coefficient_table(vehicle, bounds),
+        kinds=coefficient_table(vehicle, problem.kinds),
+        struts=coefficient_table(vehicle, flat),
+        cases=tuple(map(_case_document, problem.cases)),
+    )
+    folder = Folder(Path(path).parent, False)
+    write_text(Path(path), toml(content(file), problem, lambda table: _problem(table, folder)))
 
 
-def _beside(folder: Path, text: str) -> str:
+def _case_document(case: LoadCase) -> CaseDocument:
+    vehicle, payload = assembled(case.vehicle), list[Payload]()
+    while isinstance(vehicle, Mounted) and isinstance(vehicle.part, Payload):
+        payload.insert(0, vehicle.part)
+        vehicle = vehicle.vehicle
+    return CaseDocument(
+        vehicle=vehicle_table(VehicleFile(vehicle=vehicle)),
+        road=content(case.road, ROADS),
+        speed=case.speed,
+        share=case.share,
+        payload=tuple(payload),
+        roll_geometry=case.roll_geometry,
+    )
+
+
+def _problem(table: Table, folder: Folder) -> RideProblem:
+    mistakes = Mistakes()
+    values = read(table, keys_of(Document), mistakes)
+    if values["cases"] == ():
+        mistakes.note("cases must be an array of tables, one at least, got none")
+    if not values["cases"] or BAD in (values["cases"], values.get("seats")):
+        mistakes.settle()
+    seats = {f"seats[{i}]": seat for i, seat in enumerate(values.pop("seats", ()), start=1)}
+    given = [
+        _case(one, f"cases[{i}]", seats, folder, mistakes) for i, one in enumerate(values.pop("cases"), start=1)
+    ]
+    values = {name: value for name, value in values.items() if name != "title" and not bad(value)}
+    cases = [case for _, case in filter(None, given)]
+    _check(values, cases, mistakes)
+    if given[0]:
+        values |= _coefficients(values, given[0][0], cases[0].vehicle, mistakes)
+    mistakes.settle()
+    with keyed("", {"band": "band_Hz", "f": "band_Hz"}):  # f of a road that is not known there
+        return RideProblem(cases=cases, **values)
+
+
+def _case(
+    one: CaseDocument, name: str, seats: Mapping[str, Seat], folder: Folder, mistakes: Mistakes
+) -> tuple[VehicleFile, LoadCase] | None:
+    """Return the file of a case's vehicle and the case, None without a vehicle."""
+    if bad(one):
+        return None
+    file = _vehicle(one.vehicle, f"{name}.vehicle", folder, mistakes)
+    vehicle = BAD if bad(file) else mounted(file.vehicle, seats, "", mistakes)
+    loads = {f"payload[{i}]": load for i, load in enumerate(one.payload, start=1)}
+    vehicle = mounted(vehicle, loads, f"{name}.", mistakes)
+    road = _road(one.road, f"{name}.road", folder, mistakes)
+    if bad(vehicle):
+        return None
+    geometry = one.roll_geometry or file.roll_geometry
+    return file, LoadCase(vehicle=vehicle, road=road, speed=one.speed, share=one.share, roll_geometry=geometry)
+
+
+def _vehicle(given: str | Mapping[str, Any], name: str, folder: Folder, mistakes: Mistakes) -> VehicleFile:
+    """Return the vehicle of a case, `BAD` if there is none."""
+    if not isinstance(given, str):
+        return read_vehicle(Table(f"{name}.", given), mistakes)
+    with mistakes.noted(f"{name}: "):
+        return load_vehicle(_beside(folder, given))
+    return BAD
+
+
+def _road(given: str | Mapping[str, Any], name: str, folder: Folder, mistakes: Mistakes) -> Any:
+    """Return the road of a case; in place of a wrong one class C, so that measures are checked as well."""
+    with mistakes.noted(f"{name}: " if isinstance(given, str) else ""):
+        if isinstance(given, str):
+            return load_road(_beside(folder, given), allow_outside=folder.allow_outside)
+        return read_road(Table(f"{name}.", given), folder)
+    return Iso8608Road("C")
+
+
+def _beside(folder: Folder, text: str) -> str:
     """Return a path as seen from the file that names it; a name without an ending is none."""
-    return str(folder / text) if Path(text).suffix else text
+    return str(folder.path / text) if Path(text).suffix else text
+
+
+def _check(values: Mapping[str, Any], cases: Sequence[LoadCase], mistakes: Mistakes) -> None:
+    """Note mistakes in band, weighting, measures and limits."""
+    with mistakes.noted():
+        checks.interval("band_Hz", values.get("band", (0.0, 20.0)), "Hz")
+    weighting, measures = values.get("weighting", "Wk"), list[Measure]()
+    with mistakes.noted():
+        weightings.checked(weighting)
+        for i, text in enumerate(values.get("measures", ()), start=1):
+            with mistakes.noted(f"measures[{i}]: "):
+                measures.append(Measure.parse(text))
+                _ = [measures[-1].in_case(case, weighting) for case in cases]
+        for i, text in enumerate(values.get("constraints", ()), start=1):
+            with mistakes.noted(f"constraints[{i}]: "):
+                _ = [Limit.parse(text, measures).in_case(case, weighting) for case in cases]
+
+
+def _coefficients(
+    values: Mapping[str, Any], file: VehicleFile, vehicle: Vehicle, mistakes: Mistakes
+) -> dict[str, Any]:
+    """Return bounds, kinds and struts by coefficient; without tables those of the vehicle's file."""
+
+    def table(name: str, form: Any, given: Collection[str] = ()) -> dict[str, Any]:
+        return read_coefficients(Table(f"{name}.", values[name]), vehicle, form, mistakes, given)
+
+    bounds = table("bounds", tuple[float, float]) if "bounds" in values else dict(file.bounds)
+    if not bounds:
+        needed = "given, one at least, where the first case's vehicle has none"
+        mistakes.note(f"bounds must be {needed}, got none")
+    struts = table("struts", float, bounds) if "struts" in values else file.setting
+    return {
+        "bounds": bounds,
+        "kinds": table("kinds", str | tuple[float, ...]) if "kinds" in values else {},
+        "struts": {name: value for name, value in struts.items() if name not in bounds},
+    }

@@ -159,8 +159,8 @@ class Tabulated(Checked):
     array([0.7, 0.4])
     """
 
-    wavenumber: tuple[float, ...] = field(metadata=unit("cycle/m"))
-    coherence: tuple[float, ...]
+    wavenumber: tuple[float, ...] = field(metadata=unit("cycle/m") | {"most": 10_000})
+    coherence: tuple[float, ...] = field(metadata={"most": 10_000})
     distance: float = field(metadata=unit("m"))
 
     def __post_init__(self) -> None:
@@ -177,6 +177,12 @@ class Tabulated(Checked):
     def between(self, n: Real, distance: float) -> Real:
         """Return the coherence; see `Coherence`."""
         return np.interp(n * distance / self.distance, (0.0, *self.wavenumber), (1.0, *self.coherence))
+
+
+COHERENCES: dict[str, type] = {
+    "isotropic": Isotropic, "exponential": Exponential, "constant": Constant, "tabulated": Tabulated,
+}  # fmt: skip
+"""Models of coherence by their kinds in files."""
 
 
 def coherence_matrix(between: Callable[[Real, float], Real], n: Real, y: Real) -> Real:

@@ -1,40 +1,66 @@
-"""Roads by a text, for command lines: a class of ISO 8608, a CSV file of a measured road or a TOML file.
+"""Roads by a text: a class of ISO 8608, a CSV file of a measured road, or a TOML file, see `schema`.
 
-Keys of a TOML file end in their units; ``kind`` determines the others:
-
-- ``power-law``: roughness_m3, the density at 1 cycle/m, and exponent;
-- ``two-slope``: roughness_m3, reference_cycle_per_m, lower_exponent, upper_exponent, corner_cycle_per_m;
-- ``iso-8608``: class; level and waviness if they are not ``"geometric mean"`` and 2;
-- ``measured``: file, a CSV file by its path from this one, in its folder or below unless others are allowed;
-  optional track_width_m of a profile, and segment_m.
-
-Each may have a table ``[coherence]``, whose ``kind`` is ``isotropic`` (exponent optional), ``exponential``
-(decay), ``constant`` (value) or ``tabulated`` (file, likewise, and distance_m).
+The file of a measured road or a tabulated coherence holds the numbers, or under ``file`` the path of a CSV file
+with them, in the folder of this file or below unless others are allowed.
 """
 
 import re
+from dataclasses import dataclass, field
 from os import PathLike
 from os.path import realpath
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from .. import checks
-from ..documents import Table, keyed, made, naming, read_toml
-from .coherence import Coherence, Constant, Exponential, Isotropic, Tabulated
+from ..documents import Mistakes, Table, document, keyed
+from ..quantities import unit
+from ..schema import KIND, content, keys_of, kind_of, read, toml
+from ..tables import write_text
+from .coherence import COHERENCES, Tabulated
 from .measured import COHERENCE, MeasuredRoad, read_curve
 from .road import Road
 from .spectra import Iso8608Road, PowerLawRoad, TwoSlopeRoad
 
-_CLASS = re.compile(r"([A-Z])(?:-(lower|upper))?")
-_ROADS: dict[str, type[Road]] = {
+KINDS: dict[str, type[Road]] = {
     "power-law": PowerLawRoad, "two-slope": TwoSlopeRoad, "iso-8608": Iso8608Road, "measured": MeasuredRoad,
 }  # fmt: skip
-_COHERENCES: dict[str, type[Any]] = {
-    "isotropic": Isotropic, "exponential": Exponential, "constant": Constant, "tabulated": Tabulated,
-}  # fmt: skip
-_MEASURED = {"kind": "kind", "file": "file", "coherence": "coherence"}
-_OPTIONS = {"track_width_m": "track_width", "segment_m": "segment"}
-_TABULATED = {"kind": "kind", "file": "file", "distance_m": "distance"}
+_NUMBERS = "wavenumber_cycle_per_m"  # this key instead of ``file``
+_CLASS = re.compile(r"([A-Z])(?:-(lower|upper))?")
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeasuredFile:
+    """Keys of a measured road in a CSV file.
+
+    Parameters
+    ----------
+    file : str
+        Path of the CSV file from this one.
+    track_width : float
+        Distance of the columns ``left [m]`` and ``right [m]`` of a profile [m].
+    segment : float
+        Length of a segment of a profile for Welch's method [m].
+    """
+
+    file: str
+    track_width: float | None = field(default=None, metadata=unit("m"))
+    segment: float | None = field(default=None, metadata=unit("m"))
+
+
+@dataclass(frozen=True, kw_only=True)
+class TabulatedFile:
+    """Keys of a tabulated coherence in a CSV file.
+
+    Parameters
+    ----------
+    file : str
+        Path of the CSV file from this one.
+    distance : float
+        Distance of the measured tracks [m].
+    """
+
+    file: str
+    distance: float = field(metadata=unit("m"))
 
 
 def load_road(source: str | PathLike[str], *, allow_outside: bool = False) -> Road:
@@ -51,7 +77,7 @@ def load_road(source: str | PathLike[str], *, allow_outside: bool = False) -> Ro
     Raises
     ------
     ValueError
-        If it is none of these, or about a key or column of the file; OSError if it cannot be read.
+        If it is none of these, or about keys or columns of the file, a line each; OSError if it cannot be read.
 
     Examples
     --------
@@ -82,43 +108,60 @@ def load_road(source: str | PathLike[str], *, allow_outside: bool = False) -> Ro
     if path.suffix != ".toml":
         known = "a class of ISO 8608 such as C, C-lower or C-upper, or the path of a .csv or .toml file"
         raise ValueError(f"road must be {known}, got {checks.shown(str(source))}")
-    with naming(path):
-        return _road(read_toml(path), _Beside(path.parent, allow_outside))
+    with document(path) as table:
+        return read_road(table, Folder(path.parent, allow_outside))
 
 
-class _Beside(NamedTuple):
-    """Where the files are that a road's file names."""
+def save_road(path: str | PathLike[str], road: Road) -> None:
+    """Write a TOML file that `load_road` reads as `road`; ValueError if a file cannot hold it.
 
-    folder: Path
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> sc.save_road("country.toml", sc.Iso8608Road("D", coherence=sc.Exponential(decay=3.0)))
+    >>> sc.load_road("country.toml")
+    Iso8608Road(coherence=Exponential(decay=3), road_class='D')
+    """
+    folder = Folder(Path(path).parent, False)
+    write_text(Path(path), toml(content(road, KINDS), road, lambda table: read_road(table, folder)))
+
+
+class Folder(NamedTuple):
+    """The folder of a file that names others."""
+
+    path: Path
     allow_outside: bool
 
-    def file(self, table: Table) -> Path:
-        """Return the path under the key ``file``; ValueError if it is outside and must not."""
-        path = self.folder / table.text("file")
-        if not (self.allow_outside or Path(realpath(path)).is_relative_to(realpath(self.folder))):
+    def file(self, name: str) -> Path:
+        """Return the path of a file; ValueError if it is outside and must not."""
+        path = self.path / name
+        if not (self.allow_outside or Path(realpath(path)).is_relative_to(realpath(self.path))):
             needed = "beside this file or below it, unless outside is allowed"
-            raise ValueError(f"{table.name}file must be {needed}, got {checks.shown(table.text('file'))}")
+            raise ValueError(f"file must be {needed}, got {checks.shown(name)}")
         return path
 
 
-def _road(table: Table, beside: _Beside) -> Road:
-    kind = table.choice("kind", _ROADS)
-    given: dict[str, Any] = {}
-    if "coherence" in table.content:
-        given["coherence"] = _coherence(table.table("coherence"), beside)
-    if kind is not MeasuredRoad:
-        return made(table, kind, beside=("kind", "coherence"), **given)
-    table.check_keys(_MEASURED | _OPTIONS, ["file"])
-    options: dict[str, Any] = {name: table.number(key) for key, name in _OPTIONS.items() if key in table.content}
-    with keyed("", _OPTIONS):
-        return MeasuredRoad.from_csv(beside.file(table), **options, **given)
+def read_road(table: Table, folder: Folder) -> Road:
+    """Return the road in a table; files that it names are seen from the folder."""
+    mistakes = Mistakes()
+    kind = kind_of(KINDS, table, mistakes)
+    mistakes.settle()
+    from_csv = kind is MeasuredRoad and _NUMBERS not in table.content
+    record, coherence = MeasuredFile if from_csv else kind, keys_of(Road)["coherence"]
+    if isinstance(inner := table.content.get("coherence"), dict) and _NUMBERS not in inner:
+        coherence = coherence._replace(kinds=COHERENCES | {"tabulated": TabulatedFile})
+    values = read(table, {**KIND, **keys_of(record), "coherence": coherence}, mistakes)
+    mistakes.settle()
+    with keyed(table.name, {one.name: key for key, one in keys_of(record).items()}):
+        del values["kind"]
+        if isinstance(tabulated := values.get("coherence"), TabulatedFile):
+            values["coherence"] = _read_tabulated(tabulated, f"{table.name}coherence.", folder)
+        if from_csv:
+            return MeasuredRoad.from_csv(folder.file(values.pop("file")), **values)
+        return kind(**values)
 
 
-def _coherence(table: Table, beside: _Beside) -> Coherence:
-    kind = table.choice("kind", _COHERENCES)
-    if kind is not Tabulated:
-        return made(table, kind, beside=("kind",))
-    table.check_keys(_TABULATED, ["file", "distance_m"])
-    n, coherence = read_curve(beside.file(table), COHERENCE)
-    with keyed(table.name, _TABULATED):
-        return Tabulated(tuple(n.tolist()), tuple(coherence.tolist()), table.number("distance_m"))
+def _read_tabulated(given: TabulatedFile, name: str, folder: Folder) -> Tabulated:
+    with keyed(name, dict.fromkeys(["file", "coherence", "wavenumber"], "file")):
+        n, coherence = read_curve(folder.file(given.file), COHERENCE)
+        return Tabulated(tuple(n.tolist()), tuple(coherence.tolist()), given.distance)

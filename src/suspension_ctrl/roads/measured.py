@@ -58,8 +58,8 @@ class MeasuredRoad(Road):
     [1.1 1.  1. ]
     """
 
-    wavenumber: Real = field(metadata=unit("cycle/m"))
-    density: Real = field(metadata=unit("m^3"))
+    wavenumber: Real = field(metadata=unit("cycle/m") | {"most": 10_000})
+    density: Real = field(metadata=unit("m^3") | {"most": 10_000})
     _: KW_ONLY
     source: str = "a table"
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from .. import checks
 from ..quantities import Checked, Complex, Real
-from .coherence import Coherence, Isotropic, coherence_matrix
+from .coherence import COHERENCES, Coherence, Isotropic, coherence_matrix
 from .profiles import Profile
 
 
@@ -25,7 +25,7 @@ class Road(Checked, ABC):
         Model of the coherence of parallel tracks.
     """
 
-    coherence: Coherence = field(default_factory=Isotropic)
+    coherence: Coherence = field(default_factory=Isotropic, metadata={"kinds": COHERENCES})
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -113,7 +113,7 @@ class HalfCar(_TwoAxleCar):
     Parameters
     ----------
     body_mass, front_wheel_mass, rear_wheel_mass : float
-        [kg].
+        Masses of the body and of each wheel [kg].
     pitch_inertia : float
         Moment of inertia of the body about the lateral axis through its centre of gravity [kg m^2].
     front_tyre_stiffness, rear_tyre_stiffness, front_tyre_damping, rear_tyre_damping : float

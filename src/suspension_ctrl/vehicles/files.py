@@ -1,47 +1,84 @@
-"""Vehicles from TOML files: masses and lengths, struts and their bounds, seats, bending, roll geometry.
+"""Vehicles in TOML files, see `schema`: parameters of a car, seats and bending, struts, bounds, roll geometry.
 
-``kind`` is ``quarter-car``, ``half-car`` or ``full-car``; ``name`` and ``source`` are texts. The other keys are
-parameters of `QuarterCar`, `HalfCar` or `FullCar` with their units (see `documents`), and the tables
-
-- ``[struts]``, required: the coefficients, of a quarter car spring_N_per_m and damper_N_s_per_m, of others by
-  strut in ``[struts.front]`` and so on, and beside those anti-roll bars, front_antiroll_N_m_per_rad;
-- ``[bounds]``: likewise, the lowest and the highest value of the coefficients that vary;
-- ``[[seats]]`` and ``[roll_geometry]``: the parameters of `Seat` and `RollGeometry`;
-- ``[flexible_body]``: frequencies_Hz, damping_ratios, and ``[[flexible_body.shapes]]`` of position_m and
-  shape_per_sqrt_kg.
+In ``[struts]`` and ``[bounds]`` a coefficient ``front.spring`` has the key ``front.spring_N_per_m``.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping
+from dataclasses import MISSING, dataclass, field, fields
 from os import PathLike
+from pathlib import Path
+from typing import Any
 
 from .. import checks, datafiles
-from ..documents import Table, keyed, made, naming, read_toml
+from ..documents import Mistakes, Table, document
 from ..quantities import FrozenMapping, Record, key_of
-from .assembly import Position, StrutParameter
+from ..schema import BAD, KIND, Key, bad, constructed, content, fields_named, keys_of, kind_of, read, toml
+from ..tables import write_text
+from .assembly import StrutParameter
 from .cars import FullCar, HalfCar, QuarterCar
 from .handling import RollGeometry
-from .mounted import FlexibleBody, Seat
+from .mounted import FlexibleBody, Mounted, Part, Seat
 from .vehicle import AssembledVehicle, Vehicle
 
-_KINDS: dict[str, type[AssembledVehicle]] = {"quarter-car": QuarterCar, "half-car": HalfCar, "full-car": FullCar}
-_TABLES = ("flexible_body", "seats", "struts", "bounds", "roll_geometry")
-_SHAPE = {"position_m": "position", "shape_per_sqrt_kg": "shape"}
+KINDS: dict[str, type[AssembledVehicle]] = {"quarter-car": QuarterCar, "half-car": HalfCar, "full-car": FullCar}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class VehicleFile(Record):
-    """The content of a vehicle file; coefficients and bounds in the units of the struts' parameters."""
+    """The content of a vehicle file.
 
-    name: str
-    source: str  # origin of the numbers
-    vehicle: AssembledVehicle  # with its seats and its elastic modes
-    setting: Mapping[str, float]  # coefficients of the struts by name
-    bounds: Mapping[str, tuple[float, float]]  # of the coefficients that vary, by name
+    Parameters
+    ----------
+    vehicle : Vehicle
+        With its seats and its elastic modes.
+    setting : mapping of str to float, optional
+        Coefficients of the struts by name.
+    bounds : mapping of str to (float, float), optional
+        Bounds of the coefficients that a search varies.
+    roll_geometry : RollGeometry, optional
+    name, source : str, optional
+        Name of the vehicle, and origin of its numbers.
+
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> car = sc.QuarterCar(body_mass=400, wheel_mass=40, tyre_stiffness=200e3)
+    >>> sc.VehicleFile(vehicle=car, bounds={"spring": (10e3, 40e3), "damper": (500, 4000)}).bounds["damper"]
+    (500, 4000)
+    """
+
+    vehicle: AssembledVehicle
+    setting: Mapping[str, float] = FrozenMapping({})
+    bounds: Mapping[str, tuple[float, float]] = FrozenMapping({})
     roll_geometry: RollGeometry | None = None
+    name: str = ""
+    source: str = ""
 
     def __post_init__(self) -> None:
         self._keep(setting=FrozenMapping(self.setting), bounds=FrozenMapping(self.bounds))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Document:
+    """Keys of a vehicle beside the parameters of the car.
+
+    Parameters
+    ----------
+    name, source : str
+        Name of the vehicle, and origin of its numbers.
+    flexible_body, seats, roll_geometry : table, array of tables, table
+        Elastic modes of the body, seats with their occupants, and heights for cornering.
+    struts, bounds : table
+        Coefficients of the struts; lowest and highest value of those that a search varies.
+    """
+
+    name: str = ""
+    source: str = ""
+    flexible_body: FlexibleBody | None = None
+    seats: tuple[Seat, ...] = field(default=(), metadata={"most": 50})
+    struts: Mapping[str, Any] = field(default_factory=dict)
+    bounds: Mapping[str, Any] = field(default_factory=dict)
+    roll_geometry: RollGeometry | None = None
 
 
 def load_vehicle(source: str | PathLike[str]) -> VehicleFile:
@@ -55,7 +92,7 @@ def load_vehicle(source: str | PathLike[str]) -> VehicleFile:
     Raises
     ------
     ValueError
-        If it is neither, or about a key of the file; OSError if it cannot be read.
+        If it is neither, or about the keys of the file, a line each; OSError if it cannot be read.
 
     Examples
     --------
@@ -68,84 +105,120 @@ def load_vehicle(source: str | PathLike[str]) -> VehicleFile:
     >>> file.vehicle.modes(file.setting)["name"].to_list()
     ['heave', 'roll', 'pitch', 'rear wheel hop', 'rear wheel tramp', 'front wheel hop', 'front wheel tramp']
     """
-    path = datafiles.named("vehicle", "vehicles", source)
-    with naming(path):
-        return _read(read_toml(path))
+    with document(datafiles.named("vehicle", "vehicles", source)) as table:
+        mistakes = Mistakes()
+        file = read_vehicle(table, mistakes)
+        mistakes.settle()
+        return file
 
 
-def _read(table: Table) -> VehicleFile:
-    kind, name, source = table.choice("kind", _KINDS), table.text("name"), table.text("source")
-    vehicle = made(table, kind, beside=("kind", "name", "source", *_TABLES))
-    if "flexible_body" in table.content:
-        body = table.table("flexible_body")
-        with keyed(body.name, {"shapes.position_m": "position", "shapes": "shapes"}):
-            vehicle = made(body, FlexibleBody, beside=["shapes"], shapes=_shapes(body)).on(vehicle)
-    vehicle = with_seats(vehicle, table)
-    return VehicleFile(
-        name=name,
-        source=source,
-        vehicle=vehicle,
-        setting=read_setting(table.table("struts").flat(), vehicle),
-        bounds=read_bounds(table.table("bounds").flat(), vehicle),
-        roll_geometry=read_roll_geometry(table),
-    )
+def save_vehicle(path: str | PathLike[str], file: VehicleFile) -> None:
+    """Write a file that `load_vehicle` reads as `file`; ValueError if a file cannot hold it.
+
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> car = sc.QuarterCar(body_mass=400, wheel_mass=40, tyre_stiffness=200e3)
+    >>> sc.save_vehicle("mine.toml", sc.VehicleFile(vehicle=car, setting={"spring": 20e3, "damper": 1500}))
+    >>> from pathlib import Path
+    >>> print(Path("mine.toml").read_text())
+    kind = "quarter-car"
+    body_mass_kg = 400
+    wheel_mass_kg = 40
+    tyre_stiffness_N_per_m = 200000.0
+    <BLANKLINE>
+    [struts]
+    spring_N_per_m = 20000.0
+    damper_N_s_per_m = 1500
+    <BLANKLINE>
+    """
+    text = toml(vehicle_table(file), file, lambda table: read_vehicle(table, Mistakes()))
+    write_text(Path(path), text)
 
 
-def with_seats(vehicle: AssembledVehicle, table: Table) -> AssembledVehicle:
-    """Return the vehicle with the seats of the array ``seats`` in a table."""
-    for seat in table.tables("seats", most=50):
-        with keyed(seat.name, {"name": "name", "position_m": "position"}):
-            vehicle = made(seat, Seat).on(vehicle)
+def read_vehicle(table: Table, mistakes: Mistakes) -> VehicleFile:
+    """Return the vehicle in a table, `BAD` if it cannot be made."""
+    before, kind = len(mistakes), kind_of(KINDS, table, mistakes)
+    if bad(kind):
+        return BAD
+    values = read(table, {**KIND, **keys_of(kind), **keys_of(Document)}, mistakes)
+    sound = len(mistakes) == before  # else further errors are those of numbers that stand in
+    vehicle = constructed(kind, values, table.name, mistakes if sound else Mistakes())
+    if bad(values.get("seats")):
+        return BAD
+    parts = {"flexible_body": values["flexible_body"]} if "flexible_body" in values else {}
+    parts |= {f"seats[{i}]": seat for i, seat in enumerate(values.get("seats", ()), start=1)}
+    vehicle = mounted(vehicle, parts, table.name, mistakes)
+    if bad(vehicle, *values.values()):
+        return BAD
+    for name, field_name, form in (("struts", "setting", float), ("bounds", "bounds", tuple[float, float])):
+        if name in values:
+            inner = Table(f"{table.name}{name}.", values.pop(name))
+            values[field_name] = read_coefficients(inner, vehicle, form, mistakes)
+    own = {one.name: values[one.name] for one in fields(VehicleFile) if one.name in values}
+    return VehicleFile(vehicle=vehicle, **own)
+
+
+def mounted(
+    vehicle: AssembledVehicle, parts: Mapping[str, Part], name: str, mistakes: Mistakes
+) -> AssembledVehicle:
+    """Return the vehicle with parts by their keys in the table `name`, `BAD` if one does not fit."""
+    for key, part in parts.items():
+        if bad(vehicle, part):
+            return BAD
+        on: AssembledVehicle = BAD
+        with mistakes.noted(), fields_named(type(part), f"{name}{key}."):
+            on = part.on(vehicle)
+        vehicle = on
     return vehicle
 
 
-def read_roll_geometry(table: Table) -> RollGeometry | None:
-    """Return the roll geometry in a table, None if there is none."""
-    return made(table.table("roll_geometry"), RollGeometry) if "roll_geometry" in table.content else None
+def vehicle_table(file: VehicleFile) -> dict[str, Any]:
+    """Return the table that `read_vehicle` reads as `file`."""
+    vehicle, parts = file.vehicle, list[Part]()
+    while isinstance(vehicle, Mounted):
+        parts.insert(0, vehicle.part)
+        vehicle = vehicle.vehicle
+    beside = Document(
+        name=file.name,
+        source=file.source,
+        flexible_body=next((part for part in parts if isinstance(part, FlexibleBody)), None),
+        seats=tuple(part for part in parts if isinstance(part, Seat)),
+        struts=coefficient_table(file.vehicle, file.setting),
+        bounds=coefficient_table(file.vehicle, file.bounds),
+        roll_geometry=file.roll_geometry,
+    )
+    return content(vehicle, KINDS) | content(beside)
 
 
-def _shapes(body: Table) -> dict[Position, tuple[float, ...]]:
-    shapes: dict[Position, tuple[float, ...]] = {}
-    for point in body.tables("shapes", most=1000):
-        point.check_keys(_SHAPE, _SHAPE)
-        position = point.pair("position_m")
-        if position in shapes:
-            raise ValueError(f"{point.name}position_m must be that of no other shape, got {position}")
-        shapes[position] = point.numbers("shape_per_sqrt_kg")
-    if not shapes:
-        raise ValueError(f"{body.name}shapes must be an array of tables, one at least, got none")
-    return shapes
+def read_coefficients(
+    table: Table, vehicle: Vehicle, kind: Any, mistakes: Mistakes, given: Collection[str] = ()
+) -> dict[str, Any]:
+    """Return values by coefficient, in the vehicle's order; `given` coefficients need none."""
+    keys = [_key(one, kind, one.name in given) for one in vehicle.parameters]
+    values = read(table.flat(), {one.key: one for one in keys}, mistakes)
+    return {one.name: values[one.name] for one in keys if one.name in values}
 
 
-def _by_key(vehicle: Vehicle) -> dict[str, StrutParameter]:
-    return {key_of(parameter.name, parameter.unit): parameter for parameter in vehicle.parameters}
+def _key(parameter: StrutParameter, kind: Any, given: bool) -> Key:
+    optional = given or kind is not float or parameter.default is not None
+
+    def check(name: str, value: Any) -> None:
+        if isinstance(value, tuple):
+            checks.interval(name, value, parameter.unit, equal=True)
+        parameter.check(name, value[0] if isinstance(value, tuple) else value)
+
+    name, unit = parameter.name, parameter.unit
+    return Key(key_of(name, unit), name, kind, unit, None if optional else MISSING, check)
 
 
-def read_setting(table: Table, vehicle: Vehicle) -> dict[str, float]:
-    """Return the coefficients of a flat table by name; required are those without defaults."""
-    known = _by_key(vehicle)
-    names = {key: parameter.name for key, parameter in known.items()}
-    table.check_keys(names, [key for key, parameter in known.items() if parameter.default is None])
-    setting = {name: table.number(key) for key, name in names.items() if key in table.content}
-    with keyed(table.name, names):
-        vehicle.coefficients(setting)
-    return setting
-
-
-def read_bounds(table: Table, vehicle: Vehicle) -> dict[str, tuple[float, float]]:
-    """Return the bounds in a flat table of coefficients by name, in the vehicle's order."""
-    known = _by_key(vehicle)
-    table.check_keys({key: parameter.name for key, parameter in known.items()})
-    bounds = {key: table.pair(key) for key in known if key in table.content}
-    for key, pair in bounds.items():
-        checks.interval(table.name + key, pair, known[key].unit, equal=True)
-        known[key].check(table.name + key, pair[0])
-    return {known[key].name: pair for key, pair in bounds.items()}
-
-
-def read_kinds(table: Table, vehicle: Vehicle) -> dict[str, str | tuple[float, ...]]:
-    """Return the kinds in a flat table of coefficients by name: texts, or arrays of a catalogue's values."""
-    known = _by_key(vehicle)
-    table.check_keys({key: parameter.name for key, parameter in known.items()})
-    texts = {key for key, value in table.content.items() if isinstance(value, str)}
-    return {known[key].name: table.text(key) if key in texts else table.numbers(key) for key in table.content}
+def coefficient_table(vehicle: Vehicle, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the table that `read_coefficients` reads."""
+    found: dict[str, Any] = {}
+    for parameter in vehicle.parameters:
+        if parameter.name in values:
+            value = values[parameter.name]
+            *strut, last = key_of(parameter.name, parameter.unit).split(".")
+            place = found.setdefault(strut[0], {}) if strut else found
+            place[last] = list(value) if isinstance(value, tuple) else value
+    return found

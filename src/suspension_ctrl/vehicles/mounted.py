@@ -148,6 +148,22 @@ class Payload(Part):
         return replace(assembly, payload=(*assembly.payload, (self.mass, self.position)))
 
 
+@dataclass(frozen=True)
+class Shape:
+    """Mode shapes of a point in a file.
+
+    Parameters
+    ----------
+    position : (float, float)
+        Place of the point from the body's centre of gravity, x forward and y to the left [m].
+    shape : (k,) sequence of float
+        Vertical displacement in each mode at a modal mass of 1 [kg^-1/2].
+    """
+
+    position: Position = field(metadata=unit("m"))
+    shape: tuple[float, ...] = field(metadata={"key": "shape_per_sqrt_kg"})
+
+
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class FlexibleBody(Part):
     """Elastic modes of a free body, beside its rigid motion; put it on a rigid vehicle before seats.
@@ -182,7 +198,9 @@ class FlexibleBody(Part):
 
     frequencies: tuple[float, ...] = field(metadata=unit("Hz"))
     damping_ratios: tuple[float, ...]
-    shapes: Mapping[Position, tuple[float, ...]] = field(metadata=unit("kg^-1/2"))
+    shapes: Mapping[Position, tuple[float, ...]] = field(
+        metadata={"unit": "kg^-1/2", "key": "shapes", "rows": Shape}
+    )
 
     def __post_init__(self) -> None:
         modes, ratios = np.shape(self.frequencies), np.shape(self.damping_ratios)

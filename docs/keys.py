@@ -1,0 +1,127 @@
+"""Write docs/files.md, the keys of vehicle, road and problem files, from the dataclasses that files are read by.
+
+``python docs/keys.py`` after a change of a dataclass or its docstring.
+"""
+
+import inspect
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from suspension_ctrl.quantities import Real
+from suspension_ctrl.response.files import CaseDocument
+from suspension_ctrl.response.files import Document as ProblemDocument
+from suspension_ctrl.roads.coherence import COHERENCES
+from suspension_ctrl.roads.files import KINDS as ROADS
+from suspension_ctrl.roads.files import MeasuredFile, TabulatedFile
+from suspension_ctrl.schema import Key, keys_of
+from suspension_ctrl.vehicles.files import KINDS as VEHICLES
+from suspension_ctrl.vehicles.files import Document as VehicleDocument
+from suspension_ctrl.vehicles.handling import RollGeometry
+from suspension_ctrl.vehicles.mounted import FlexibleBody, Payload, Seat, Shape
+
+PAGE = Path(__file__).with_name("files.md")
+HEAD = """# Files
+
+Vehicles, roads and problems are TOML files. This page is made from the code by `python docs/keys.py`.
+
+A quantity has its unit in its key and a number as its value, `front_track_m = 1.5`; or no unit in its key and a
+text with any unit of the same dimension as its value: `front_track = "1500mm"`, `speed = "100 km/h"`,
+`spring = "20 kN/m"`. Units are kg, t, lb, m, km, cm, mm, in, ft, s, ms, min, h, mph, Hz, N, kN, lbf, rad, deg,
+cycle, g (standard gravity) and %, and their products, quotients and powers: `N s/m`, `kg m^2`. Commands take such
+texts too: `--speed 72km/h --sws-limit 28.7mm --band 0.5Hz..`.
+
+`load_vehicle`, `load_road` and `load_problem` read files; `save_vehicle`, `save_road` and `save_problem` write.
+All mistakes of a file are listed at once, each with the file, the line, the key, what is allowed and the value:
+
+```text
+car.toml:3: body_mas_kg must be a known key, got 1040: did you mean body_mass_kg?
+car.toml:9: front_track must be in m or a unit like it, got '1800 kg' in kg
+car.toml:15: struts.front.damper_N_s_per_m must be finite and > 0 N s/m, got 0.0
+```
+
+A key without a default is required.
+"""
+STRUTS = """
+In the tables `struts`, `bounds` and `kinds` a coefficient of a strut is a key with its unit: `spring_N_per_m` and
+`damper_N_s_per_m` of a quarter car, and of the others `front.spring_N_per_m`, `front.damper_N_s_per_m`,
+`rear.spring_N_per_m`, `rear.damper_N_s_per_m`, of a full car `front_antiroll_N_m_per_rad` and
+`rear_antiroll_N_m_per_rad` as well, and of each seat `<name>.spring_N_per_m` and `<name>.damper_N_s_per_m`.
+`struts` holds numbers and `bounds` arrays of the lowest and the highest value. Only a search needs bounds.
+"""
+FORMS = {
+    float: "number", float | None: "number", int | None: "whole number", bool: "true or false", str: "text",
+    tuple[str, ...]: "array of texts", tuple[float, float]: "array of 2 numbers",
+    tuple[float, ...]: "array of numbers", Real: "array of numbers", str | Mapping[str, Any]: "text or table",
+}  # fmt: skip
+
+
+class Row(NamedTuple):
+    """A key of a table in a file."""
+
+    key: str
+    value: str
+    unit: str
+    default: str
+    meaning: str
+
+
+def rows(record: Any) -> Iterator[Row]:
+    """Yield the keys of a dataclass, meanings from its docstring."""
+    meanings = dict(parameters(record))
+    for key in keys_of(record).values():
+        default = "" if key.required or key.default in (None, "", (), {}) else _shown(key.default)
+        yield Row(key.key, form(key), key.unit, "required" if key.required else default, meanings[key.name])
+
+
+def form(key: Key) -> str:
+    """Return the kind of a value in words."""
+    if key.form in FORMS:
+        return FORMS[key.form]
+    return "array of tables" if key.rows or "tuple" in str(key.form) else "table"
+
+
+def parameters(record: Any) -> Iterator[tuple[str, str]]:
+    """Yield name and meaning of each parameter in a numpydoc docstring."""
+    section = re.split(r"^(?:Parameters\n-+|\w+\n-+)$", inspect.getdoc(record) or "", flags=re.MULTILINE)[1]
+    for names, text in re.findall(r"^(\w[\w, ]*) : .*\n((?:    .*\n?)+)", section, re.MULTILINE):
+        for name in names.split(", "):
+            yield name, " ".join(text.split())
+
+
+def _shown(default: Any) -> str:
+    if isinstance(default, tuple):
+        return f"[{', '.join(f'{one:g}' for one in default)}]"
+    if isinstance(default, bool):
+        return str(default).lower()
+    return f'"{default}"' if isinstance(default, str) else repr(default)
+
+
+def table(title: str, record: Any) -> str:
+    """Return the keys of a dataclass as a section."""
+    grouped: dict[tuple[str, ...], list[str]] = {}
+    for row in rows(record):
+        grouped.setdefault(row[1:], []).append(f"`{row.key}`")
+    cells = ["| keys | value | unit | default | meaning |", "|---|---|---|---|---|"]
+    cells += [f"| {', '.join(keys)} | {' | '.join(rest)} |" for rest, keys in grouped.items()]
+    return f"### {title}\n" + "\n".join(cells) + "\n"
+
+
+def page() -> str:
+    """Return the page."""
+    parts = [HEAD, "## Vehicles\n"]
+    parts += [table(f'`kind = "{kind}"`', record) for kind, record in VEHICLES.items()]
+    parts += [table("Beside them, of every vehicle", VehicleDocument), table("`[[seats]]`", Seat)]
+    parts += [table("`[flexible_body]`", FlexibleBody), table("`[[flexible_body.shapes]]`", Shape)]
+    parts += [table("`[roll_geometry]`", RollGeometry), "### `[struts]`, `[bounds]`" + STRUTS, "## Roads\n"]
+    parts += [table(f'`kind = "{kind}"`', record) for kind, record in ROADS.items()]
+    parts.append(table('`kind = "measured"` of a CSV file, with `coherence` as above', MeasuredFile))
+    parts += [table(f'`[coherence]`, `kind = "{kind}"`', record) for kind, record in COHERENCES.items()]
+    parts.append(table('`[coherence]`, `kind = "tabulated"` of a CSV file', TabulatedFile))
+    parts += ["## Problems\n", table("A problem", ProblemDocument), table("`[[cases]]`", CaseDocument)]
+    return "\n".join([*parts, table("`[[cases.payload]]`", Payload)])
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")
