@@ -122,7 +122,7 @@ def test_decimal_factors_are_exact(millimetres):
         ("60 km//h", "m/s", "speed must be in units of .*, got 'km//h'"),
         ("fast", "m/s", "speed must be a number with a unit like m/s, got 'fast'"),
         ("nan", "m/s", "speed must be a number with a unit like m/s, got 'nan'"),
-        ("1e999", "m/s", "speed must be in units of .*, got 'e999'"),
+        ("1e999", "m/s", "speed must be of moderate size, got '1e999'"),
         ("1\n2", "m/s", "speed must be in units of .*, got '2'"),
         ("", "m/s", "speed must be a number with a unit like m/s, got ''"),
         (3.0, "m/s", "speed must be a number with a unit like m/s, got 3.0"),

@@ -23,7 +23,7 @@ V = TypeVar("V", covariant=True)
 
 _WIDTH, _LINES = 88, 6  # most columns and lines of a record's repr
 _QUANTITY = re.compile(
-    r"\s*([+-]?(?:\d{1,20}\.?\d{0,20}|\.\d{1,20})(?:[eE][+-]?\d{1,2})?)([^\d.].{0,29})?", re.ASCII
+    r"\s*([+-]?(?:\d{1,20}\.?\d{0,20}|\.\d{1,20})(?:[eE][+-]?\d{1,3})?)([^\d.].{0,29})?", re.ASCII
 )
 _TERM = re.compile(r"([A-Za-z%]+)\^?(-?\d?)", re.ASCII)
 _BASE = ("kg", "m", "s", "rad", "cycle")
@@ -56,7 +56,10 @@ def quantity(name: str, text: str, unit: str = "", *, bare: bool = True) -> floa
     if dimension != needed:
         needed_unit = f"in {unit} or a unit like it" if unit else "a number without unit"
         raise ValueError(f"{name} must be {needed_unit}, got {checks.shown(text)} in {given}")
-    return float(number * factor)
+    try:
+        return float(number * factor)
+    except OverflowError:
+        raise ValueError(f"{name} must be of moderate size, got {checks.shown(text)}") from None
 
 
 def _dimension(unit: str) -> tuple[Fraction, Counter[str]]:

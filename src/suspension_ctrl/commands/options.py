@@ -72,7 +72,7 @@ def in_unit(unit: str) -> Callable[[str], float]:
         from ..quantities import quantity
 
         try:
-            return quantity("", text, unit)
+            return quantity("", str(text), unit)  # a default is a number already
         except ValueError as error:
             raise BadParameter(str(error).strip()) from None
 
