@@ -190,7 +190,7 @@ def test_problems_are_written(tmp_path):
     [
         ({"weighting": weighting("Wk")}, "weighting must be a text, got "),
         ({"road": OwnRoad(roughness=1e-6, exponent=2.0)}, "a file must hold one of power-law, .* got OwnRoad"),
-        ({"measures": ["ACC", Measure("own", "m", lambda designs: designs[:, 0])]}, r"measures\[2\]: measure "),
+        ({"measures": ["ACC", Measure("own", "m", lambda designs: designs[:, 0])]}, r"measures\[2\]: response "),
         ({"bounds": {"rear.damper": (1e3, 4e3), "front.spring": (2e4, 4e4)}}, "bounds must be in the vehicle's "),
     ],
 )  # fmt: skip
