@@ -69,11 +69,7 @@ def published_seconds() -> "pd.DataFrame":
 def chosen(
     vehicle: str | None, road: str | None, speed: float | None, *, allow_outside: bool = False, **settings: Any
 ) -> tuple[RideProblem, Mapping[str, float]]:
-    """Return the paper's problem with another vehicle, road, speed or settings, and the vehicle's own setting.
-
-    Names, files and `allow_outside` are those of `load_vehicle` and `load_road`, settings further parameters of
-    `RideProblem`.
-    """
+    """Return the paper's problem with another vehicle, road, speed or settings, and the setting of the vehicle."""
     papers = ride_problem()
     settings |= {"road": None if road is None else load_road(road, allow_outside=allow_outside), "speed": speed}
     if vehicle is None:

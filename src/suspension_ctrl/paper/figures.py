@@ -40,10 +40,7 @@ def weighting_factors(ax: Axes, filters: Sequence[str], tables: Sequence[str]) -
 
 
 def final_populations(populations: pd.DataFrame, across: str, up: Sequence[str]) -> Figure:
-    """Draw Figure 5 of `timing.final_populations`, columns `up` over column `across` for each configuration.
-
-    The populations are of one or two algorithms: small marks over rings, both stay visible.
-    """
+    """Draw Figure 5: columns `up` over column `across` of one or two algorithms, marks over rings."""
     ring: dict[str, Any] = {"s": 22, "facecolors": "none", "edgecolors": COLOURS[0], "linewidths": 0.5}
     mark: dict[str, Any] = {"s": 4, "color": COLOURS[1], "linewidths": 0}
     names = populations.algorithm.unique().tolist()

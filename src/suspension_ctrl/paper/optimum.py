@@ -1,6 +1,7 @@
 """The best strut within a limit of suspension travel: by descent, and picked from a Pareto set (Table 5)."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from operator import itemgetter
 from typing import TYPE_CHECKING, Any
 
@@ -8,6 +9,8 @@ import numpy as np
 
 from .. import checks
 from ..quantities import Real
+from ..response.measures.measure import Measure
+from ..response.measures.vibration import ACC, DTL, SWS, WheelMeasure
 from ..response.problem import RideProblem
 from ..search.indicators import non_dominated
 from . import experiment, tables
@@ -25,36 +28,35 @@ _HELD = 1e-6  # share of a limit by which a design within it may exceed it
 
 
 def least_within_limit(
-    problem: RideProblem, limit: float, objective: str, starts: Real, *, at_limit: bool = False
+    problem: RideProblem, limit: float, objective: Measure, starts: Real, *, at_limit: bool = False
 ) -> tuple[float, ...]:
-    """Return the design with the least `objective` among those whose travel SWS is up to `limit`.
+    """Return the design of least `objective` with SWS up to `limit` [m], or equal to it `at_limit`.
 
-    `limit` [m] bounds the travel of every wheel, or equals it if `at_limit`. Sequential quadratic programming
-    (SLSQP) descends from each of the `starts` (k, d); the best end counts. The maximum over wheels is not
-    differentiable: it is replaced by a slack variable bounded below by each wheel (epigraph form).
+    Sequential quadratic programming (SLSQP) descends from each of the `starts` (k, d); the best end counts. The
+    maximum over wheels is not differentiable: it is replaced by a slack variable bounded below by each wheel
+    (epigraph form).
     """
     from scipy.optimize import minimize
 
     checks.positive("sws_limit", limit, "m")
     if problem.kinds:
         raise ValueError(f"kinds must be none where a search descends, got {checks.shown(problem.kinds)}")
-    wheels = problem.cases[0].vehicle.tyres
-    least = [objective] if objective == "ACC" else [f"{objective} {wheel}".strip() for wheel in wheels]
-    smooth = problem.replace(measures=(*least, *(f"SWS {wheel}".strip() for wheel in wheels)))
+    least, travels = _of_each_wheel(problem, objective), _of_each_wheel(problem, SWS())
+    smooth = problem.replace(measures=(*least, *travels))
     lower, width = np.asarray(problem.lower), np.subtract(problem.upper, problem.lower)
-    most, travels = len(least), len(least) + len(wheels)
-    scale = smooth.evaluate(starts[:1])[0, :most].max()
+    first, last = len(least), len(least) + len(travels)
+    scale = smooth.evaluate(starts[:1])[0, :first].max()
 
     def scores(point: Real) -> Real:
         return smooth.evaluate([lower + np.clip(point[:-1], 0, 1) * width])[0]
 
     def spare_travel(point: Real) -> Real:
-        return 1 - scores(point)[most:travels] / limit
+        return 1 - scores(point)[first:last] / limit
 
     def room(point: Real) -> Real:
         """Return the distance (c,) from the slack variable, the last value of a point, and from other limits."""
         found = scores(point)
-        return np.concatenate([point[-1] - found[:most] / scale, -found[travels:]])
+        return np.concatenate([point[-1] - found[:first] / scale, -found[last:]])
 
     def held(end: Real) -> bool:
         spare = spare_travel(end)
@@ -63,9 +65,8 @@ def least_within_limit(
     limits = [{"type": "ineq", "fun": room}, {"type": "eq" if at_limit else "ineq", "fun": spare_travel}]
     settings: dict[str, Any] = {"method": "SLSQP", "jac": "3-point", "constraints": limits}
     settings |= {"bounds": [(0, 1)] * len(lower) + [(0, None)], "options": {"ftol": 1e-12, "maxiter": 200}}
-    units = np.column_stack(
-        [(starts - lower) / np.where(width > 0, width, 1.0), smooth.evaluate(starts)[:, :most].max(axis=1) / scale]
-    )
+    slack = smooth.evaluate(starts)[:, :first].max(axis=1) / scale
+    units = np.column_stack([(starts - lower) / np.where(width > 0, width, 1.0), slack])
     ends = [end for end in (minimize(itemgetter(-1), unit, **settings).x for unit in units) if held(end)]
     if not ends:
         raise ValueError(f"sws_limit must be a travel that a design within the bounds has, got {limit} m")
@@ -73,14 +74,18 @@ def least_within_limit(
     return tuple((lower + np.clip(best[:-1], 0, 1) * width).tolist())
 
 
-def pick_at_limit(
-    problem: RideProblem, run: "Run", limit: float, objective: str, below: float = AT_LIMIT
-) -> tuple[float, ...]:
-    """Return the design of a run's Pareto set with the least `objective` at a travel SWS up to `limit` [m].
+def _of_each_wheel(problem: RideProblem, measure: Measure) -> list[Measure]:
+    """Return the measure at each wheel; itself if it is not the largest of several wheels."""
+    if isinstance(measure, WheelMeasure):
+        return [replace(measure, where=wheel) for wheel in problem.cases[0].vehicle.tyres]
+    return [measure]
 
-    `below` is the share of the limit by which its travel may lie below it, 1 for all within it.
-    """
-    sws = run.objectives[:, problem.objectives.index("SWS")]
+
+def pick_at_limit(
+    problem: RideProblem, run: "Run", limit: float, objective: Measure, below: float = AT_LIMIT
+) -> tuple[float, ...]:
+    """Return the design of least `objective` in a run's Pareto set with SWS up to `below` under the limit [m]."""
+    sws = run.objectives[:, problem.measures.index(SWS())]
     at_limit = ((1 - below) * limit <= sws) & (sws <= limit)
     there = np.flatnonzero(non_dominated(run.objectives) & at_limit)
     if there.size == 0:
@@ -88,25 +93,22 @@ def pick_at_limit(
             f"sws_limit must be a travel within {100 * below:g} % of which the Pareto set has a design, its "
             f"{sws.size} have {sws.min():.4f} to {sws.max():.4f} m, got {limit} m"
         )
-    best = there[run.objectives[there, problem.objectives.index(objective)].argmin()]
+    best = there[run.objectives[there, problem.measures.index(objective)].argmin()]
     return tuple(run.designs[best].tolist())
 
 
 def table5(problem: RideProblem, run: "Run", limit: float, own: Mapping[str, tuple[float, ...]]) -> "pd.DataFrame":
-    """Return Table 5: the designs of least ACC and DTL within a limit of travel [m], and those picked from a run.
-
-    First come a vehicle's `own` designs by name, or if there are none the paper's two beside the printed values.
-    """
+    """Return Table 5: a vehicle's `own` designs or the paper's two, the best within a limit, and picked ones."""
     columns = experiment.table5()
     published = {"reference car": columns["reference"], "published optimum": columns["optimised"]}
     papers = {"reference car": experiment.reference_design(), "published optimum": experiment.optimised_design()}
     designs = dict(own or papers)
-    travel = run.objectives[:, problem.objectives.index("SWS")]
+    travel = run.objectives[:, problem.measures.index(SWS())]
     starts = run.designs[np.abs(travel - limit).argsort(kind="stable")[:_STARTS]]
-    for objective in ("ACC", "DTL"):
+    for objective in (ACC(), DTL()):
         name = f"least {objective} up to the limit" if own else f"exact, least {objective}"
         designs[name] = least_within_limit(problem, limit, objective, starts, at_limit=not own)
     below = 1.0 if own else AT_LIMIT
-    for objective in ("ACC", "DTL"):
+    for objective in (ACC(), DTL()):
         designs[f"picked, least {objective}"] = pick_at_limit(problem, run, limit, objective, below)
     return tables.beside_published(problem, designs, {} if own else published)

@@ -21,11 +21,7 @@ def timed_tables(runs: pd.DataFrame, published: pd.DataFrame) -> dict[str, pd.Da
 
 
 def seconds_by_repeat(runs: pd.DataFrame, published: pd.DataFrame, algorithm: str) -> pd.DataFrame:
-    """Return Table 2 (`algorithm` ``"nsga2"``) or 3 (``"moead-dra"``) of runs from `timing.tidy`, a row per run.
-
-    Columns: algorithm, population, iterations, repeat, published_seconds (from `experiment.published_seconds`),
-    seconds, evaluations, microseconds_per_evaluation.
-    """
+    """Return Table 2 or 3: seconds of an algorithm's runs from `timing.tidy` beside the published ones."""
     measured = runs[(runs.algorithm == algorithm) & (runs.budget == EQUAL_ITERATIONS)]
     keys = ["algorithm", *CONFIGURATION, "repeat"]
     table = measured.merge(published, on=keys, how="left")
@@ -34,10 +30,7 @@ def seconds_by_repeat(runs: pd.DataFrame, published: pd.DataFrame, algorithm: st
 
 
 def as_printed(table: pd.DataFrame) -> pd.DataFrame:
-    """Return Table 2 or 3 as printed, a column per configuration.
-
-    A row per repeat of "published / measured" seconds, then both means, evaluations and microseconds of each.
-    """
+    """Return Table 2 or 3 as printed: a column per configuration, a row "published / measured" per repeat."""
     columns: dict[str, list[str]] = {}
     for (population, iterations), part in table.groupby(CONFIGURATION):
         seconds = part[["published_seconds", "seconds"]]
@@ -52,11 +45,9 @@ def as_printed(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def comparison(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
-    """Return Table 4 of runs from `timing.tidy`: each algorithm against the first at equal effort.
+    """Return Table 4 of runs from `timing.tidy`: each algorithm beside the first at equal effort.
 
-    A row per configuration, budget (equal iterations or evaluations) and algorithm: evaluations, means of
-    published and measured seconds, microseconds per evaluation, ``published_ratio_percent`` and ``ratio_percent``
-    (mean seconds of the first over those of this algorithm, times 100), median hypervolume and IGD+.
+    Ratios are mean seconds of the first algorithm over those of each [%]; hypervolume and IGD+ are medians.
     """
     keys = [*CONFIGURATION, "algorithm", "budget"]
     summary = {
@@ -78,7 +69,7 @@ def comparison(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
 
 
 def _also_at_equal_evaluations(table: pd.DataFrame) -> pd.DataFrame:
-    """Repeat, as equal evaluations, the rows of the algorithms whose evaluations the others match."""
+    """Repeat the rows of the algorithms whose evaluations the others match, as equal evaluations."""
     others = table[table.budget == EQUAL_EVALUATIONS]
     matched = table.merge(others[CONFIGURATION].drop_duplicates(), on=CONFIGURATION)
     theirs = pd.MultiIndex.from_frame(others[[*CONFIGURATION, "algorithm"]])
@@ -89,11 +80,7 @@ def _also_at_equal_evaluations(table: pd.DataFrame) -> pd.DataFrame:
 def beside_published(
     problem: RideProblem, designs: Mapping[str, tuple[float, ...]], published: Mapping[str, Mapping[str, float]]
 ) -> pd.DataFrame:
-    """Return Table 5: objectives of designs by name, beside published values by design and objective.
-
-    A row per design: weighting, design, variables, objectives, ``published <objective>`` and
-    ``<objective> off [%]``; NaN where nothing is published.
-    """
+    """Return Table 5: objectives of designs by name, published values (NaN where none) and differences [%]."""
     values = np.array(list(designs.values()), dtype=float)
     objectives = problem.evaluate(values)
     headers = column_headers([*problem.variables, *problem.objectives], problem.units)

@@ -28,46 +28,34 @@ class Variables(NamedTuple):
 
     @classmethod
     def of(cls, parameters: Sequence[StrutParameter], origin: Mapping[str, float]) -> "Variables":
-        """Take those with a value in place out of the coefficients of a vehicle."""
+        """Take the coefficients with a value in `origin`."""
         by_name = {parameter.name: parameter for parameter in parameters}
         gains, orders = zip(*((by_name[name].gain, by_name[name].order) for name in origin), strict=True)
         return cls(np.array(gains), np.array(orders, dtype=np.int64), np.array(list(origin.values()), dtype=float))
 
 
-class Pairs(NamedTuple):
-    """Orthogonal matrices (q, q), (r, r) that make sums and differences of the left and right of an axle."""
+Pairs = tuple[Real, Real]
+"""Orthogonal matrices of q struts (q, q) and r roads (r, r): sums and differences of left and right."""
 
-    struts: Real
-    roads: Real
 
-    @classmethod
-    def of(cls, struts: Sequence[str], contact_points: Real) -> "Pairs":
-        """Find them by the names of the struts and the places of the roads (r, 2)."""
-        mirrored = [name.replace("left", "right") for name in struts]
-        opposite = [
-            [i for i, name in enumerate(struts) if name == mirror and name != struts[k]]
-            for k, mirror in enumerate(mirrored)
-        ]
-        beside = [
-            [i for i, (x, y) in enumerate(contact_points) if x == here[0] and y == -here[1] and y < 0]
-            for here in contact_points
-        ]
-        return cls(_sums_and_differences(opposite), _sums_and_differences(beside))
-
-    @classmethod
-    def none(cls, struts: Sequence[str], contact_points: Real) -> "Pairs":
-        """Leave every strut and road as it is."""
-        return cls(np.eye(len(struts)), np.eye(len(contact_points)))
+def pairs_of(struts: Sequence[str], contact_points: Real) -> Pairs:
+    """Return the pairs by the names of the struts and the contact points (r, 2)."""
+    mirrored = [name.replace("left", "right") for name in struts]
+    opposite = [
+        [i for i, name in enumerate(struts) if name == mirror and name != struts[k]]
+        for k, mirror in enumerate(mirrored)
+    ]
+    beside = [
+        [i for i, (x, y) in enumerate(contact_points) if x == here[0] and y == -here[1] and y < 0]
+        for here in contact_points
+    ]
+    return _sums_and_differences(opposite), _sums_and_differences(beside)
 
 
 def in_blocks(
     ports: Ports, omega: Real, roads: Complex, densities: Real, variables: Variables, pairs: Pairs
 ) -> ManyStruts:
-    """Return the mean squares of m responses over designs, block by block.
-
-    The ports are at n frequencies `omega` [rad/s] around the struts at `variables.origin`, `roads` (n, r, r) the
-    cross-spectrum under them, `densities` (m, n) what multiplies squared magnitudes in their integrals.
-    """
+    """Return mean squares of m responses at n frequencies, for spectra of roads (n, r, r) and densities (m, n)."""
     m, r, (p, x) = ports.m, ports.r, pairs
     gain = p @ variables.gain @ p.T
     varied = _coupled(gain).any(axis=0)
@@ -99,7 +87,7 @@ class _Block(NamedTuple):
     response: Integer
 
     def rows_of(self, response: int) -> Real:
-        """Return all rows (s + q, 2, n) of a response, zeros if it has none."""
+        """Return the rows (s + q, 2, n) of a response, zeros if it has none."""
         own = np.concatenate(self.parts[2:], axis=1)[self.response == response]
         return own[0] if len(own) else np.zeros_like(self.parts[2][0, :1])
 
@@ -111,7 +99,7 @@ class _Block(NamedTuple):
 
 
 def _joined(blocks: Sequence[_Block], m: int, omega: Real, variables: Variables) -> ManyStruts:
-    """Return the blocks one after the other, each response (m,) that is like another one left out."""
+    """Return the blocks one after the other, of equal responses among m the first alone."""
     first = np.arange(m)
     for i in range(m):
         same = (j for j in range(i) if first[j] == j and all(_alike(block, i, j) for block in blocks))
@@ -134,7 +122,7 @@ def _joined(blocks: Sequence[_Block], m: int, omega: Real, variables: Variables)
 
 
 def _alike(block: _Block, i: int, j: int) -> bool:
-    """Whether two responses are the same in a block but for the sign."""
+    """Whether two responses are equal in a block, but for the sign."""
     a, b = block.rows_of(i), block.rows_of(j)
     if a.shape != b.shape:
         return not (a.any() or b.any())
@@ -142,7 +130,7 @@ def _alike(block: _Block, i: int, j: int) -> bool:
 
 
 def _parts(struts: Bool, by_road: Complex, roads: Complex) -> list[tuple[Integer, Integer]]:
-    """Return the struts and the roads of each part that no coupling (q, q), deflection or road connects."""
+    """Return struts and roads of each part without coupling to others, from struts (q, q) and roads (n, r, r)."""
     from scipy.sparse.csgraph import connected_components
 
     reached = _coupled(by_road)
@@ -165,19 +153,13 @@ def _contributes(rows: Complex) -> Bool:
 
 
 def _cleared(by_road: Complex) -> Complex:
-    """Return responses by roads (n, m, r), zero where they are rounding.
-
-    As f -> 0 the road spectrum diverges while deformations vanish; differences below rounding are set to zero.
-    """
+    """Return responses by roads (n, m, r), zero below rounding: as f -> 0 they vanish and the road diverges."""
     sizes = np.abs(by_road)
     return np.where(sizes > _ROUNDING * sizes.max(axis=(0, 2), keepdims=True, initial=0.0), by_road, 0.0)
 
 
 def _factor(spectrum: Complex, power: Real) -> Complex:
-    """Return F (n, s, k) with F F^H = `spectrum` (n, s, s), k the number of independent sources.
-
-    Eigenvalues below rounding of the whole road's `power` (n,) are zero: as f -> 0 wheels move as one.
-    """
+    """Return F (n, s, k) with F F^H = `spectrum` (n, s, s) of k sources above the rounding of `power` (n,)."""
     values, vectors = np.linalg.eigh(spectrum)
     present = values > _ROUNDING * power[:, None]
     return (vectors * np.sqrt(np.where(present, values, 0.0))[:, None, :])[:, :, present.any(axis=0)]

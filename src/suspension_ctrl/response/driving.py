@@ -134,10 +134,7 @@ class _Model(NamedTuple):
 
     @classmethod
     def of(cls, closed: StateSpace) -> "_Model":
-        """Eliminate road rates from x' = A x + B u + G u', y = C x + D u + E u'.
-
-        The shifted state w = x - G u obeys w' = A w + (B + A G) u, and y = C w + (D + C G) u + E u'.
-        """
+        """Eliminate road rates G u' from the states: w = x - G u obeys w' = A w + (B + A G) u."""
         if not (isinstance(closed, StateSpace) and closed.isctime(strict=True)):
             got = f"{type(closed).__name__} with dt = {getattr(closed, 'dt', None)}"
             raise ValueError(f"closed must be a state-space model in continuous time, got {got}")

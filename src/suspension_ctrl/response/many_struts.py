@@ -9,12 +9,11 @@ from ..quantities import Bool, Integer, Real
 
 
 class ManyStruts(NamedTuple):
-    """Blocks of coupled struts: loop gains, and rows of the terms to which they contribute.
+    """Blocks of coupled struts in rows (2, n): real and imaginary parts of a value at n frequencies.
 
-    A row (2, n) holds the real and imaginary parts of a value at n frequencies. Blocks follow one another; the
-    last dimension of each part of a block varies fastest. The rows of a block are deflections by tensions (q, q)
-    and by s uncorrelated sources of unit density in place of the roads (q, s); terms by sources (k, s) and by
-    tensions (k, q), times the root of their densities.
+    A block has deflections by q tensions (q, q) and by s uncorrelated sources of unit density in place of the
+    roads (q, s), then k terms by sources (k, s) and by tensions (k, q), times the root of their densities. Blocks
+    follow one another; the last dimension of each part varies fastest.
     """
 
     omega: Real  # (n,) angular frequencies [rad/s]
@@ -28,10 +27,9 @@ class ManyStruts(NamedTuple):
 
     @compiled()
     def __call__(self, designs: Real) -> Real:
-        """Return the mean squares (p, k) of designs (p, v), each as if alone.
+        """Return the mean squares (p, k) of designs (p, v), each as if alone, by (1 - P D) e = S.
 
-        Struts of dynamic stiffness D and deflections e carry tensions D e, with e = S + P D e for the sources S:
-        (1 - P D) e = S is solved by elimination, which closes one strut after the other and needs no pivoting.
+        Elimination closes one strut after the other and needs no pivoting.
         """
         sizes, n = self.sizes, self.omega.size
         q, s = 0, 0
@@ -73,10 +71,7 @@ class ManyStruts(NamedTuple):
 
 @compilable()
 def fill_stiffness(added: Real, struts: ManyStruts, entry: int, stiffness: Real) -> Bool:
-    """Fill in the dynamic stiffness D (q q, 2, n) of coefficients (v,), and tell which entries are not zero.
-
-    D = sum of gain (jw)^order: all laws of struts are evaluated here.
-    """
+    """Fill in D (q q, 2, n), sum of gain (jw)^order, and return which entries (q q,) are not zero."""
     present = np.empty(stiffness.shape[0], dtype=np.bool_)
     for i in range(stiffness.shape[0]):
         k, c, b = 0.0, 0.0, 0.0

@@ -1,7 +1,7 @@
 """Mean squares of a load case's responses over designs: one interface, in Python and in compiled code.
 
-A case is a named tuple of arrays with a compiled method ``mean_squares`` from designs (p, v) to mean squares
-(p, k), the ``function`` of compiled loops: `OneStrut` for a single spring and damper, `ManyStruts` for the rest.
+A case is a compiled function from designs (p, v) to mean squares (p, k): `OneStrut` for one spring and one damper,
+`ManyStruts` for all others.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -10,7 +10,7 @@ import numpy as np
 
 from ..quantities import Real
 from . import weightings
-from .blocks import Pairs, Variables, in_blocks
+from .blocks import Pairs, Variables, in_blocks, pairs_of
 from .load_case import LoadCase
 from .many_struts import ManyStruts
 from .measures.terms import Term
@@ -29,7 +29,7 @@ def cases_of(
     band: tuple[float, float],
     nodes: int,
 ) -> tuple[Case, ...]:
-    """Return load cases, with terms and setting of each, as `case_of` does, of one class for compiled loops."""
+    """Return `case_of` each load case, all of one class for compiled loops."""
     each = zip(load_cases, terms, settings, strict=True)
     one_strut = all(fits_one_strut(case, variables) for case in load_cases)
     return tuple(case_of(*case, variables, band, nodes, one_strut=one_strut) for case in each)
@@ -48,14 +48,10 @@ def case_of(
     variables: Sequence[str],
     band: tuple[float, float],
     nodes: int,
-    pairs: Callable[[Sequence[str], Real], Pairs] = Pairs.of,
+    pairs: Callable[[Sequence[str], Real], Pairs] = pairs_of,
     one_strut: bool = True,
 ) -> Case:
-    """Return a load case ready for the mean squares (k,) of terms over designs of the variables (v,).
-
-    The `setting` has every coefficient, of the variables a value in the middle of its range; `pairs` tells by
-    names of struts and contact points which to pair. `OneStrut` where it fits and `one_strut` allows.
-    """
+    """Return the mean squares (k,) of terms over the variables (v,), around a setting in the middle of the box."""
     weights = [term.weighting and weightings.by_name(term.weighting) for term in terms]
     kinks = {f for weighting in weights if weighting for f in weighting.breakpoints}
     f, w = frequency_nodes(band, nodes, kinks.union(load_case.breakpoints))

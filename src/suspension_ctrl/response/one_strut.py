@@ -1,4 +1,4 @@
-"""Mean squares over designs of one spring and damper: each integral is a ratio of polynomials in both."""
+"""Mean squares over designs of one spring and one damper: integrands are ratios of polynomials in both."""
 
 from typing import NamedTuple
 
@@ -10,16 +10,14 @@ from .ports import Ports
 
 
 class OneStrut(NamedTuple):
-    """Integrals over frequency for any design of one strut, from one frequency response of the plant.
+    """Mean squares over designs (K, C) of one strut, from one frequency response of the plant.
 
-    With the strut D = K + jwC around the ports of the plant P, a response is
-    ``P11 + P12 D (1 - P22 D)^-1 P21 = (a + b D) / (1 + c D)``, where a = P11, b = P12 P21 - P11 P22 and
-    c = -P22. Both |a + b D|^2 and |1 + c D|^2 are linear in the powers 1, K, C, K^2, C^2 of a design. Only
-    numerators that are not zero at every frequency are kept.
+    Around the strut D = K + jwC a response is ``P11 + P12 D (1 - P22 D)^-1 P21 = (a + b D) / (1 + c D)``, where
+    a = P11, b = P12 P21 - P11 P22, c = -P22: |a + b D|^2 and |1 + c D|^2 are linear in 1, K, C, K^2, C^2.
     """
 
     denominator: Real  # (5, n), coefficients of |1 + c D|^2 at n frequencies
-    numerators: Real  # (q, n), those of |a + b D|^2 times a density
+    numerators: Real  # (q, n), of |a + b D|^2 times a density, those that are not zero throughout
     term: Integer  # (q,), the term of each numerator
     power: Integer  # (q,), its power of a design
     terms: int
@@ -48,10 +46,7 @@ class OneStrut(NamedTuple):
 
     @classmethod
     def around(cls, ports: Ports, omega: Real, densities: Real) -> "OneStrut":
-        """Take the ports of a plant with one strut on one road, at angular frequencies `omega` (n,) [rad/s].
-
-        Each density (k, n) is the product of the road's spectrum, squared weighting and quadrature weight.
-        """
+        """Take ports at `omega` (n,) [rad/s] and densities (k, n): road, squared weighting, quadrature weight."""
         p21, p22 = ports.h[:, -1, 0], ports.h[:, -1, 1]
         numerators = np.array(
             [

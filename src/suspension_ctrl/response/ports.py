@@ -27,10 +27,7 @@ class Ports(NamedTuple):
         responses: Sequence[ResponseName],
         values: Mapping[str, float] | None = None,
     ) -> "Ports":
-        """Take it at `f` (n,) [Hz], ascending, around struts with the coefficients `values`, if given.
-
-        These are closed in state space: a body on springs does not drift at low frequency and cost digits.
-        """
+        """Take it at ascending `f` (n,) [Hz] around struts with `values`, closed in state space: no drift."""
         q = len(vehicle.struts)
         distinct = list(dict.fromkeys(responses))
         plant = around(vehicle.plant(distinct), gains_by_order(vehicle.parameters, values or {}, q))

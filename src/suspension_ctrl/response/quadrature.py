@@ -13,11 +13,10 @@ _LEAST = 16  # nodes of a panel for 1e-9 beside a slow pole, K/C of a soft and h
 
 
 def frequency_nodes(band: tuple[float, float], nodes: int, breakpoints: Iterable[float] = ()) -> tuple[Real, Real]:
-    """Return nodes [Hz], ascending, and weights such that ``(g(f) * w).sum()`` is the integral of g over the band.
+    """Return ascending nodes f [Hz] and weights w: ``(g(f) * w).sum()`` is the integral of g over the band.
 
-    With u = sqrt(f) a road spectrum in a half-integer power of f becomes a rational function, on which
-    Gauss-Legendre quadrature converges geometrically. The nodes never touch the ends of the band. Breakpoints are
-    kinks of the integrand [Hz]: they divide the band into panels, which share the nodes evenly, 16 each at least.
+    In u = sqrt(f) the spectrum of a road is rational: Gauss-Legendre quadrature converges geometrically.
+    Kinks of the integrand, `breakpoints` [Hz], divide the band into panels, which share the nodes evenly.
     """
     checks.interval("band", band, "Hz")
     low, high = band

@@ -49,10 +49,7 @@ class Kernel(NamedTuple):
     offset: Real  # (s,), added last
 
     def scores(self, designs: Real) -> Real:
-        """Return the scores (p, s) of designs (p, v), to the last bit those of each one alone.
-
-        In numpy, as to compile this takes longer than many evaluations.
-        """
+        """Return the scores (p, s) of designs (p, v), bit by bit those of each alone, by numpy: no compilation."""
         total, any_worst = np.zeros((self.scale.size, designs.shape[0])), self.worst_case.any()
         for case, squares, share in zip(self.cases, self.squares, self.shares, strict=True):
             found, value = case(designs).T, np.zeros_like(total)

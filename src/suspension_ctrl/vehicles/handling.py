@@ -103,13 +103,13 @@ class Mechanics(NamedTuple):
         return np.asarray(-(self.tyre_loads @ displacement)[..., 0])
 
     def roll_gradient(self, coefficients: Real, geometry: RollGeometry) -> Real:
-        """Return the roll angle (p,) per lateral acceleration [deg/g], at most 180, of a body that topples."""
+        """Return the roll angle (p,) per lateral acceleration [deg/g], at most 180: the body topples."""
         lean = np.degrees(self._lean(coefficients, geometry)[:, self.assembly.coordinates.index("roll")])
         topples = np.linalg.eigvalsh(self._leaning(coefficients, geometry))[:, 0] <= 0
         return np.where(topples, _TOPPLED, np.minimum(lean, _TOPPLED))
 
     def front_load_transfer(self, coefficients: Real, geometry: RollGeometry) -> Real:
-        """Return the share (p,) of the lateral load transfer on the front axle [-], void for one that topples."""
+        """Return the share (p,) of the front axle in the lateral load transfer [-], void if the body topples."""
         loads = (self.tyre_loads @ self._lean(coefficients, geometry)[..., None])[..., 0]
         front, rear = (loads[:, list(self.assembly.contacts).index(f"{axle}_left")] for axle in _AXLES)
         return front / (front + rear)
@@ -129,10 +129,7 @@ class Mechanics(NamedTuple):
         return np.asarray(-pole.real / np.abs(pole))
 
     def _lean(self, coefficients: Real, geometry: RollGeometry) -> Real:
-        """Displacement of each coordinate (p, n) at 1 g to the left.
-
-        The weight at the roll arm turns the body; forces at roll centres and wheels turn the axles on their tyres.
-        """
+        """Displacement (p, n) at 1 g to the left: the weight turns the body, forces at roll centres the axles."""
         load = np.zeros((len(coefficients), len(self.assembly.coordinates)))
         load[:, self.assembly.coordinates.index("roll")] = self.assembly.sprung_mass * GRAVITY * geometry.roll_arm
         static, tyres = self.static_loads(coefficients), list(self.assembly.contacts)
@@ -147,7 +144,7 @@ class Mechanics(NamedTuple):
         return np.asarray(np.linalg.solve(self._leaning(coefficients, geometry), load[..., None])[..., 0])
 
     def _leaning(self, coefficients: Real, geometry: RollGeometry) -> Real:
-        """Stiffness matrices (p, n, n) less the moment of the leaning weight."""
+        """Stiffness matrices (p, n, n) minus the moment of the leaning weight."""
         stiffness, roll = self.stiffness_of(coefficients), self.assembly.coordinates.index("roll")
         stiffness[:, roll, roll] -= self.assembly.sprung_mass * GRAVITY * geometry.roll_arm
         return stiffness

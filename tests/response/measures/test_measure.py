@@ -96,6 +96,11 @@ def test_a_name_is_a_text_without_an_equals_sign(name):
         ACC(name=name)
 
 
+def test_a_measure_of_ones_own_has_a_name():
+    with pytest.raises(ValueError, match=r"^name of a measure must be a text without =, got ''$"):
+        Measure(" ", "-", lambda designs: designs[:, 0])
+
+
 def test_a_subclass_alone_is_a_further_measure():
     """It has a text, stands among others, and its mean square is an integral like all others."""
 

@@ -163,6 +163,8 @@ class OwnMeasure(Measure):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        if not self.name:
+            raise ValueError(f"name of a measure must be a text without =, got {self.name!r}")
         if _positional(self.function) not in (1, 2):
             got = checks.shown(self.function)
             raise ValueError(f"function must take designs, or frequency and spectra, got {got}")
