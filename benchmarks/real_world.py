@@ -18,7 +18,7 @@ from typer import Option
 import engineering
 from engineering import fronts as known
 from peers import Prepare, Task
-from suspension_ctrl import Problem, checks, minimise
+from suspension_ctrl import MoeadDra, Problem, checks, minimise
 from suspension_ctrl import tables as files
 from suspension_ctrl.commands import options, results, terminal
 from suspension_ctrl.search.indicators import ReferenceFront, best_of
@@ -30,7 +30,10 @@ ALL = ",".join(engineering.NAMES)
 SIX = "RE21,RE23,RE33,RE34,RE37,RE41"
 """A truss, a vessel of sheets of whole sixteenths, a brake, two crashes and a rocket; 2, 3 and 4 objectives."""
 
-PAIRS = (("nsga2", "pymoo nsga2"), ("moead-dra", "pymoo moead"))
+CLIPPED = "moead-dra-clipped"
+"""MOEA/D-DRA without own scales, as objectives are scaled already, and with variables clipped to their bounds."""
+
+PAIRS = (("nsga2", "pymoo nsga2"), ("moead-dra", "pymoo moead"), (CLIPPED, "pymoo moead"))
 
 Real = NDArray[np.float64]
 Search = Callable[[Recorded, int], Real]
@@ -77,7 +80,8 @@ def searches(population: int, evaluations: int) -> dict[str, Search]:
         job = prepare(Task(problem, population, evaluations // population - 1, seed))
         return job.objectives(job.run())
 
-    found: dict[str, Search] = {name: partial(minimised, ours(population)[name]) for name, _ in PAIRS}
+    optimisers = ours(population) | {CLIPPED: MoeadDra(population=population, normalise=False, repair_reach=0.0)}
+    found: dict[str, Search] = {name: partial(minimised, optimisers[name]) for name, _ in PAIRS}
     for name, prepare in (("nsga2", with_pymoo.nsga2), ("moead", with_pymoo.moead)):
         found[f"pymoo {name}"] = partial(theirs, prepare)
     return found
@@ -151,7 +155,7 @@ def peers(
     checks.at_least("seeds", seeds, 2)
     folder = results.results_folder(out)
     rows = beside_pymoo(names, population, evaluations, seeds)
-    table = pd.DataFrame(terminal.progress(rows, len(names) * 2 * 4 * seeds))
+    table = pd.DataFrame(terminal.progress(rows, len(names) * 2 * 5 * seeds))
     files.write_csv(folder / "runs.csv", table)
     compared = pd.concat(
         inference.pairwise(table, ["problem", "set"], ["relative_hypervolume"], pair) for pair in PAIRS

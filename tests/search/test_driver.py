@@ -194,6 +194,7 @@ def test_rejects_bad_evaluations(optimiser, evaluate, message):
             "selection must be one of array, deap-standard, deap-log, got",
         ),
         (lambda: MoeadDra(population=8, neighbourhood=2), "neighbourhood must be a number from 0 to 1, got 2"),
+        (lambda: MoeadDra(population=8, repair_reach=-1), "repair_reach must be a number from 0 to 1, got -1"),
         (lambda: MoeadDra(population=8, update="both"), "update must be one of sequential, batch, got 'both'"),
         (
             lambda: MoeadDra(population=8, normalise=False, objective_scales=(1.0, 0.0)),

@@ -3,7 +3,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from functions import dtlz2, zdt1
+from functions import dtlz2, zdt1, zdt2
 from suspension_ctrl import MoeadDra, minimise
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search import decomposition
@@ -96,6 +96,16 @@ def test_without_normalisation_small_objectives_are_all_but_ignored():
     spread = [np.ptp(run.objectives[:, 1]) for run in (normal, raw)]
     assert np.std(raw.objectives[:, 1]) < np.std(normal.objectives[:, 1])
     assert spread[0] > 0.02
+
+
+def test_repair_without_reach_puts_designs_on_the_bound_where_the_front_lies():
+    """On ZDT2 all variables but the first are 0 on the front; a repair with reach only comes near it."""
+    clipped, drawn = (
+        minimise(zdt2(6), MoeadDra(population=50, repair_reach=reach), evaluations=1000, seed=0).designs[:, 1:]
+        for reach in (0.0, 1.0)
+    )
+    assert (clipped == 0).mean() > 0.05
+    assert not (drawn == 0).any()
 
 
 def test_utilities_are_first_updated_after_fifty_iterations():

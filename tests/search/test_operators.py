@@ -38,22 +38,23 @@ def test_children_stay_in_the_box_and_parents_unchanged(parents, seed, eta):
     np.testing.assert_array_equal(parents, before)
 
 
-@given(populations(), st.integers(0, 2**32), st.floats(0.1, 3))
-def test_repair_brings_children_back_between_bound_and_parent(designs, seed, scale):
+@given(populations(), st.integers(0, 2**32), st.floats(0.1, 3), st.sampled_from([0.0, 0.25, 1.0]))
+def test_repair_brings_children_back_between_bound_and_parent(designs, seed, scale, reach):
+    """Within a fraction of the way from the bound, to the last bit, as every rounding is monotonous."""
     rng = np.random.default_rng(seed)
     n = designs.shape[0]
     child = call_compiled(
         operators.DifferentialChild(scale), rng, np.vstack([designs, designs[:1]]), 0, np.arange(n + 1)
     )
     child += rng.normal(0, 5, child.size)
-    repaired = call_compiled(operators.RedrawOutside(LOWER, UPPER), rng, child.copy(), designs[0])
+    repaired = call_compiled(operators.RedrawOutside(LOWER, UPPER, reach), rng, child.copy(), designs[0])
     inside = (child >= LOWER) & (child <= UPPER)
     np.testing.assert_array_equal(repaired[inside], child[inside])
     below, above = child < LOWER, child > UPPER
     assert (repaired >= LOWER).all()
     assert (repaired <= UPPER).all()
-    assert (repaired[below] <= designs[0][below]).all()
-    assert (repaired[above] >= designs[0][above]).all()
+    assert (repaired <= LOWER + reach * (designs[0] - LOWER))[below].all()
+    assert (repaired >= UPPER - reach * (UPPER - designs[0]))[above].all()
 
 
 @pytest.mark.parametrize(("low", "high", "eta"), [(0.2, 0.7, 20.0), (0.05, 0.9, 1.0), (0.4, 0.95, 3.0)])

@@ -40,6 +40,9 @@ class MoeadDra:
         at least 2, if not given.
     scale_factor : float
         Factor F of differential evolution.
+    repair_reach : float
+        A child's variable outside its bounds is drawn between the bound and this fraction of the way to the
+        parent's value. At 0 it goes to the bound, which helps where the front lies on bounds.
     mutation_probability : float, optional
         Probability that a variable mutates, 1/d if not given.
     mutation_eta : float
@@ -85,6 +88,7 @@ class MoeadDra:
     neighbour_probability: float = 0.9
     replacement_limit: float | None = None
     scale_factor: float = 0.5
+    repair_reach: float = 1.0
     mutation_probability: float | None = None
     mutation_eta: float = 20.0
     tournament: int = 10
@@ -100,6 +104,7 @@ class MoeadDra:
         object.__setattr__(self, "population", checks.at_least("population", self.population, 4))
         for name in ("scale_factor", "mutation_eta", "utility_threshold"):
             checks.positive(name, getattr(self, name))
+        checks.within("repair_reach", self.repair_reach, 0, 1)
         for name in ("neighbourhood", "neighbour_probability", "replacement_limit", "mutation_probability"):
             if getattr(self, name) is not None:
                 checks.within(name, getattr(self, name), 0, 1)
@@ -145,7 +150,7 @@ class MoeadDra:
         mating_range = decomposition.MatingRange(float(self.neighbour_probability), np.arange(self.population))
         toolbox.register("mating_range", call_compiled, mating_range)
         toolbox.register("reproduce", call_compiled, operators.DifferentialChild(float(self.scale_factor)))
-        toolbox.register("repair", call_compiled, operators.RedrawOutside(lower, upper))
+        toolbox.register("repair", call_compiled, operators.RedrawOutside(lower, upper, float(self.repair_reach)))
         eta, p = float(self.mutation_eta), float(probability)
         toolbox.register("mutate", call_compiled, operators.MutateDesign(lower, upper, eta, p))
         toolbox.register("update", call_compiled, decomposition.ReplaceWorse(self.replacements))

@@ -174,17 +174,18 @@ class DifferentialChild(NamedTuple):
 
 
 class RedrawOutside(NamedTuple):
-    """Repair of a child: a variable outside the box is drawn between that bound and the parent's value."""
+    """Repair: a variable out of bounds is drawn from the bound to `reach` of the way to the parent's value."""
 
     lower: Real
     upper: Real
+    reach: float
 
     @compilable()
     def __call__(self, rng: np.random.Generator, child: Real, parent: Real) -> Real:
         """Return the child (d,) of a parent (d,) changed in place."""
         for v in range(child.size):
             if child[v] < self.lower[v]:
-                child[v] = self.lower[v] + rng.random() * (parent[v] - self.lower[v])
+                child[v] = self.lower[v] + self.reach * rng.random() * (parent[v] - self.lower[v])
             elif child[v] > self.upper[v]:
-                child[v] = self.upper[v] - rng.random() * (self.upper[v] - parent[v])
+                child[v] = self.upper[v] - self.reach * rng.random() * (self.upper[v] - parent[v])
         return child
