@@ -26,7 +26,7 @@ def test_pymoo_beside_ours_with_as_many_evaluations(tmp_path):
     pytest.importorskip("pymoo")
     real_world.peers(problems="RE21", seeds=3, **SIZES, out=tmp_path)
     runs = pd.read_csv(tmp_path / "runs.csv")
-    assert len(runs) == 4 * 3 * 2
+    assert len(runs) == 5 * 3 * 2
     assert set(runs.evaluations) == {200}
     compared = pd.read_csv(tmp_path / "differences.csv")
     assert [tuple(pair) for pair in compared[["first", "second"]].to_numpy()[::2]] == list(real_world.PAIRS)
