@@ -31,6 +31,7 @@ _UNITS = {  # by other units; g is standard gravity as in deg/g, a gram has no s
     "t": "1000 kg", "lb": "0.45359237 kg", "km": "1000 m", "cm": "0.01 m", "mm": "0.001 m", "in": "0.0254 m",
     "ft": "0.3048 m", "ms": "0.001 s", "min": "60 s", "h": "3600 s", "mph": "0.44704 m/s", "Hz": "1 s^-1",
     "N": "1 kg m/s^2", "kN": "1000 N", "lbf": "4.4482216152605 N", "g": "9.80665 m/s^2", "%": "0.01",
+    "deg": f"{pi / 180} rad",
 }  # fmt: skip
 
 
@@ -42,7 +43,7 @@ def unit(text: str, *limits: float) -> dict[str, Any]:
 def quantity(name: str, text: str, unit: str = "", *, bare: bool = True) -> float:
     """Return a number in `unit` by a text with a unit of that dimension, ``"100 km/h"``, or of a `bare` number.
 
-    The result is rounded once: products of the factors are exact, but for degrees.
+    The result is rounded once; factors of units are exact, but for degrees.
     """
     found = _QUANTITY.fullmatch(text) if isinstance(text, str) else None
     if not found or not (found[2] or bare):
@@ -51,7 +52,7 @@ def quantity(name: str, text: str, unit: str = "", *, bare: bool = True) -> floa
     try:
         (factor, dimension), (_, needed) = _dimension(given or unit), _dimension(unit)
     except KeyError:
-        known = ", ".join([*_BASE, "deg", *_UNITS])
+        known = ", ".join([*_BASE, *_UNITS])
         raise ValueError(f"{name} must be in units of {known}, got {checks.shown(given)}") from None
     if dimension != needed:
         needed_unit = f"in {unit} or a unit like it" if unit else "a number without unit"
@@ -63,28 +64,20 @@ def quantity(name: str, text: str, unit: str = "", *, bare: bool = True) -> floa
 
 
 def _dimension(unit: str) -> tuple[Fraction, Counter[str]]:
-    """Return the factor of a unit to SI base units and their exponents; KeyError with a name that is unknown."""
-    terms = re.split(r"\s*([/ *])\s*", unit) if unit else []
+    """Return the factor of a unit to base units and their exponents; KeyError if a symbol is unknown."""
     factor, exponents = Fraction(1), Counter[str]()
-    for sign, term in zip(["*", *terms[1::2]], terms[::2], strict=False):
-        if not (found := _TERM.fullmatch(term)):
-            raise KeyError(term)
-        power = int(found[2] or 1) * (-1 if sign == "/" else 1)
-        size, base = _definition(found[1])
+    terms = re.split(r"\s*([/ *])\s*", f"*{unit}" if unit else "")[1:]
+    for sign, term in zip(terms[::2], terms[1::2], strict=True):
+        name, exponent = found.groups() if (found := _TERM.fullmatch(term)) else (term, "")
+        size, base = Fraction(1), Counter({name: 1})
+        if name not in _BASE:
+            number, _, definition = _UNITS[name].partition(" ")
+            size, base = _dimension(definition)
+            size *= Fraction(number)
+        power = int(exponent or 1) * (-1 if sign == "/" else 1)
         factor *= size**power
-        exponents.update({name: n * power for name, n in base.items()})
-    return factor, Counter({name: n for name, n in exponents.items() if n})
-
-
-def _definition(name: str) -> tuple[Fraction, Counter[str]]:
-    """Return factor and exponents of one symbol."""
-    if name in _BASE:
-        return Fraction(1), Counter({name: 1})
-    if name == "deg":
-        return Fraction(pi) / 180, Counter({"rad": 1})
-    number, _, unit = _UNITS[name].partition(" ")
-    factor, exponents = _dimension(unit)
-    return Fraction(number) * factor, exponents
+        exponents.update({one: n * power for one, n in base.items()})
+    return factor, Counter({one: n for one, n in exponents.items() if n})
 
 
 def wrapped(text: str) -> str:
@@ -172,6 +165,8 @@ class Checked(Record):
 
 def check_limits(name: str, value: Any, one: Field[Any]) -> None:
     """Raise ValueError about `name` if the value is outside the limits of a field that has some."""
+    if value is None:
+        return
     if "limits" in one.metadata:
         checks.within(name, value, *one.metadata["limits"])
     elif one.type is float and "unit" in one.metadata:

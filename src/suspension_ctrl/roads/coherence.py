@@ -7,8 +7,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import checks
-from ..quantities import Checked, Real, Record, unit
+from ..quantities import Checked, Real, unit
 
 EXPONENTS = (0.01, 20.0)
 """Least and largest exponent of a spectrum: far beyond roads, and its powers are finite."""
@@ -23,7 +22,7 @@ class Coherence(Protocol):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Isotropic(Record):
+class Isotropic(Checked):
     """Surface whose profiles have the same spectrum in every direction [1]_, [2]_.
 
     The road's own spectrum then determines the coherence: in closed form for a power law, by an integral over all
@@ -55,11 +54,7 @@ class Isotropic(Record):
     array([0.99, 0.63, 0.  ])
     """
 
-    exponent: float | None = None
-
-    def __post_init__(self) -> None:
-        if self.exponent is not None:
-            checks.within("exponent", self.exponent, *EXPONENTS)
+    exponent: float | None = field(default=None, metadata=unit("", *EXPONENTS))
 
     def between(self, n: Real, distance: float) -> Real:
         """Return the coherence; see `Coherence`. Without an exponent it is the road's."""
