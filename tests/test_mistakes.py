@@ -185,6 +185,14 @@ def test_problems_are_written(tmp_path):
     assert "nodes" not in (tmp_path / "g.toml").read_text()
 
 
+def test_struts_in_pairs_are_written_one_by_one(tmp_path):
+    pairs = problem(bounds={"front.spring": (2e4, 4e4), "front.damper": (1e3, 4e3)}, struts={"rear": (4e4, 2e3)})
+    save_problem(tmp_path / "f.toml", pairs)
+    again = load_problem(tmp_path / "f.toml")
+    assert again.struts == {"rear.spring": 4e4, "rear.damper": 2e3}
+    np.testing.assert_array_equal(again.evaluate([[3e4, 2e3]]), pairs.evaluate([[3e4, 2e3]]))
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [

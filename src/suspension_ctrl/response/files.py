@@ -29,7 +29,7 @@ from ..vehicles.files import (
 )
 from ..vehicles.handling import RollGeometry
 from ..vehicles.mounted import Mounted, Payload, Seat
-from ..vehicles.vehicle import Vehicle, assembled
+from ..vehicles.vehicle import Vehicle, assembled, coefficients_by_name
 from . import weightings
 from .load_case import LoadCase
 from .measures.limits import Limit
@@ -157,11 +157,7 @@ def save_problem(path: str | PathLike[str], problem: RideProblem) -> None:
     order = [one.name for one in vehicle.parameters if one.name in bounds]
     if list(bounds) != order:
         raise ValueError(f"bounds must be in the vehicle's order, {', '.join(order)}, got {', '.join(bounds)}")
-    flat: dict[str, float] = {}
-    for name, value in problem.struts.items():
-        flat |= (
-            {f"{name}.spring": value[0], f"{name}.damper": value[1]} if isinstance(value, tuple) else {name: value}
-        )
+    problem = problem.replace(struts=coefficients_by_name(problem.struts, {}))
     file = Document(
         measures=tuple(map(str, problem.measures)),
         constraints=tuple(map(str, problem.constraints)),
@@ -171,7 +167,7 @@ def save_problem(path: str | PathLike[str], problem: RideProblem) -> None:
         nodes=problem.nodes if type(problem.nodes) is int else None,  # those that were found are of a subclass
         bounds=coefficient_table(vehicle, bounds),
         kinds=coefficient_table(vehicle, problem.kinds),
-        struts=coefficient_table(vehicle, flat),
+        struts=coefficient_table(vehicle, problem.struts),
         cases=tuple(map(_case_document, problem.cases)),
     )
     folder = Folder(Path(path).parent, False)
@@ -233,25 +229,20 @@ def _case(
 
 def _vehicle(given: str | Mapping[str, Any], name: str, folder: Folder, mistakes: Mistakes) -> VehicleFile:
     """Return the vehicle of a case, `BAD` if there is none."""
-    if not isinstance(given, str):
-        return read_vehicle(Table(f"{name}.", given), mistakes)
-    with mistakes.noted(f"{name}: "):
-        return load_vehicle(_beside(folder, given))
-    return BAD
+    if isinstance(given, str):
+        with mistakes.noted(f"{name}: "):
+            return load_vehicle(folder.named(given))
+        return BAD
+    return read_vehicle(Table(f"{name}.", given), mistakes)
 
 
 def _road(given: str | Mapping[str, Any], name: str, folder: Folder, mistakes: Mistakes) -> Any:
     """Return the road of a case; in place of a wrong one class C, so that measures are checked as well."""
     with mistakes.noted(f"{name}: " if isinstance(given, str) else ""):
         if isinstance(given, str):
-            return load_road(_beside(folder, given), allow_outside=folder.allow_outside)
+            return load_road(folder.named(given), allow_outside=folder.allow_outside)
         return read_road(Table(f"{name}.", given), folder)
     return Iso8608Road("C")
-
-
-def _beside(folder: Folder, text: str) -> str:
-    """Return a path as seen from the file that names it; a name without an ending is none."""
-    return str(folder.path / text) if Path(text).suffix else text
 
 
 def _check(values: Mapping[str, Any], cases: Sequence[LoadCase], mistakes: Mistakes) -> None:
@@ -261,13 +252,13 @@ def _check(values: Mapping[str, Any], cases: Sequence[LoadCase], mistakes: Mista
     weighting, measures = values.get("weighting", "Wk"), list[Measure]()
     with mistakes.noted():
         weightings.checked(weighting)
-        for i, text in enumerate(values.get("measures", ()), start=1):
-            with mistakes.noted(f"measures[{i}]: "):
-                measures.append(Measure.parse(text))
-                _ = [measures[-1].in_case(case, weighting) for case in cases]
-        for i, text in enumerate(values.get("constraints", ()), start=1):
-            with mistakes.noted(f"constraints[{i}]: "):
-                _ = [Limit.parse(text, measures).in_case(case, weighting) for case in cases]
+        for name in ("measures", "constraints"):
+            for i, text in enumerate(values.get(name, ()), start=1):
+                with mistakes.noted(f"{name}[{i}]: "):
+                    judged = Limit.parse(text, measures) if name == "constraints" else Measure.parse(text)
+                    measures += [judged] if isinstance(judged, Measure) else []
+                    for case in cases:
+                        judged.in_case(case, weighting)
 
 
 def _coefficients(

@@ -140,6 +140,10 @@ class Folder(NamedTuple):
             raise ValueError(f"file must be {needed}, got {checks.shown(name)}")
         return path
 
+    def named(self, text: str) -> str:
+        """Return a path as seen from here; a name without an ending stays as it is."""
+        return str(self.path / text) if Path(text).suffix else text
+
 
 def read_road(table: Table, folder: Folder) -> Road:
     """Return the road in a table; files that it names are seen from the folder."""

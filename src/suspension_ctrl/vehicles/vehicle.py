@@ -118,7 +118,7 @@ class Vehicle(ABC):
 
     def coefficients(self, setting: Setting | None = None, /, **struts: Any) -> dict[str, float]:
         """Return every coefficient by its name, defaults included; arguments and errors as of `closed`."""
-        given = _by_name(setting, struts)
+        given = coefficients_by_name(setting, struts)
         known = {parameter.name: parameter for parameter in self.parameters}
         for name in given:
             checks.one_of("setting", name, known)
@@ -203,8 +203,8 @@ def anti_roll_bar(name: str, difference: Sequence[float], track: float) -> Strut
     return StrutParameter(name, "N m/rad", np.outer(difference, difference) / track**2, 0, 0.0)
 
 
-def _by_name(setting: Setting | None, struts: Mapping[str, Any]) -> dict[str, float]:
-    """Return the coefficients of a setting one by one."""
+def coefficients_by_name(setting: Setting | None, struts: Mapping[str, Any]) -> dict[str, float]:
+    """Return the coefficients of a setting, or of `struts` without one, each by its own name."""
     if setting is not None and struts:
         raise ValueError(f"setting must be one mapping or keywords, got both and {', '.join(struts)}")
     if isinstance(setting, Sequence | np.ndarray) and not isinstance(setting, str):
