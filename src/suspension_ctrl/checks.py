@@ -75,7 +75,7 @@ def at_least(name: str, value: int, minimum: int) -> int:
 
 
 def reals(subject: str, values: object) -> NDArray[np.float64]:
-    """Return values as a new float array; ValueError for what numpy could only make one by loss."""
+    """Return values as a new float array; ValueError for texts, masked arrays and ragged rows."""
     return np.array(_of_reals(subject, values), dtype=float, order="C")
 
 
@@ -107,6 +107,14 @@ def interval(name: str, value: ArrayLike, unit: str, *, equal: bool = False) -> 
     if not real or (pair[0] == pair[1] and not equal):
         needed = f"0 <= lower {'<=' if equal else '<'} upper"
         raise ValueError(f"{name} must be finite with {needed} [{unit}], got {shown(value)}")
+
+
+def ascending(name: str, values: NDArray[np.float64]) -> None:
+    """Raise ValueError unless values (k,) are finite, above zero and ascending."""
+    wrong = ~(np.isfinite(values) & (np.diff(values, prepend=0.0) > 0))
+    if wrong.any():
+        got = f"{values[wrong.argmax()]} in row {wrong.argmax() + 1}"
+        raise ValueError(f"{name} must be finite, above zero and ascend, got {got}")
 
 
 def position(name: str, value: object) -> tuple[float, float]:

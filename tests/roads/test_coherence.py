@@ -107,7 +107,10 @@ def test_simple_models():
             lambda: Tabulated((0.1,), (0.5, 0.4), 1.0),
             r"wavenumber and coherence must be of one length, got \(1,\)",
         ),
-        (lambda: Tabulated((0.2, 0.1), (0.5, 0.4), 1.0), "wavenumber must be above zero, finite and ascending"),
+        (
+            lambda: Tabulated((0.2, 0.1), (0.5, 0.4), 1.0),
+            "wavenumber must be finite, above zero and ascend, got 0.1 in row 2",
+        ),
         (lambda: Tabulated((0.1, 0.2), (0.5, 1.4), 1.0), "coherence must be from 0 to 1, got 0.5 to 1.4"),
     ],
 )

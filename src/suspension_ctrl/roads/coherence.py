@@ -7,6 +7,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import checks
 from ..quantities import Checked, Real, unit
 
 EXPONENTS = (0.01, 20.0)
@@ -163,8 +164,7 @@ class Tabulated(Checked):
         n, gamma = np.asarray(self.wavenumber, dtype=float), np.asarray(self.coherence, dtype=float)
         if n.ndim != 1 or n.shape != gamma.shape or n.size == 0:
             raise ValueError(f"wavenumber and coherence must be of one length, got {n.shape} and {gamma.shape}")
-        if not (np.isfinite(n).all() and (np.diff(n, prepend=0) > 0).all()):
-            raise ValueError("wavenumber must be above zero, finite and ascending")
+        checks.ascending("wavenumber", n)
         if not ((gamma >= 0) & (gamma <= 1)).all():
             raise ValueError(f"coherence must be from 0 to 1, got {gamma.min()} to {gamma.max()}")
         self._keep(wavenumber=tuple(n.tolist()), coherence=tuple(gamma.tolist()))

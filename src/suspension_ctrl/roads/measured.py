@@ -69,8 +69,7 @@ class MeasuredRoad(Road):
         if n.ndim != 1 or n.shape != density.shape or n.size < 2:
             got = f"{n.shape} and {density.shape}"
             raise ValueError(f"wavenumber and density must be of one length >= 2, got {got}")
-        if not (np.isfinite(n).all() and (np.diff(n, prepend=0.0) > 0).all()):
-            raise ValueError("wavenumber must be finite, above zero and ascend")
+        checks.ascending("wavenumber", n)
         if not (np.isfinite(density) & (density > 0)).all():
             got = f"a least value of {density.min()}"
             raise ValueError(f"density must be finite and > 0 m^3 throughout, got {got}")
@@ -198,10 +197,7 @@ def curve_of(names: Sequence[str], values: Real, quantity: str) -> tuple[Real, R
     if list(names or [WAVENUMBER, quantity]) != [WAVENUMBER, quantity] or values.shape[1] != 2:
         raise ValueError(f"columns must be {WAVENUMBER!r} and {quantity!r}, got {checks.shown(names)}")
     n, curve = values.T
-    ascends = np.diff(n, prepend=0.0) > 0
-    if not ascends.all():
-        got = f"{n[ascends.argmin()]} in row {ascends.argmin() + 1}"
-        raise ValueError(f"{WAVENUMBER} must be above zero and ascend, got {got}")
+    checks.ascending(WAVENUMBER, n)
     return n, curve
 
 

@@ -1,4 +1,4 @@
-"""CSV files in and out: numbers under the names of their columns, read strictly and written whole."""
+"""CSV files: columns of numbers by name, read strictly; files are written atomically."""
 
 import csv
 import errno
@@ -57,10 +57,7 @@ def file_name(text: str) -> str:
 
 
 def write_whole(path: Path, write: Callable[[Path], object]) -> None:
-    """Let `write` fill a temporary file beside `path`, of the same ending, then put it in place in one step.
-
-    An OSError names `path`: a full disk has no name of its own.
-    """
+    """Write a file atomically: `write` fills a temporary file beside it; an OSError names `path`."""
     temporary = path.with_name(f"{UNFINISHED}{uuid4().hex}{path.suffix}")
     try:
         write(temporary)
@@ -76,7 +73,7 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> None:
 
 
 def sync_folder(folder: Path) -> None:
-    """Put the names of a folder on the disk, where the system does so by request."""
+    """Flush the entries of a folder to the disk, where the system can."""
     if os.name == "posix":
         number = os.open(folder, os.O_RDONLY)
         try:

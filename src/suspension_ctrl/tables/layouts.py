@@ -1,4 +1,4 @@
-"""How a CSV file is laid out, told by its first lines: header, separator, decimal sign and comment sign.
+"""Layout of a CSV file, detected from its first lines: header, separator, decimal sign and comment sign.
 
 Cells are separated by tabs, semicolons, commas or blanks; a decimal comma goes with all but commas. Lines that
 start with ``#`` or ``%`` are comments.
@@ -39,7 +39,7 @@ class Layout(NamedTuple):
 
     @classmethod
     def of(cls, lines: Sequence[str]) -> Self:
-        """Tell the layout by the first lines of a file; csv.Error or ValueError if there is none."""
+        """Detect the layout from the first lines of a file; csv.Error or ValueError if there is none."""
         if max(map(len, lines), default=0) > HEAD:
             raise ValueError(f"the file must have lines of {HEAD} characters at most, got a longer one")
         comment = next((line[0] for line in lines if line.startswith(("#", "%"))), "#")
@@ -56,14 +56,14 @@ class Layout(NamedTuple):
         return cls(names, width, cells, first + after, separator, "," if comma else ".", comment)
 
     def places(self, columns: Sequence[str] | None) -> list[int]:
-        """Return the places of the columns, by default of all; ValueError if one is absent."""
+        """Return the indices of the columns, by default of all; ValueError if one is absent."""
         for name in columns or ():
             if name not in self.names:
                 raise ValueError(f"columns must include {name!r}, got {checks.shown(self.names)}")
         return list(range(self.width)) if columns is None else [self.names.index(name) for name in columns]
 
     def values(self, file: TextIO, wanted: Sequence[int]) -> Real:
-        """Return the finite values (n, c) of the wanted columns; ValueError about the first that is none."""
+        """Return the finite values (n, c) of the wanted columns; ValueError about the first wrong cell."""
         import pandas as pd
 
         kinds = {i: float if i in wanted else str for i in range(max(self.width, len(self.row)))}
@@ -85,14 +85,12 @@ class Layout(NamedTuple):
         return values
 
     def _numbers(self, part: "pd.DataFrame", wanted: Sequence[int]) -> Real:
-        """Return the values of rows; ValueError if one is NaN or too large, or a cell stands beyond the columns.
-
-        The first row must have numbers: of True and False alone pandas makes 1 and 0.
-        """
+        """Return the values of rows; ValueError for NaN, large values and cells beyond the columns."""
         values: Real = part[list(wanted)].to_numpy(dtype=float)
         if not values.size:
             return values
         beyond = any((part[i] != "").any() for i in part.columns[self.width :])
+        # of a column of True and False pandas makes 1 and 0
         named = any(isnan(_number(self.row[i], self.decimal)) for i in wanted)
         if beyond or named or not (values.min() >= -LARGEST and values.max() <= LARGEST):
             raise ValueError
@@ -105,7 +103,7 @@ class Layout(NamedTuple):
             file.readline()
 
     def _mistake(self, file: TextIO, wanted: Sequence[int], good: int) -> str:
-        """Return a sentence about the first row that is wrong after a number of good ones."""
+        """Return the error about the first wrong row after a number of good ones."""
         self._begin(file)
         for number, row in enumerate(self._rows(file, good), start=good + 1):
             cells = _without_last(row) if len(row) > self.width else row
