@@ -165,7 +165,7 @@ class Checked(Record):
 
 def check_limits(name: str, value: Any, one: Field[Any]) -> None:
     """Raise ValueError about `name` if the value is outside the limits of a field that has some."""
-    if value is None:
+    if value is None and one.default is None:
         return
     if "limits" in one.metadata:
         checks.within(name, value, *one.metadata["limits"])
