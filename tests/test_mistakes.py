@@ -91,6 +91,21 @@ def test_five_mistakes_at_once_are_five_lines(tmp_path, kind, places):
     assert sorted(line.partition(": ")[2] for line in said(tmp_path, kind, text)) == sorted(expected)
 
 
+def test_a_seat_that_cannot_be_read_hides_no_other_mistake(tmp_path):
+    """Its own coefficients are unknown then and no mistakes."""
+    text = changed(FILES["vehicle"], "[struts]\nfront", '[[seats]]\nname = 3\nmass_kg = "x"\n[struts]\nfront')
+    text = changed(changed(text, "= 10e3", "= 0"), "[5e3, 20e3]", "[20e3, 5e3]")
+    text = changed(text, "[bounds.front]", "[bounds.driver]\nspring_N_per_m = [1, 2]\n[bounds.front]")
+    assert [line.partition(": ")[2].partition(" must")[0] for line in said(tmp_path, "vehicle", text)] == [
+        "seats[1].name",
+        "seats[1].mass_kg",
+        "seats[1].spring_N_per_m",
+        "seats[1].damper_N_s_per_m",
+        "struts.front.spring_N_per_m",
+        "bounds.front.spring_N_per_m",
+    ]
+
+
 def test_mistakes_of_a_file_that_a_problem_names_have_both_places(tmp_path):
     (tmp_path / "car.toml").write_text(changed(changed(FILES["vehicle"], "1040", "-1"), "1580", "-2"))
     first = 'vehicle = "jian_2022_full"\nroad = "C"\nspeed_m_per_s = 10.0'

@@ -82,25 +82,26 @@ def _key(one: Field[Any]) -> Key:
     )
 
 
-def read(table: Table, keys: Mapping[str, Key], mistakes: Mistakes) -> dict[str, Any]:
+def read(table: Table, keys: Mapping[str, Key], mistakes: Mistakes, others: bool = False) -> dict[str, Any]:
     """Return the values of a table by name, of a wrong or absent number 1, of another wrong value `BAD`.
 
-    With 1 in place of a wrong number the tables that depend on it are read and checked as well.
+    With 1 in place of a wrong number the tables that depend on it are read and checked as well. Keys that are not
+    known are mistakes, unless `others` are allowed.
     """
     with_unit = {one.name: one for one in keys.values() if one.unit}
     values: dict[str, Any] = {}
     meant: set[str | None] = set()
     for key, value in table.content.items():
         one = keys.get(key) or with_unit.get(key)
-        if one is None:
+        if one is None and not others:
             meant.add(near := _nearest(key, keys))
             allowed = "a known key" if near else f"one of the keys {', '.join(keys)}"
             hint = f": did you mean {near}?" if near else ""
             named = table.name + escaping.terminal(key)[:40]
             mistakes.note(f"{named} must be {allowed}, got {checks.shown(value)}{hint}")
-        elif one.name in values:
+        elif one and one.name in values:
             mistakes.note(f"{table.name}{key} must be given once, got {one.name} and {one.key}")
-        else:
+        elif one:
             values[one.name] = 1.0 if one.is_number else BAD
             with mistakes.noted():
                 values[one.name] = _value(one, table.name + key, value, mistakes, typed=key != one.key)
@@ -114,12 +115,12 @@ def read(table: Table, keys: Mapping[str, Key], mistakes: Mistakes) -> dict[str,
 
 def _nearest(key: str, keys: Mapping[str, Key]) -> str | None:
     """Return the key of the same name in another unit, or one that is spelt alike."""
-    same = [(len(one.name), one.key) for one in keys.values() if f"{key}_".startswith(f"{one.name}_")]
+    named = [(len(one.name), one.key) for one in keys.values() if f"{key}_".startswith(f"{one.name}_")]
     alike = difflib.get_close_matches(key[:100], keys, 1, 0.7)
     heads = [text.partition(".")[0] for text in (key[:100], *alike)]
     if len(set(heads)) == 2 and difflib.SequenceMatcher(None, *heads).ratio() < 0.6:  # another strut's coefficient
         alike = []
-    return max(same)[1] if same else next(iter(alike), None)
+    return max(named)[1] if named else next(iter(alike), None)
 
 
 def made(record: type[T], table: Table, mistakes: Mistakes, beside: Mapping[str, Key] | None = None) -> T:

@@ -142,21 +142,22 @@ def read_vehicle(table: Table, mistakes: Mistakes) -> VehicleFile:
     if bad(kind):
         return BAD
     values = read(table, {**KIND, **keys_of(kind), **keys_of(Document)}, mistakes)
-    sound = len(mistakes) == before  # else further errors are those of numbers that stand in
-    vehicle = constructed(kind, values, table.name, mistakes if sound else Mistakes())
-    if bad(values.get("seats")):
-        return BAD
+    sound = len(mistakes) == before  # else numbers that stand in cause further errors
+    car = constructed(kind, values, table.name, mistakes if sound else Mistakes())
     parts = {"flexible_body": values["flexible_body"]} if "flexible_body" in values else {}
-    parts |= {f"seats[{i}]": seat for i, seat in enumerate(values.get("seats", ()), start=1)}
-    vehicle = mounted(vehicle, parts, table.name, mistakes)
-    if bad(vehicle, *values.values()):
-        return BAD
-    for name, field_name, form in (("struts", "setting", float), ("bounds", "bounds", tuple[float, float])):
-        if name in values:
+    seats = () if values.get("seats") is BAD else values.get("seats", ())
+    parts |= {f"seats[{i}]": seat for i, seat in enumerate(seats, start=1)}
+    vehicle = mounted(car, parts, table.name, mistakes if sound or "flexible_body" not in values else Mistakes())
+    partial = bad(vehicle, values.get("seats"))  # the coefficients of some seats are unknown
+    for name, own, form in (("struts", "setting", float), ("bounds", "bounds", tuple[float, float])):
+        if not bad(car) and isinstance(values.get(name), dict):
             inner = Table(f"{table.name}{name}.", values.pop(name))
-            values[field_name] = read_coefficients(inner, vehicle, form, mistakes)
-    own = {one.name: values[one.name] for one in fields(VehicleFile) if one.name in values}
-    return VehicleFile(vehicle=vehicle, **own)
+            values[own] = read_coefficients(inner, car if partial else vehicle, form, mistakes, others=partial)
+    if partial or bad(*values.values()):
+        return BAD
+    return VehicleFile(
+        vehicle=vehicle, **{one.name: values[one.name] for one in fields(VehicleFile) if one.name in values}
+    )
 
 
 def mounted(
@@ -192,11 +193,16 @@ def vehicle_table(file: VehicleFile) -> dict[str, Any]:
 
 
 def read_coefficients(
-    table: Table, vehicle: Vehicle, kind: Any, mistakes: Mistakes, given: Collection[str] = ()
+    table: Table,
+    vehicle: Vehicle,
+    kind: Any,
+    mistakes: Mistakes,
+    given: Collection[str] = (),
+    others: bool = False,
 ) -> dict[str, Any]:
-    """Return values by coefficient, in the vehicle's order; `given` coefficients need none."""
+    """Return values by coefficient, in the vehicle's order; `given` ones need none, `others` may be there."""
     keys = [_key(one, kind, one.name in given) for one in vehicle.parameters]
-    values = read(table.flat(), {one.key: one for one in keys}, mistakes)
+    values = read(table.flat(), {one.key: one for one in keys}, mistakes, others)
     return {one.name: values[one.name] for one in keys if one.name in values}
 
 
