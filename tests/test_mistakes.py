@@ -106,6 +106,16 @@ def test_a_seat_that_cannot_be_read_hides_no_other_mistake(tmp_path):
     ]
 
 
+def test_a_seat_that_does_not_fit_hides_no_other_mistake_of_a_problem(tmp_path):
+    text = changed(FILES["problem"], 'name = "driver"', 'name = "body"')
+    text = changed(changed(text, "[0.1, 20.0]", "[20.0, 0.1]"), "[6.5e3, 30e3]", "[6.5e3]")
+    assert [line.partition(": ")[2].partition(" must")[0] for line in said(tmp_path, "problem", text)] == [
+        "seats[1].name",
+        "band_Hz",
+        "bounds.rear.spring_N_per_m",
+    ]
+
+
 def test_mistakes_of_a_file_that_a_problem_names_have_both_places(tmp_path):
     (tmp_path / "car.toml").write_text(changed(changed(FILES["vehicle"], "1040", "-1"), "1580", "-2"))
     first = 'vehicle = "jian_2022_full"\nroad = "C"\nspeed_m_per_s = 10.0'

@@ -29,7 +29,7 @@ from ..vehicles.files import (
 )
 from ..vehicles.handling import RollGeometry
 from ..vehicles.mounted import Mounted, Payload, Seat
-from ..vehicles.vehicle import Vehicle, assembled, coefficients_by_name
+from ..vehicles.vehicle import assembled, coefficients_by_name
 from . import weightings
 from .load_case import LoadCase
 from .measures.limits import Limit
@@ -201,10 +201,10 @@ def _problem(table: Table, folder: Folder) -> RideProblem:
         _case(one, f"cases[{i}]", seats, folder, mistakes) for i, one in enumerate(values.pop("cases"), start=1)
     ]
     values = {name: value for name, value in values.items() if name != "title" and not bad(value)}
-    cases = [case for _, case in filter(None, given)]
+    cases = [case for _, case in filter(None, given) if case]
     _check(values, cases, mistakes)
     if given[0]:
-        values |= _coefficients(values, given[0][0], cases[0].vehicle, mistakes)
+        values |= _coefficients(values, *given[0], mistakes)
     mistakes.settle()
     with keyed("", {"band": "band_Hz", "f": "band_Hz"}):  # f of a road that is not known there
         return RideProblem(cases=cases, **values)
@@ -212,8 +212,8 @@ def _problem(table: Table, folder: Folder) -> RideProblem:
 
 def _case(
     one: CaseDocument, name: str, seats: Mapping[str, Seat], folder: Folder, mistakes: Mistakes
-) -> tuple[VehicleFile, LoadCase] | None:
-    """Return the file of a case's vehicle and the case, None without a vehicle."""
+) -> tuple[VehicleFile, LoadCase | None] | None:
+    """Return the vehicle of a case, None if it cannot be read, and the case, None if a part does not fit."""
     if bad(one):
         return None
     file = _vehicle(one.vehicle, f"{name}.vehicle", folder, mistakes)
@@ -222,7 +222,7 @@ def _case(
     vehicle = mounted(vehicle, loads, f"{name}.", mistakes)
     road = _road(one.road, f"{name}.road", folder, mistakes)
     if bad(vehicle):
-        return None
+        return None if bad(file) else (file, None)
     geometry = one.roll_geometry or file.roll_geometry
     return file, LoadCase(vehicle=vehicle, road=road, speed=one.speed, share=one.share, roll_geometry=geometry)
 
@@ -262,12 +262,14 @@ def _check(values: Mapping[str, Any], cases: Sequence[LoadCase], mistakes: Mista
 
 
 def _coefficients(
-    values: Mapping[str, Any], file: VehicleFile, vehicle: Vehicle, mistakes: Mistakes
+    values: Mapping[str, Any], file: VehicleFile, case: LoadCase | None, mistakes: Mistakes
 ) -> dict[str, Any]:
     """Return bounds, kinds and struts by coefficient; without tables those of the vehicle's file."""
 
     def table(name: str, form: Any, given: Collection[str] = ()) -> dict[str, Any]:
-        return read_coefficients(Table(f"{name}.", values[name]), vehicle, form, mistakes, given)
+        vehicle = case.vehicle if case else file.vehicle
+        inner = Table(f"{name}.", values[name])
+        return read_coefficients(inner, vehicle, form, mistakes, given, others=case is None)
 
     bounds = table("bounds", tuple[float, float]) if "bounds" in values else dict(file.bounds)
     if not bounds:
