@@ -32,13 +32,37 @@ text with any unit of the same dimension as its value: `front_track = "1500mm"`,
 cycle, g (standard gravity) and %, and their products, quotients and powers: `N s/m`, `kg m^2`. Commands take such
 texts too: `--speed 72km/h --sws-limit 28.7mm --band 0.5Hz..`.
 
+```toml
+kind = "half-car"
+name = "A van, one side"
+body_mass = "1.1 t"
+pitch_inertia_kg_m2 = 2400
+front_wheel_mass_kg = 40
+rear_wheel_mass_kg = 45
+front_tyre_stiffness = "220 N/mm"
+rear_tyre_stiffness = "220 N/mm"
+cg_to_front = "1300mm"
+cg_to_rear = "1700mm"
+
+[struts]
+front.spring = "28 kN/m"
+front.damper = "2.2 kN s/m"
+rear.spring = "34 kN/m"
+rear.damper = "2.4 kN s/m"
+
+[bounds]
+front.damper = ["1 kN s/m", "4 kN s/m"]
+rear.damper = ["1 kN s/m", "4 kN s/m"]
+```
+
 `load_vehicle`, `load_road` and `load_problem` read files; `save_vehicle`, `save_road` and `save_problem` write.
 All mistakes of a file are listed at once, each with the file, the line, the key, what is allowed and the value:
 
 ```text
-car.toml:3: body_mas_kg must be a known key, got 1040: did you mean body_mass_kg?
-car.toml:9: front_track must be in m or a unit like it, got '1800 kg' in kg
-car.toml:15: struts.front.damper_N_s_per_m must be finite and > 0 N s/m, got 0.0
+van.toml:3: body_mas must be a known key, got '1.1 t': did you mean body_mass_kg?
+van.toml:9: cg_to_front must be in m or a unit like it, got '1300 kg' in kg
+van.toml:14: struts.front.damper must be finite and > 0 N s/m, got -2200.0
+van.toml:19: bounds.front.damper[2] must be a number with a unit like N s/m, got '4'
 ```
 
 A key without a default is required.

@@ -1,7 +1,12 @@
 """The page about files is what the code makes of it."""
 
+import re
 import runpy
 
+import pytest
+
+from spoilt import changed
+from suspension_ctrl import load_vehicle
 from suspension_ctrl.quantities import quantity
 
 
@@ -19,3 +24,23 @@ def test_every_unit_of_a_key_can_be_typed(checkout):
     assert len(units) >= 8
     for unit in units:
         assert quantity("x", f"1 {unit}", unit) == 1.0
+
+
+def test_the_pages_vehicle_is_read_and_its_mistakes_are_said(checkout, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    page = (checkout / "docs/files.md").read_text(encoding="utf-8")
+    (text,), (said,) = (re.findall(rf"```{kind}\n(.*?)```", page, re.DOTALL) for kind in ("toml", "text"))
+    (tmp_path / "van.toml").write_text(text)
+    file = load_vehicle("van.toml")
+    assert (file.vehicle.body_mass, file.vehicle.cg_to_front, file.setting["front.spring"]) == (1100.0, 1.3, 28e3)
+    for old, new in (
+        ("body_mass", "body_mas"),
+        ("1300mm", "1300 kg"),
+        ('"2.2', '"-2.2'),
+        ('4 kN s/m"]\nr', '4"]\nr'),
+    ):
+        text = changed(text, old, new)
+    (tmp_path / "van.toml").write_text(text)
+    with pytest.raises(ValueError, match="van") as error:
+        load_vehicle("van.toml")
+    assert f"{error.value}\n" == said

@@ -213,6 +213,12 @@ def _number(one: Key, key: str, value: Any, typed: bool) -> float:
     return number
 
 
+def _whole(one: Key, key: str, value: Any, _typed: bool) -> int:
+    whole = checks.at_least(key, value, 1)
+    one.check(key, whole)
+    return whole
+
+
 def _numbers(one: Key, key: str, value: Any, typed: bool) -> tuple[float, ...]:
     if not (isinstance(value, list) and 0 < len(value) <= one.most):
         raise ValueError(f"{key} must be an array of up to {one.most} numbers, got {checks.shown(value)}")
@@ -247,7 +253,7 @@ _TABLE = _fitting(lambda value: isinstance(value, dict), "a table")
 _READERS: dict[Any, Callable[[Key, str, Any, bool], Any]] = {
     float: _number,
     float | None: _number,
-    int | None: lambda _one, key, value, _typed: checks.at_least(key, value, 1),
+    int | None: _whole,
     bool: _fitting(lambda value: isinstance(value, bool), "true or false"),
     str: _TEXT,
     tuple[str, ...]: _fitting(_is_texts, "an array of texts"),

@@ -370,6 +370,8 @@ FIRST = '[[cases]]\nvehicle = "minaker_half"\nroad = "C"\nspeed_m_per_s = 15\n'
         (study('"Wb"', '"Wz"'), "weighting must be one of Wk, "),
         (study('"Wb"', '""'), "weighting must be a text, got ''"),
         (study("true", "1"), "worst_case must be true or false, got 1"),
+        (study("true", "true\nnodes = 2.0"), "nodes must be a whole number >= 1, got 2.0"),
+        (study("true", "true\nnodes = 1000000000"), "nodes must be a number from 2 to 4096, got 1000000000"),
         (study("band_Hz", "band_kHz"), r"band_kHz must be a known key, got .*: did you mean band_Hz\?$"),
         (study("[0.5, 20]", "[20, 0.5]"), r"band_Hz must be finite with 0 <= lower < upper \[Hz\], got"),
         (study("[0.5, 20]", "[0.5, nan]"), r"band_Hz\[2\] must be a number from .* nan"),

@@ -35,6 +35,7 @@ from .load_case import LoadCase
 from .measures.limits import Limit
 from .measures.measure import Measure
 from .problem import RideProblem
+from .scores import NODES
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,7 +100,7 @@ class Document:
     weighting: str = "Wk"
     band: tuple[float, float] = field(default=(0.0, 20.0), metadata=unit("Hz"))
     worst_case: bool = False
-    nodes: int | None = None
+    nodes: int | None = field(default=None, metadata=unit("", 2, NODES[-1]))
     bounds: Mapping[str, Any] = field(default_factory=dict)
     kinds: Mapping[str, Any] = field(default_factory=dict)
     struts: Mapping[str, Any] = field(default_factory=dict)
