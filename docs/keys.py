@@ -144,7 +144,7 @@ def page() -> str:
     parts += [table(f'`[coherence]`, `kind = "{kind}"`', record) for kind, record in COHERENCES.items()]
     parts.append(table('`[coherence]`, `kind = "tabulated"` of a CSV file', TabulatedFile))
     parts += ["## Problems\n", table("A problem", ProblemDocument), table("`[[cases]]`", CaseDocument)]
-    return "\n".join([*parts, table("`[[cases.payload]]`", Payload)])
+    return "\n".join([*parts, table("`[[cases.payload]]`, also `[[payload]]` of a vehicle", Payload)])
 
 
 if __name__ == "__main__":

@@ -155,10 +155,13 @@ def test_vehicles_with_all_parts_are_written(tmp_path):
     for name in ("driver", "guest"):
         car = Seat(name=name, mass=60.0, spring=8000.0, damper=500.0, position=(0.1, 0.0)).on(car)
     file = VehicleFile(vehicle=car, bounds={"guest.damper": (1.0, 2.0), "rear.spring": (1e4, 2e4)})
-    save_vehicle(tmp_path / "f.toml", file)
-    assert load_vehicle(tmp_path / "f.toml") == file
+    for one in (file, VehicleFile(vehicle=Payload(mass=100.0, position=(1.2, 0.0)).on(car))):
+        save_vehicle(tmp_path / "f.toml", one)
+        assert load_vehicle(tmp_path / "f.toml") == one
+    late = Seat(name="late", mass=60.0, spring=8000.0, damper=500.0, position=(0.1, 0.0))
+    loaded = Payload(mass=100.0, position=(1.2, 0.0)).on(car)
     with pytest.raises(ValueError, match=r"^a file must hold all of what is written, got VehicleFile"):
-        save_vehicle(tmp_path / "g.toml", VehicleFile(vehicle=Payload(mass=100.0, position=(1.2, 0.0)).on(car)))
+        save_vehicle(tmp_path / "g.toml", VehicleFile(vehicle=late.on(loaded)))  # parts in another order
     assert not (tmp_path / "g.toml").exists()
 
 

@@ -23,12 +23,13 @@ from ..vehicles.files import (
     coefficient_table,
     load_vehicle,
     mounted,
+    numbered,
     read_coefficients,
     read_vehicle,
     vehicle_table,
 )
 from ..vehicles.handling import RollGeometry
-from ..vehicles.mounted import Mounted, Payload, Seat
+from ..vehicles.mounted import Part, Payload, Seat
 from ..vehicles.vehicle import assembled, coefficients_by_name
 from . import weightings
 from .load_case import LoadCase
@@ -176,16 +177,11 @@ def save_problem(path: str | PathLike[str], problem: RideProblem) -> None:
 
 
 def _case_document(case: LoadCase) -> CaseDocument:
-    vehicle, payload = assembled(case.vehicle), list[Payload]()
-    while isinstance(vehicle, Mounted) and isinstance(vehicle.part, Payload):
-        payload.insert(0, vehicle.part)
-        vehicle = vehicle.vehicle
     return CaseDocument(
-        vehicle=vehicle_table(VehicleFile(vehicle=vehicle)),
+        vehicle=vehicle_table(VehicleFile(vehicle=assembled(case.vehicle))),
         road=content(case.road, ROADS),
         speed=case.speed,
         share=case.share,
-        payload=tuple(payload),
         roll_geometry=case.roll_geometry,
     )
 
@@ -197,11 +193,10 @@ def _problem(table: Table, folder: Folder) -> RideProblem:
         mistakes.note("cases must be an array of tables, one at least, got none")
     if not values["cases"] or BAD in (values["cases"], values.get("seats")):
         mistakes.settle()
-    seats = {f"seats[{i}]": seat for i, seat in enumerate(values.pop("seats", ()), start=1)}
-    given = [
-        _case(one, f"cases[{i}]", seats, folder, mistakes) for i, one in enumerate(values.pop("cases"), start=1)
-    ]
-    values = {name: value for name, value in values.items() if name != "title" and not bad(value)}
+    seats, documents = numbered("seats", values), enumerate(values["cases"], start=1)
+    given = [_case(one, f"cases[{i}]", seats, folder, mistakes) for i, one in documents]
+    apart = ("title", "seats", "cases")
+    values = {name: value for name, value in values.items() if name not in apart and not bad(value)}
     cases = [case for _, case in filter(None, given) if case]
     _check(values, cases, mistakes)
     if given[0]:
@@ -212,15 +207,14 @@ def _problem(table: Table, folder: Folder) -> RideProblem:
 
 
 def _case(
-    one: CaseDocument, name: str, seats: Mapping[str, Seat], folder: Folder, mistakes: Mistakes
+    one: CaseDocument, name: str, seats: Mapping[str, Part], folder: Folder, mistakes: Mistakes
 ) -> tuple[VehicleFile, LoadCase | None] | None:
     """Return the vehicle of a case, None if it cannot be read, and the case, None if a part does not fit."""
     if bad(one):
         return None
     file = _vehicle(one.vehicle, f"{name}.vehicle", folder, mistakes)
     vehicle = BAD if bad(file) else mounted(file.vehicle, seats, "", mistakes)
-    loads = {f"payload[{i}]": load for i, load in enumerate(one.payload, start=1)}
-    vehicle = mounted(vehicle, loads, f"{name}.", mistakes)
+    vehicle = mounted(vehicle, numbered("payload", vars(one)), f"{name}.", mistakes)
     road = _road(one.road, f"{name}.road", folder, mistakes)
     if bad(vehicle):
         return None if bad(file) else (file, None)

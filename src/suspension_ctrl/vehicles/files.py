@@ -17,7 +17,7 @@ from ..tables import write_text
 from .assembly import StrutParameter
 from .cars import FullCar, HalfCar, QuarterCar
 from .handling import RollGeometry
-from .mounted import FlexibleBody, Mounted, Part, Seat
+from .mounted import FlexibleBody, Mounted, Part, Payload, Seat
 from .vehicle import AssembledVehicle, Vehicle
 
 KINDS: dict[str, type[AssembledVehicle]] = {"quarter-car": QuarterCar, "half-car": HalfCar, "full-car": FullCar}
@@ -66,8 +66,8 @@ class Document:
     ----------
     name, source : str
         Name of the vehicle, and origin of its numbers.
-    flexible_body, seats, roll_geometry : table, array of tables, table
-        Elastic modes of the body, seats with their occupants, and heights for cornering.
+    flexible_body, seats, payload, roll_geometry : table, array of tables, array of tables, table
+        Elastic modes of the body, seats with their occupants, loads on the body, and heights for cornering.
     struts, bounds : table
         Coefficients of the struts; lowest and highest value of those that a search varies.
     """
@@ -76,6 +76,7 @@ class Document:
     source: str = ""
     flexible_body: FlexibleBody | None = None
     seats: tuple[Seat, ...] = field(default=(), metadata={"most": 50})
+    payload: tuple[Payload, ...] = ()
     struts: Mapping[str, Any] = field(default_factory=dict)
     bounds: Mapping[str, Any] = field(default_factory=dict)
     roll_geometry: RollGeometry | None = None
@@ -145,10 +146,11 @@ def read_vehicle(table: Table, mistakes: Mistakes) -> VehicleFile:
     sound = len(mistakes) == before  # else numbers that stand in cause further errors
     car = constructed(kind, values, table.name, mistakes if sound else Mistakes())
     parts = {"flexible_body": values["flexible_body"]} if "flexible_body" in values else {}
-    seats = () if values.get("seats") is BAD else values.get("seats", ())
-    parts |= {f"seats[{i}]": seat for i, seat in enumerate(seats, start=1)}
+    parts |= numbered("seats", values) | numbered("payload", values)
     vehicle = mounted(car, parts, table.name, mistakes if sound or "flexible_body" not in values else Mistakes())
-    partial = bad(vehicle, values.get("seats"))  # the coefficients of some seats are unknown
+    partial = bad(
+        vehicle, values.get("seats"), values.get("payload")
+    )  # the coefficients of some seats are unknown
     for name, own, form in (("struts", "setting", float), ("bounds", "bounds", tuple[float, float])):
         if not bad(car) and isinstance(values.get(name), dict):
             inner = Table(f"{table.name}{name}.", values.pop(name))
@@ -158,6 +160,12 @@ def read_vehicle(table: Table, mistakes: Mistakes) -> VehicleFile:
     return VehicleFile(
         vehicle=vehicle, **{one.name: values[one.name] for one in fields(VehicleFile) if one.name in values}
     )
+
+
+def numbered(name: str, values: Mapping[str, Any]) -> dict[str, Part]:
+    """Return the parts in the array `name` of a table's values by their keys, ``seats[1]``."""
+    parts = values.get(name, ())
+    return {} if parts is BAD else {f"{name}[{i}]": part for i, part in enumerate(parts, start=1)}
 
 
 def mounted(
@@ -185,6 +193,7 @@ def vehicle_table(file: VehicleFile) -> dict[str, Any]:
         source=file.source,
         flexible_body=next((part for part in parts if isinstance(part, FlexibleBody)), None),
         seats=tuple(part for part in parts if isinstance(part, Seat)),
+        payload=tuple(part for part in parts if isinstance(part, Payload)),
         struts=coefficient_table(file.vehicle, file.setting),
         bounds=coefficient_table(file.vehicle, file.bounds),
         roll_geometry=file.roll_geometry,
