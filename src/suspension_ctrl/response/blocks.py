@@ -14,9 +14,9 @@ from ..vehicles.assembly import StrutParameter
 from .many_struts import ManyStruts
 from .ports import Ports
 
-_NOTHING = 1e-11  # of the largest value of its kind at the same frequency: a smaller coupling is rounding
-_ALIKE = 1e-9  # of a response: an equal one may differ by it
-_ROUNDING = 1e-13  # of the road's power and the largest value of a response: a smaller difference is rounding
+_NOTHING = 1e-11  # coupling below this share of the largest at the same frequency is rounding
+_ALIKE = 1e-9  # largest relative difference of equal responses
+_ROUNDING = 1e-13  # share of the road's power, and of a response's largest value, below which a value is rounding
 
 
 class Variables(NamedTuple):

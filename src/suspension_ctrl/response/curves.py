@@ -24,7 +24,7 @@ class DesignCurves:
 
 
 def weighted_name(response: str) -> str:
-    """Return the name of an acceleration that is weighted: ``"weighted_acceleration"`` is that of the body."""
+    """Return the name of a weighted acceleration, ``"weighted_acceleration"`` for the body."""
     return f"weighted_{response.removeprefix('body_')}"
 
 
@@ -43,7 +43,7 @@ def setting_of(problem: RideProblem, design: Sequence[float]) -> dict[str, float
 def design_curves(
     problem: RideProblem, label: str, design: Sequence[float], responses: Sequence[str], points: int = 800
 ) -> DesignCurves:
-    """Return the labelled curves of a design (d,) in the first load case; accelerations weighted too."""
+    """Return the curves of a design (d,) in the first load case; accelerations also weighted."""
     case = problem.cases[0]
     closed = case.vehicle.closed(setting_of(problem, design), responses=responses)
     f = frequencies(problem.band, points)

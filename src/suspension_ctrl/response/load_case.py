@@ -33,7 +33,7 @@ class LoadCase(Record):
     speed : float
         Vehicle speed V > 0 [m/s].
     share : float
-        How much of the time, > 0; cases count by their shares of the sum.
+        Share of time, > 0; cases count by their shares of the sum.
     roll_geometry : RollGeometry, optional
         For measures of cornering.
 
@@ -105,7 +105,7 @@ class LoadCase(Record):
 
 
 def load_cases(cases: Sequence[LoadCase], **given: Any) -> tuple[LoadCase, ...]:
-    """Return the load cases with what is `given` in place of theirs, or the one that it makes."""
+    """Return the cases with a `given` vehicle, road or speed in place of theirs, or the one case of all three."""
     given = {name: value for name, value in given.items() if value is not None}
     if isinstance(cases, LoadCase):
         raise ValueError("cases must be a list of load cases, got one by itself")

@@ -1,4 +1,4 @@
-"""The ride problem: measures of a vehicle over coefficients of its struts, in load cases, within limits."""
+"""The ride problem: measures of a vehicle by coefficients of its struts, in load cases, within limits."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -21,11 +21,11 @@ from .measures.terms import CaseMeasure
 from .scores import NODES, RESOLVED, Kernel, Score, Scores
 from .weightings import Weighting, checked
 
-_CORNERS = 64  # at most, at which the nodes are judged; of a box with more, so many drawn at random
+_CORNERS = 64  # most corners of the box at which nodes are checked, drawn at random from more
 
 
 class _Found(int):
-    """Nodes found by the search, which a changed problem repeats."""
+    """Number of nodes that the problem found; a changed problem finds it anew."""
 
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
@@ -215,7 +215,7 @@ class RideProblem(Record):
         return self._scores.kernel(self.nodes) if self._scores.compiled else None
 
     def describe(self) -> list[str]:
-        """Return limits and load cases in words, a line each."""
+        """Return variables, limits and load cases in sentences, a line each."""
         lines = [f"Variables: {'; '.join(self._variables())}."] if self.kinds else []
         lines += [f"Limits: {', '.join(map(str, self.constraints))}."] if self.constraints else []
         if len(self.cases) > 1:
@@ -235,7 +235,7 @@ class RideProblem(Record):
         return wrapped(f"RideProblem({'; '.join(parts)})")
 
     def _variables(self) -> Iterator[str]:
-        """Yield each variable with its bounds and its kind, or its catalogue, in words."""
+        """Yield the text of each variable: bounds and kind, or catalogue."""
         for name, (low, high) in self.bounds.items():
             unit, kind = self.units[name], self.kinds.get(name, "")
             if isinstance(kind, str):
@@ -284,6 +284,6 @@ class RideProblem(Record):
         return tuple(judged.in_case(case, self.weighting) for case in self.cases)
 
     def _error(self, nodes: int) -> float:
-        """Return the largest error of a term at corners of the box, where resonances are sharpest."""
+        """Return the largest error of a term at corners of the box: there resonances are sharpest."""
         corners = np.random.default_rng(0).permutation(list(product(*self.bounds.values())))[:_CORNERS]
         return max(float(errors.max(initial=0.0)) for errors in self._scores.errors(corners, nodes))

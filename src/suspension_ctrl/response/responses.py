@@ -111,7 +111,7 @@ def _diverging(case: LoadCase, setting: Setting, terms: Iterable[Term]) -> set[R
 
 
 def _resolved(scores: Scores, design: Real, diverging: set[ResponseName]) -> tuple[int, dict[Term, float]]:
-    """Return the least nodes that resolve every term that does not diverge, and the error of each term."""
+    """Return the least nodes that resolve every convergent term, and the error of each term."""
     kept = [term.response not in diverging for term in scores.terms[0]]
     for nodes in NODES:
         errors = scores.errors(design, nodes)[0]
@@ -128,7 +128,7 @@ def _note(one: CaseMeasure, diverging: set[ResponseName], off: Mapping[Term, flo
 
 
 def frequency_responses(closed: control.LTI, f: Real, delays: Sequence[float] = (0.0,)) -> dict[str, Complex]:
-    """Return H(w) (n,) by response [unit/m] to a road that is alike on all tracks, met late by r delays [s]."""
+    """Return H(w) (n,) by response [unit/m] to a road identical on all tracks, with r delays of the wheels [s]."""
     late = np.exp(-2j * np.pi * f[:, None] * np.asarray(delays))
     h = (paths(closed, f) * late[:, None, :]).sum(axis=2)
     return dict(zip(closed.output_labels, h.T, strict=True))

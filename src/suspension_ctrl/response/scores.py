@@ -113,7 +113,7 @@ class Scores:
         return [tuple(dict.fromkeys(term.integral for one in each for term in one.terms)) for each in by_case]
 
     def kernel(self, nodes: int) -> Kernel:
-        """Return the scores as data of a compiled function; those by a function are their offsets."""
+        """Return the scores as data of compiled loops; a measure by a function has no mean square there."""
         if nodes not in self._kernels:
             self._kernels[nodes] = Kernel(
                 cases_of(self.cases, self.terms, self.settings, self.variables, self.band, nodes),

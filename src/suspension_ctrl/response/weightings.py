@@ -65,7 +65,7 @@ class SystemWeighting(Record):
 
     @cached_property
     def system(self) -> control.LTI:
-        """Its system."""
+        """The system of the weighting."""
         return control.tf(*self.numbers) if self.numbers[0].ndim == 1 else system_of(self.numbers)
 
     def factor(self, f: ArrayLike) -> Real:
@@ -96,7 +96,7 @@ def checked(weighting: Weighting | control.LTI | None) -> Weighting | None:
 
 
 def by_name(weighting: Weighting) -> TabulatedWeighting | SystemWeighting:
-    """Return the weighting called so, one of `FILTERS` or `TABLES`, or itself; ValueError for any other name."""
+    """Return a weighting by its name, of `FILTERS` or `TABLES`, or by its system; ValueError for other names."""
     if isinstance(weighting, SystemWeighting):
         return weighting
     checks.one_of("weighting", weighting, FILTERS + TABLES)

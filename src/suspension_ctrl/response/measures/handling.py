@@ -58,7 +58,7 @@ class FrontLoadTransfer(Measure, word="front_load_transfer", unit="-"):
 
 
 def _cornering(word: str, case: LoadCase) -> tuple[Mechanics, RollGeometry]:
-    """Return what a measure of cornering takes; ValueError if the load case lacks it."""
+    """Return the statics and the roll geometry of a load case; ValueError if it lacks one."""
     vehicle = assembled(case.vehicle)
     check_cornering(word, vehicle.assembly)
     if case.roll_geometry is None:
