@@ -23,7 +23,7 @@ from suspension_ctrl import tables as files
 from suspension_ctrl.commands import options, results, terminal
 from suspension_ctrl.search.indicators import ReferenceFront, best_of
 from suspension_ctrl.search.run import Optimiser
-from suspension_ctrl.search.trace import Recorded, trace
+from suspension_ctrl.search.trace import trace
 from suspension_ctrl.study import comparison, inference
 
 ALL = ",".join(engineering.NAMES)
@@ -36,7 +36,7 @@ CLIPPED = "moead-dra-clipped"
 PAIRS = (("nsga2", "pymoo nsga2"), ("moead-dra", "pymoo moead"), (CLIPPED, "pymoo moead"))
 
 Real = NDArray[np.float64]
-Search = Callable[[Recorded, int], Real]
+Search = Callable[[Problem, int], Real]
 """From a problem and a seed to the objectives (N, m) of the final population."""
 
 app = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
@@ -73,10 +73,10 @@ def searches(population: int, evaluations: int) -> dict[str, Search]:
     """Return ours and pymoo's, the latter with neighbourhoods as large."""
     from peers import with_pymoo
 
-    def minimised(optimiser: Optimiser, problem: Recorded, seed: int) -> Real:
+    def minimised(optimiser: Optimiser, problem: Problem, seed: int) -> Real:
         return minimise(problem, optimiser, evaluations=evaluations, seed=seed).objectives
 
-    def theirs(prepare: Prepare, problem: Recorded, seed: int) -> Real:
+    def theirs(prepare: Prepare, problem: Problem, seed: int) -> Real:
         job = prepare(Task(problem, population, evaluations // population - 1, seed))
         return job.objectives(job.run())
 
@@ -98,6 +98,17 @@ def scaled(name: str) -> tuple[Problem, ReferenceFront]:
     return problem.replace(evaluate=lambda designs: front.scaled(problem.evaluate(designs)), kinds={}), unit
 
 
+def recorded(problem: Problem) -> tuple[Problem, list[Real]]:
+    """Return a problem whose objectives (n, m) of each call are appended to a list."""
+    seen: list[Real] = []
+
+    def evaluate(designs: Real) -> Real:
+        seen.append(problem.evaluate(designs))
+        return seen[-1].copy()
+
+    return problem.replace(evaluate=evaluate), seen
+
+
 def beside_pymoo(
     names: tuple[str, ...], population: int, evaluations: int, seeds: int
 ) -> Iterator[dict[str, Any]]:
@@ -106,9 +117,8 @@ def beside_pymoo(
         problem, front = scaled(name)
         for seed in range(seeds):
             for algorithm, search in searches(population, evaluations).items():
-                recorded = Recorded(problem, evaluations)
-                final = search(recorded, seed)
-                _, objectives, _ = recorded.seen()
+                watched, seen = recorded(problem)
+                final, objectives = search(watched, seed), np.concatenate(seen)
                 for kind, found in (("population", final), ("archive", objectives)):
                     value = front.relative_hypervolume(np.unique(best_of(found), axis=0))
                     row = {"problem": name, "algorithm": algorithm, "seed": seed, "set": kind}

@@ -17,8 +17,8 @@ from functions import dtlz2, srn
 from suspension_ctrl import MoeadDra, Nsga2, minimise
 from suspension_ctrl.compiled import call, call_compiled, storable, verb_of
 from suspension_ctrl.paper import experiment as paper
+from suspension_ctrl.search.kinds import Coding
 from suspension_ctrl.search.operators import DifferentialChild, MutateDesign
-from suspension_ctrl.search.trace import KeptKernel
 
 
 class Line(NamedTuple):
@@ -95,9 +95,9 @@ def test_verbs_are_storable_where_every_process_finds_their_class():
     assert storable(paper.ride_problem().kernel)
     assert not storable(verb_of((square, ())))
     assert not storable(Doubled(DifferentialChild(0.5)))
-    kept = (np.empty((1, 2)), np.empty((1, 3)), np.zeros(1, dtype=np.int64))
-    assert storable(KeptKernel(*kept, paper.ride_problem().kernel))
-    assert not storable(KeptKernel(*kept, verb_of((square, ()))))
+    mixed = paper.ride_problem().replace(kinds={"spring": "log"})
+    for kernel, expected in ((mixed.kernel, True), (verb_of((square, ())), False)):
+        assert storable(Coding(mixed).kernel(kernel)) == expected
 
 
 WATCH = """

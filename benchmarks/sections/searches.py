@@ -36,7 +36,8 @@ class Counted:
     def __post_init__(self) -> None:
         self.lower, self.upper = self.problem.lower, self.problem.upper
         self.objectives, self.constraints = self.problem.objectives, self.problem.constraints
-        self.kernel = self.problem.kernel
+        self.variables, self.units = self.problem.variables, self.problem.units
+        self.kinds, self.kernel = self.problem.kinds, self.problem.kernel
 
     def evaluate(self, designs: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the problem's objectives (n, m) of designs (n, d)."""

@@ -10,6 +10,7 @@ import pytest
 from functions import bnh, bnh_set, c2dtlz2, c2dtlz2_front, srn, srn_set
 from suspension_ctrl import InfeasibleWarning, MoeadDra, Nsga2, Problem, minimise
 from suspension_ctrl.search.constraints import violations
+from suspension_ctrl.search.evaluation import SearchProblem
 from suspension_ctrl.search.gamultiobj import Gamultiobj
 from suspension_ctrl.search.indicators import ReferenceFront, non_dominated
 from suspension_ctrl.search.sampling import Sampling
@@ -117,7 +118,7 @@ def test_a_small_feasible_region_is_found_and_kept(optimiser):
     problem, seen = disc(), []
     toolbox = optimiser.toolbox(problem)
     toolbox.register("evaluate", lambda x: seen.append(problem.evaluate(x)) or seen[-1])
-    search = optimiser.search(problem, toolbox, np.random.default_rng(2))
+    search = optimiser.search(SearchProblem(problem), toolbox, np.random.default_rng(2))
     least = []
     for state, _ in zip(search, range(60), strict=False):
         least.append(state.violation.min())

@@ -68,7 +68,7 @@ def test_individuals_are_lists_and_results_are_clipped():
 def test_operators_are_told_apart_by_their_first_parameter():
     toolbox = Nsga2(population=20).toolbox(PROBLEM)
     toolbox.register("mutate", shift, by=0.1)
-    adapted = with_deap_operators(toolbox, PROBLEM)
+    adapted = with_deap_operators(toolbox, np.array(PROBLEM.lower), np.array(PROBLEM.upper))
     assert adapted.mutate.func is mutate_by_deap
     assert adapted.mate.func is operators.simulated_binary_crossover
     assert toolbox.mutate.func is shift

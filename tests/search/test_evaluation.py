@@ -11,6 +11,7 @@ import pytest
 from numba import njit
 
 from suspension_ctrl import FailureWarning, Gamultiobj, MoeadDra, Nsga2, Problem, Sampling, minimise
+from suspension_ctrl.search.evaluation import SearchProblem
 from suspension_ctrl.search.trace import trace
 
 BOX = {"lower": [0.0] * 10, "upper": [1.0] * 10, "objectives": ["f1", "f2"]}
@@ -188,3 +189,46 @@ def test_answers_of_any_layout_are_taken(kind):
     plain = Problem(evaluate=lambda x: np.round(f(x), 3), **box)
     one, other = (minimise(p, Nsga2(population=20), iterations=5, seed=1) for p in (problem, plain))
     np.testing.assert_allclose(one.objectives, other.objectives, rtol=1e-6)
+
+
+GOOD = {"evaluate": f, "lower": (0.0, 0.0), "upper": (1.0, 1.0), "objectives": ("a", "b")}
+
+
+def test_the_first_bad_design_is_named():
+    designs, problem = np.array([[0.1, 0.2], [0.2, 0.9]]), SearchProblem(Problem(**GOOD))
+    assert problem.values(lambda x: [[1, 2], [3, 4]], designs).tolist() == [[1.0, 2.0], [3.0, 4.0]]
+    with pytest.raises(ValueError, match=r"got \[0.2, nan\] for design \[0.2, 0.9\]$"):
+        problem.values(lambda x: [[1, 2], [0.2, np.nan]], designs)
+    limited = SearchProblem(Problem(**GOOD, constraints=("limit",)))
+    assert limited.values(lambda x: np.hstack([x, x[:, :1]]), designs).shape == (2, 3)
+    message = r"^evaluate must return shape \(2, 3\) for designs \(2, 2\), got \(2, 2\)$"
+    with pytest.raises(ValueError, match=message):
+        limited.values(lambda x: x, designs)
+    message = r"^evaluate must return finite objectives and constraints, got \[1.0, 2.0, inf\]"
+    with pytest.raises(ValueError, match=message):
+        limited.values(lambda x: [[1, 2, np.inf], [1, 2, 3]], designs)
+
+
+def test_a_resumed_run_tells_of_failures_before():
+    """The first failure of the run is not known any more; its number goes on."""
+    calls = [0]
+
+    def fails_once(x):
+        calls[0] += 1
+        return np.where(calls[0] == 1, np.nan, zdt1(x))
+
+    problem = Problem(evaluate=fails_once, **BOX)
+    with pytest.warns(FailureWarning, match=r"^100 of 200 designs .* got \[nan, nan\] for design \["):
+        run = minimise(problem, Nsga2(population=100), iterations=1, seed=1)
+    with pytest.warns(FailureWarning, match=r"^100 of 300 designs .*; first: in the run before$"):
+        assert run.resume(problem, iterations=1).failures == 100
+
+
+@pytest.mark.parametrize("kernel", [None, (nan_kernel, ())], ids=["python", "compiled"])
+def test_each_failure_of_a_sweep_is_counted_once(kernel):
+    problem = Problem(evaluate=as_nan, kernel=kernel, **BOX)
+    with pytest.warns(FailureWarning):
+        run = minimise(problem, MoeadDra(population=100), evaluations=1000, seed=1)
+    with pytest.warns(FailureWarning):
+        seen = trace(problem, MoeadDra(population=100), [1000], seed=1)
+    assert run.failures == np.isnan(seen.objectives).any(axis=1).sum() > 20

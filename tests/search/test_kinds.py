@@ -15,7 +15,7 @@ from functions import zdt1
 from suspension_ctrl import Gamultiobj, MoeadDra, Nsga2, Problem, Sampling, minimise
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.indicators import non_dominated
-from suspension_ctrl.search.kinds import Coded, box, coded, decoded, grid_axes
+from suspension_ctrl.search.kinds import Coding
 from suspension_ctrl.search.trace import trace
 
 OPTIMISERS = {
@@ -70,7 +70,7 @@ class Seen:
     st.floats(0.1, 1e6),
 )
 def test_designs_are_those_of_their_codes(real, spring, count, damper):
-    problem, design = Coded(Problem(**MIXED)), np.array([[real, spring, count, damper, 0.3]])
+    problem, design = Coding(Problem(**MIXED)), np.array([[real, spring, count, damper, 0.3]])
     code = problem.encode("start", design)
     assert (code >= problem.lower).all()
     assert (code <= problem.upper).all()
@@ -82,7 +82,7 @@ def test_designs_are_those_of_their_codes(real, spring, count, damper):
 
 @given(st.lists(st.floats(0, 1), min_size=4, max_size=4))
 def test_every_code_is_a_design_of_the_problem(shares):
-    problem = Coded(Problem(**MIXED))
+    problem = Coding(Problem(**MIXED))
     design = problem.decode(np.array([problem.lower + np.array(shares) * (problem.upper - problem.lower)]))[0]
     assert (design >= BOUNDS["lower"]).all()
     assert (design <= BOUNDS["upper"]).all()
@@ -93,9 +93,9 @@ def test_every_code_is_a_design_of_the_problem(shares):
 
 
 def test_values_of_a_discrete_variable_are_equally_likely():
-    problem = coded(Problem(**MIXED))
-    lower, upper = box(problem)
-    designs = decoded(problem, lower + (upper - lower) * (np.arange(36_000)[:, None] + 0.5) / 36_000)
+    coding = Coding(Problem(**MIXED))
+    shares = (np.arange(36_000)[:, None] + 0.5) / 36_000
+    designs = coding.decode(coding.lower + (coding.upper - coding.lower) * shares)
     for column, count in ((1, 4), (2, 9)):
         assert np.unique(designs[:, column], return_counts=True)[1].tolist() == [36_000 // count] * count
     logarithms = np.log(designs[:, 3])
@@ -104,8 +104,8 @@ def test_values_of_a_discrete_variable_are_equally_likely():
 
 @pytest.mark.parametrize(("points", "counts"), [(50, [50, 4, 9, 50]), (3, [3, 3, 3, 3])])
 def test_a_grid_has_different_values(points, counts):
-    problem = Coded(Problem(**MIXED))
-    axes = grid_axes(problem, points)
+    problem = Coding(Problem(**MIXED))
+    axes = problem.grid_axes(points)
     assert [axis.size for axis in axes] == counts
     middle = (problem.lower + problem.upper) / 2
     for v, axis in enumerate(axes):
@@ -115,7 +115,7 @@ def test_a_grid_has_different_values(points, counts):
         assert len(set(values)) == axis.size
         ends = (0.0, 1.0), (18e3, 27.5e3), (-3.0, 5.0), (0.1, 1e6)
         assert values[[0, -1]] == pytest.approx(ends[v], rel=4e-15)
-    assert [axis.tolist() for axis in grid_axes(zdt1(2), 3)] == [[0.0, 0.5, 1.0]] * 2
+    assert [axis.tolist() for axis in Coding(zdt1(2)).grid_axes(3)] == [[0.0, 0.5, 1.0]] * 2
 
 
 @every_optimiser
@@ -254,9 +254,13 @@ def test_whole_numbers_are_whole_and_evaluated_once(optimiser):
 
 
 def test_a_problem_without_kinds_is_searched_as_it_is():
-    problem = zdt1(4)
-    assert coded(problem) is problem
-    assert decoded(problem, problem_designs := np.ones((2, 4))) is problem_designs
+    problem, designs = zdt1(4, compiled=True), np.full((2, 4), 0.5)
+    coding = Coding(problem)
+    assert (coding.lower.tolist(), coding.upper.tolist()) == (list(problem.lower), list(problem.upper))
+    assert coding.decode(designs) is designs
+    assert coding.kernel(problem.kernel) is problem.kernel
+    outside = np.full((1, 4), 1 + 1e-12)  # by rounding, as a start may be
+    np.testing.assert_array_equal(coding.encode("start", outside), outside)
 
 
 def test_start_designs_are_in_the_first_population():

@@ -7,7 +7,6 @@ import pytest
 
 from suspension_ctrl import Problem
 from suspension_ctrl.quantities import column_headers
-from suspension_ctrl.search.evaluation import evaluate_checked
 
 GOOD = {"evaluate": lambda x: x, "lower": (0.0, 0.0), "upper": (1.0, 1.0), "objectives": ("a", "b")}
 
@@ -50,24 +49,6 @@ def test_headers_carry_units():
 def test_rejects_bad_problems(change, message):
     with pytest.raises(ValueError, match="^" + re.escape(message)):
         Problem(**GOOD | change)
-
-
-def test_the_first_bad_design_is_named():
-    designs, problem = np.array([[0.1, 0.2], [0.2, 0.9]]), Problem(**GOOD)
-    found = evaluate_checked(lambda x: [[1, 2], [3, 4]], designs, problem)
-    assert found.tolist() == [[1.0, 2.0], [3.0, 4.0]]
-    with pytest.raises(ValueError, match=r"got \[0.2, nan\] for design \[0.2, 0.9\]$"):
-        evaluate_checked(lambda x: [[1, 2], [0.2, np.nan]], designs, problem)
-    limited = Problem(**GOOD, constraints=("limit",))
-    assert evaluate_checked(lambda x: np.hstack([x, x[:, :1]]), designs, limited).shape == (2, 3)
-    with pytest.raises(
-        ValueError, match=r"^evaluate must return shape \(2, 3\) for designs \(2, 2\), got \(2, 2\)$"
-    ):
-        evaluate_checked(lambda x: x, designs, limited)
-    with pytest.raises(
-        ValueError, match=r"^evaluate must return finite objectives and constraints, got \[1.0, 2.0, inf\]"
-    ):
-        evaluate_checked(lambda x: [[1, 2, np.inf], [1, 2, 3]], designs, limited)
 
 
 def doubled(x: np.ndarray) -> np.ndarray:

@@ -14,7 +14,7 @@ from ..paper import experiment as paper
 from ..quantities import column_headers
 from ..response.files import load_problem
 from ..response.problem import RideProblem
-from ..search.kinds import box
+from ..search.kinds import Coding
 from ..study import machine, reference, timing
 from ..study.campaign import Campaign
 from ..study.comparison import Comparison
@@ -104,7 +104,7 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
         store = campaign.time()
     several = any(len(case.vehicle.contact_points) > 1 for case in request.problem.cases)
     with terminal.waiting("reference front"):
-        grid = not several and len(box(request.problem)[0]) <= GRID_VARIABLES
+        grid = not several and Coding(request.problem).lower.size <= GRID_VARIABLES
         front, origin = campaign.reference(store, grid=grid)
     timed = timing.tidy(campaign.comparison, store, front).assign(timing=True)
     reports.write(request, store, timed)

@@ -18,14 +18,11 @@ import numpy as np
 from deap import base
 
 from ..quantities import Integer, Real
-from .kinds import box
-from .problem import Minimisable
 
 
-def with_deap_operators(toolbox: base.Toolbox, problem: Minimisable) -> base.Toolbox:
-    """Return a copy of a toolbox with operators of DEAP on arrays."""
+def with_deap_operators(toolbox: base.Toolbox, lower: Real, upper: Real) -> base.Toolbox:
+    """Return a copy of a toolbox with operators of DEAP on arrays within bounds (e,)."""
     adapted = copy(toolbox)
-    lower, upper = box(problem)
     for name, adapter in (("mate", mate_by_deap), ("mutate", mutate_by_deap)):
         verb = getattr(adapted, name, None)
         if isinstance(verb, partial) and _is_deaps(verb.func):

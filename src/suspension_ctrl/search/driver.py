@@ -16,7 +16,7 @@ from ..quantities import Real
 from .clock import PhaseClock
 from .constraints import InfeasibleWarning
 from .deap_adapter import with_deap_operators
-from .evaluation import WORST, FailureWarning, Judged
+from .evaluation import FailureWarning, SearchProblem, without_worst
 from .population import Population, State
 from .problem import Minimisable, headers_of
 from .run import Checkpoint, Log, Optimiser, Run
@@ -145,36 +145,34 @@ class _Search:
         self, problem: Minimisable, optimiser: Optimiser, toolbox: Toolbox | None, seed: int, failures: str
     ) -> None:
         checks.one_of("failures", failures, ("worst", "error"))
-        self.problem, self.optimiser, self.seed = problem, optimiser, seed
-        self.judged = Judged(problem, strict=failures == "error")
+        self.optimiser, self.seed, self.headers = optimiser, seed, headers_of(problem)
+        self.problem = SearchProblem(problem, strict=failures == "error")
         default = optimiser.toolbox(problem)
-        given = with_deap_operators(toolbox or default, problem)
-        self.toolbox = with_checked_verbs(given, default, self.judged)
+        given = with_deap_operators(toolbox or default, self.problem.lower, self.problem.upper)
+        self.toolbox = with_checked_verbs(given, default, self.problem)
         self.rng = np.random.default_rng(seed)
         self.generator = self.rng.bit_generator.state
-        self.repeats_before = 0
         self.rows: list[tuple[float, ...]] = []
         self.state: State | None = None
 
     def start_from(self, designs: Real) -> None:
         """Put designs (k, d) before the samples of the toolbox."""
-        if self.judged.coded:
-            designs = self.judged.coded.encode("start", designs)
+        codes = self.problem.coding.encode("start", designs)
         sample: Callable[..., Real] | None = getattr(self.toolbox, "sample", None)
         if sample is None:
             raise ValueError("start must be None for an optimiser whose toolbox has no verb sample, got designs")
 
         def sample_the_rest(rng: np.random.Generator, count: int) -> Real:
-            return np.concatenate([designs, sample(rng, count)[len(designs) :]])
+            return np.concatenate([codes, sample(rng, count)[len(codes) :]])
 
         self.toolbox.register("sample", sample_the_rest)
 
     def go_on_from(self, run: Run) -> None:
         """Take up the search of a run."""
         self.state, self.rows = run.checkpoint.state, list(run.log.rows)
-        self.judged.failures, self.judged.first = run.failures, "in the run before" if run.failures else ""
+        self.problem.failures, self.problem.first = run.failures, "in the run before" if run.failures else ""
+        self.problem.repeats = run.repeats
         self.rng.bit_generator.state = dict(run.checkpoint.generator)
-        self.repeats_before = run.repeats
 
     def until(self, count: float, seconds: float | None, callback: Callable[[Run], object] | None) -> Run:
         """Carry out `count` more iterations, or fewer if time or callback end the search."""
@@ -193,48 +191,38 @@ class _Search:
         if self.problem.constraints and not run.feasible.any():
             warnings.warn(_infeasible(self.problem.constraints, run), InfeasibleWarning, stacklevel=3)
         if run.failures:
-            warnings.warn(self.judged.summary(run.evaluations), FailureWarning, stacklevel=3)
+            warnings.warn(self.problem.summary(run.evaluations), FailureWarning, stacklevel=3)
         return run
 
     def _states(self) -> Iterator[State]:
         """Yield the states of the search; append a row of the log for each."""
-        arguments = (self.judged, self.toolbox, self.rng)
-        going_on = () if self.state is None else (self.state,)
         number, _, wall, cpu, *phases = self.rows[-1] if self.rows else (-1, 0, 0.0, 0.0)
         clock = PhaseClock(self.toolbox, self.optimiser.phases)
         clock.seconds.update(zip(clock.seconds, phases, strict=False))
-        search = self.optimiser.search(*arguments, *going_on)
+        search = self.optimiser.search(self.problem, self.toolbox, self.rng, self.state)
         for iteration in itertools.count(int(number) + 1):
             wall_start, cpu_start = perf_counter(), process_time()
             state = next(search)
             wall, cpu = wall + perf_counter() - wall_start, cpu + process_time() - cpu_start
-            ideal = np.where(state.ideal < WORST, state.ideal, np.nan)
-            self.rows.append((iteration, state.evaluations, wall, cpu, *clock.seconds.values(), *ideal))
+            phases = [*clock.seconds.values()]
+            self.rows.append((iteration, state.evaluations, wall, cpu, *phases, *without_worst(state.ideal)))
             self.state, self.generator = state, self.rng.bit_generator.state
             yield state
 
-    @property
-    def repeats(self) -> int:
-        """Designs asked for whose values were known."""
-        return self.repeats_before + (self.judged.coded.repeats if self.judged.coded else 0)
-
     def run(self) -> Run:
         """Return the run so far."""
-        state, m = self.state, len(self.problem.objectives)
+        problem, state = self.problem, self.state or self.problem.before_the_start()
         seconds, cpu_seconds = self.rows[-1][2:4] if self.rows else (0.0, 0.0)
-        if state is None:  # nothing has been evaluated
-            d, c = len(self.judged.lower), len(self.problem.constraints)
-            state = State.of(np.empty((0, d)), np.empty((0, m + c)), np.full(m, np.inf), 0)
         phases = [f"{phase}_seconds" for phase in self.optimiser.phases]
-        ideal = [f"ideal_{name}" for name in self.problem.objectives]
+        ideal = [f"ideal_{name}" for name in problem.objectives]
         log = Log(("iteration", "evaluations", "seconds", "cpu_seconds", *phases, *ideal), tuple(self.rows))
         objectives, constraints = state.objectives, state.constraints
-        if self.judged.failures:
-            objectives, constraints = (np.where(x < WORST, x, np.nan) for x in (objectives, constraints))
+        if problem.failures:
+            objectives, constraints = without_worst(objectives), without_worst(constraints)
         return Run(
-            designs=self.judged.decode(state.designs), objectives=objectives, constraints=constraints,
-            headers=headers_of(self.problem), evaluations=int(state.evaluations), seconds=seconds,
-            cpu_seconds=cpu_seconds, seed=self.seed, log=log, failures=self.judged.failures, repeats=self.repeats,
+            designs=problem.decode(state.designs), objectives=objectives, constraints=constraints,
+            headers=self.headers, evaluations=state.evaluations, seconds=seconds, cpu_seconds=cpu_seconds,
+            seed=self.seed, log=log, failures=problem.failures, repeats=problem.repeats,
             checkpoint=Checkpoint(self.optimiser, self.state, self.generator),
         )  # fmt: skip
 

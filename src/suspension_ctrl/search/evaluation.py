@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike
 
 from .. import checks
 from ..quantities import Real
-from .kinds import Coded, coded
+from .kinds import Coding
+from .population import State
 from .problem import Minimisable
 
 WORST = 1e150
@@ -40,30 +41,67 @@ class FailureWarning(UserWarning):
     """
 
 
-class Judged:
-    """A problem in a search, which counts the designs that cannot be evaluated: an error each if `strict`."""
+def without_worst(values: Real) -> Real:
+    """Return values of any shape with NaN for `WORST`."""
+    return np.where(values < WORST, values, np.nan)
 
-    def __init__(self, problem: Minimisable, strict: bool = True) -> None:
-        searched = coded(problem)
-        self.coded = searched if isinstance(searched, Coded) else None
-        self.lower, self.upper, self.kernel = searched.lower, searched.upper, searched.kernel
+
+class SearchProblem:
+    """A problem in one search: designs have codes, discrete ones are evaluated once, failures are counted.
+
+    A design that cannot be evaluated is an error if `strict`. A `record` keeps all evaluated designs in order.
+    """
+
+    def __init__(self, problem: Minimisable, *, strict: bool = True, record: bool = False) -> None:
+        self.coding = Coding(problem)
+        self.lower, self.upper, self.decode = self.coding.lower, self.coding.upper, self.coding.decode
         self.objectives, self.constraints = problem.objectives, problem.constraints
-        self.evaluate = self.reference = problem.evaluate
-        self.strict, self.compared = strict, problem.kernel is None
-        self.failures, self.first = 0, ""
-        self.sweep: Any = None  # of MOEA/D-DRA, once it is known
+        self.evaluate = problem.evaluate
+        self.kernel = None if problem.kernel is None else self.coding.kernel(problem.kernel)
+        self.sweep: Any = None  # of MOEA/D-DRA, compiled at its first use
+        self.compared = self.kernel is None
+        self.strict, self.failures, self.first = strict, 0, ""
+        self.repeats = 0  # designs with known values
+        self._known: dict[bytes, Real] | None = {} if self.coding.discrete.all() else None
+        self._record: list[tuple[Real, Real]] | None = [] if record else None
+        self.recorded = 0
 
-    @classmethod
-    def of(cls, problem: Minimisable) -> "Judged":
-        """Return a problem as it is if it is judged already."""
-        return problem if isinstance(problem, cls) else cls(problem)
+    def before_the_start(self) -> State:
+        """Return the state of a search without designs."""
+        m, c = len(self.objectives), len(self.constraints)
+        return State.of(np.empty((0, self.lower.size)), np.empty((0, m + c)), np.full(m, np.inf), 0)
 
-    def decode(self, codes: Real) -> Real:
-        """Return the designs (n, d) of codes (n, e)."""
-        return self.coded.decode(codes) if self.coded else codes
+    def values(self, evaluate: Callable[[Real], ArrayLike], codes: Real) -> Real:
+        """Return the values (n, m + c) of codes (n, e), `WORST` if not finite; ValueError if of another kind."""
+        designs = self.decode(codes)
+        if self._known is None:
+            return self._evaluated(evaluate, designs)
+        keys = [row.tobytes() for row in designs]
+        new = {key: i for i, key in enumerate(keys) if key not in self._known}
+        if new:
+            values = self._evaluated(evaluate, designs[list(new.values())])
+            self._known.update(zip(new, values, strict=True))
+        self.repeats += len(keys) - len(new)
+        return np.array([self._known[key] for key in keys])
+
+    def _evaluated(self, evaluate: Callable[[Real], ArrayLike], designs: Real) -> Real:
+        # Copies: a user's evaluation may change its argument and reuse its result.
+        values = checks.reals("evaluate must return", evaluate(designs.copy()))
+        expected = (designs.shape[0], len(self.objectives) + len(self.constraints))
+        if values.shape != expected:
+            raise ValueError(
+                f"evaluate must return shape {expected} for designs {designs.shape}, got {values.shape}"
+            )
+        if not (np.abs(values) < WORST).all():
+            fails = ~(np.abs(values) < WORST).all(axis=1)
+            first = int(fails.argmax())
+            self.fail("evaluate", int(fails.sum()), designs[first], values[first])
+            values[fails] = WORST
+        self.keep(designs, values)
+        return values
 
     def fail(self, source: str, count: int, design: Real, value: Real | None = None) -> None:
-        """Count failures of evaluate or kernel, at `design` (d,) with its values (m + c,) the first of them."""
+        """Count failures of evaluate or kernel; `design` (d,) with its values (m + c,) is the first of them."""
         names = "objectives and constraints" if self.constraints else "objectives"
         got = "others" if value is None else str(value.tolist())
         message = f"{source} must return finite {names}, got {got} for design {design.tolist()}"
@@ -77,36 +115,33 @@ class Judged:
         counted = f"{self.failures} of {evaluations} designs could not be evaluated and count as worst"
         return f"{counted}; first: {self.first}"
 
+    def take(self, codes: Real, values: Real) -> None:
+        """Take values (n, m + c) of codes (n, e) from the kernel; the first are compared with `evaluate`."""
+        fails = values[:, 0] >= WORST
+        if fails.any():
+            self.fail("kernel", int(fails.sum()), self.decode(codes[fails][:1])[0])
+        if not (self.compared or fails[0]):
+            self._compare(codes[0], values[0])
+        self.compared = True
+        if self._record is not None:
+            self.keep(self.decode(codes), values)
 
-def evaluate_checked(evaluate: Callable[[Real], ArrayLike], designs: Real, problem: Minimisable) -> Real:
-    """Return the values (n, m + c) of designs or codes (n, d); ValueError if of another kind or not finite.
+    def _compare(self, code: Real, found: Real) -> None:
+        """Raise ValueError unless `evaluate` gives what the kernel found for a code (e,), values (m + c,)."""
+        design = self.decode(code[np.newaxis])
+        expected = checks.reals("evaluate must return", self.evaluate(design.copy()))[0]
+        agree = np.abs(found - expected) <= AGREEMENT * np.maximum(np.abs(expected).max(), 1e-300)
+        if not agree.all():
+            got = f"{found.tolist()} for design {design[0].tolist()}"
+            raise ValueError(f"kernel must return what evaluate does, {expected.tolist()}, got {got}")
 
-    In a `Judged` problem that is not strict a row that is not finite becomes `WORST` and is counted.
-    """
-    judged = Judged.of(problem)
-    if judged.coded:
-        return judged.coded.values(designs, lambda new: _checked(evaluate, new, judged))
-    return _checked(evaluate, designs, judged)
+    def keep(self, designs: Real, values: Real) -> None:
+        """Append designs (n, d) and values (n, m + c) to the record."""
+        if self._record is not None:
+            self._record.append((designs.copy(), values.copy()))
+            self.recorded += len(designs)
 
-
-def _checked(evaluate: Callable[[Real], ArrayLike], designs: Real, problem: Judged) -> Real:
-    # Copies: a user's evaluation may change its argument and reuse its result.
-    values = checks.reals("evaluate must return", evaluate(designs.copy()))
-    expected = (designs.shape[0], len(problem.objectives) + len(problem.constraints))
-    if values.shape != expected:
-        raise ValueError(f"evaluate must return shape {expected} for designs {designs.shape}, got {values.shape}")
-    if not (np.abs(values) < WORST).all():
-        fails = ~(np.abs(values) < WORST).all(axis=1)
-        first = int(fails.argmax())
-        problem.fail("evaluate", int(fails.sum()), designs[first], values[first])
-        values[fails] = WORST
-    return values
-
-
-def compare_kernel(design: Real, found: Real, problem: Judged) -> None:
-    """Raise ValueError unless the problem gives what a kernel found for a design (d,), values (m + c,)."""
-    expected = evaluate_checked(problem.reference, design[np.newaxis], problem)[0]
-    agree = np.abs(found - expected) <= AGREEMENT * np.maximum(np.abs(expected).max(), 1e-300)
-    if (found < WORST).all() and not agree.all():
-        got = f"{found.tolist()} for design {problem.decode(design[np.newaxis])[0].tolist()}"
-        raise ValueError(f"kernel must return what evaluate does, {expected.tolist()}, got {got}")
+    def record(self) -> tuple[Real, Real]:
+        """Return the designs (k, d) and values (k, m + c) of the record, NaN of failures."""
+        designs, values = map(np.concatenate, zip(*self._record or [], strict=True))
+        return designs, without_worst(values)

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from .. import checks
 from ..quantities import Integer, Real
 from .constraints import any_feasible, constrained, ideal_with, violations
-from .evaluation import evaluate_checked
+from .evaluation import SearchProblem
 from .kinds import box
 from .operators import sample_uniform
 from .population import Generational, State
@@ -89,36 +89,36 @@ class Gamultiobj(Generational):
         return toolbox
 
     def search(
-        self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
+        self, problem: SearchProblem, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
     ) -> Iterator[State]:
         """Yield the state after the start and after each iteration, without end; with a `state` go on after it."""
         size, m = self.population, len(problem.objectives)
         crossed = round(self.crossover_fraction * size)
-        if state is None:
-            designs = np.array(toolbox.sample(rng, size), dtype=float)
-            values = evaluate_checked(toolbox.evaluate, designs, problem)
-            ideal, evaluations, step = ideal_with(np.full(m, np.inf), values, False), len(designs), 1.0
-            kept, rank, crowding = toolbox.select(constrained(values, m), size)
-            designs, values = designs[kept], values[kept]
-            yield State.of(designs, values, ideal, evaluations, rank=rank, crowding=crowding, step=step)
-        else:
-            designs, values, ideal, evaluations = state.designs, state.values, state.ideal, state.evaluations
-            rank, crowding = state.memory["rank"], state.memory["crowding"]
-            step = float(state.memory["step"])
+        state = state or problem.before_the_start()
+        designs, values, ideal, evaluations = state.arrays()
+        rank, crowding = state.memory.get("rank"), state.memory.get("crowding")
+        step = float(state.memory["step"]) if state.memory else None
         while True:
-            parents = designs[toolbox.tournament(rng, rank, crowding, 2 * crossed + size - crossed)]
-            pairs, alone = parents[: 2 * crossed], parents[2 * crossed :]
-            children = np.concatenate([toolbox.mate(rng, pairs), toolbox.mutate(rng, alone, step)])
-            born = evaluate_checked(toolbox.evaluate, children, problem)
-            ideal, evaluations = ideal_with(ideal, born, any_feasible(values, m)), evaluations + size
+            if step is None:
+                children = np.array(toolbox.sample(rng, size), dtype=float)
+            else:
+                parents = designs[toolbox.tournament(rng, rank, crowding, 2 * crossed + size - crossed)]
+                pairs, alone = parents[: 2 * crossed], parents[2 * crossed :]
+                children = np.concatenate([toolbox.mate(rng, pairs), toolbox.mutate(rng, alone, step)])
+            born = problem.values(toolbox.evaluate, children)
+            ideal, evaluations = ideal_with(ideal, born, any_feasible(values, m)), evaluations + len(children)
             designs, values = np.concatenate([designs, children]), np.concatenate([values, born])
             pool = contenders(values, m, size)
             kept, rank, crowding = toolbox.select(constrained(values[pool], m), size)
-            kept = pool[kept]
-            survived = np.count_nonzero(kept >= size + crossed) / max(1, size - crossed)
-            step = min(1.0, 2 * step) if survived > _SUCCESS else step / 2
-            designs, values = designs[kept], values[kept]
+            step = 1.0 if step is None else self._next_step(step, pool[kept])
+            designs, values = designs[pool[kept]], values[pool[kept]]
             yield State.of(designs, values, ideal, evaluations, rank=rank, crowding=crowding, step=step)
+
+    def _next_step(self, step: float, kept: Integer) -> float:
+        """Return the step after an iteration with survivors `kept` (N,) of parents, crossed children, mutants."""
+        mutants = self.population + round(self.crossover_fraction * self.population)
+        survived = np.count_nonzero(kept >= mutants) / max(1, 2 * self.population - mutants)
+        return min(1.0, 2 * step) if survived > _SUCCESS else step / 2
 
 
 def ranked_tournament(rng: np.random.Generator, rank: NDArray[np.int32], crowding: Real, size: int) -> Integer:

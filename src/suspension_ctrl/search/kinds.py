@@ -1,25 +1,22 @@
 """Kinds of variables: whole numbers, catalogues, logarithms and held values behind the real box of a search.
 
-A search works on codes (e,) in a box, `Coded` turns them into designs (d,). Codes of whole numbers, and of places
+A search works on codes (e,) in a box, `Coding` turns them into designs (d,). Codes of whole numbers, and of places
 in a catalogue, are rounded: half a unit beyond the ends makes all equally likely. The code of a logarithmic
 variable is its logarithm; a held variable has none.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from math import exp
-from operator import lt
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .. import checks
 from ..compiled import call, call_compiled, compilable, verb_of
 from ..quantities import Integer, Real
+from .problem import Kernel, Minimisable
 
-if TYPE_CHECKING:
-    from .problem import Minimisable
-
-HELD, REAL, LOGARITHM, WHOLE, LISTED = range(5)  # those from WHOLE on are discrete
+HELD, REAL, LOGARITHM, WHOLE, LISTED = range(5)  # discrete from WHOLE on
 _FORMS = {"log": LOGARITHM, "integer": WHOLE}
 
 
@@ -66,35 +63,28 @@ class DecodedKernel(NamedTuple):
         return value
 
 
-class Coded:
-    """A problem in one search on codes; it remembers the values of designs whose variables are all discrete.
+class Coding:
+    """Codes of the designs of a problem, and their box; codes are the designs if all variables are real."""
 
-    `evaluate` takes designs as in the user's problem, `kernel` takes a code.
-    """
-
-    def __init__(self, problem: "Minimisable") -> None:
-        self.evaluate, self.objectives, self.constraints = (
-            problem.evaluate,
-            problem.objectives,
-            problem.constraints,
-        )
-        names = getattr(problem, "variables", ()) or [f"x{i + 1}" for i in range(len(problem.lower))]
-        kinds = getattr(problem, "kinds", {})
-        self.variables = tuple(names)
-        self.decoding = _decoding([kinds.get(name, "") for name in names], problem.lower, problem.upper)
+    def __init__(self, problem: Minimisable) -> None:
+        self.variables = problem.variables
+        kinds = [problem.kinds.get(name, "") for name in self.variables]
+        self.decoding = _decoding(kinds, problem.lower, problem.upper)
         form, low, high, _ = self.decoding
+        self.plain = bool((form == REAL).all())
         half = np.where(form >= WHOLE, 0.5, 0.0)
         with np.errstate(invalid="ignore", divide="ignore"):  # of variables without a logarithm
             low, high = (np.where(form == LOGARITHM, np.log(bound), bound) for bound in (low, high))
         self.lower, self.upper = (low - half)[form != HELD], (high + half)[form != HELD]
-        self.kernel = None if problem.kernel is None else DecodedKernel(self.decoding, verb_of(problem.kernel))
-        self.repeats = 0  # designs with known values
-        self._known: dict[bytes, Real] | None = {} if (form[form != HELD] >= WHOLE).all() else None
+        self.discrete = form[form != HELD] >= WHOLE
+
+    def kernel(self, kernel: Kernel) -> Kernel:
+        """Return a kernel of codes."""
+        return kernel if self.plain else DecodedKernel(self.decoding, verb_of(kernel))
 
     def decode(self, codes: Real) -> Real:
         """Return the designs (n, d) of codes (n, e)."""
-        designs: Real = call_compiled(self.decoding, np.ascontiguousarray(codes))
-        return designs
+        return codes if self.plain else np.asarray(call_compiled(self.decoding, np.ascontiguousarray(codes)))
 
     def encode(self, name: str, designs: Real) -> Real:
         """Return codes (n, e) of designs (n, d) called `name`; ValueError for a value without one."""
@@ -104,7 +94,8 @@ class Coded:
             values = catalogue[int(low[v]) : int(high[v]) + 1]
             codes[:, v] = low[v] + np.searchsorted(values, designs[:, v])
         codes[:, form == LOGARITHM] = np.log(designs[:, form == LOGARITHM])
-        codes = np.clip(codes[:, form != HELD], self.lower, self.upper)
+        if not self.plain:
+            codes = np.clip(codes[:, form != HELD], self.lower, self.upper)
         other = (self.decode(codes) != designs) & ((form >= WHOLE) | (form == HELD))
         if other.any():
             row, v = np.argwhere(other)[0].tolist()
@@ -113,29 +104,25 @@ class Coded:
             raise ValueError(f"{name} must have {allowed} in {self.variables[v]}, got {designs[row, v]}")
         return codes
 
-    def values(self, codes: Real, evaluate: Callable[[Real], Real]) -> Real:
-        """Return the values (n, m + c) of codes (n, e); `evaluate` gives those that are not known, by designs."""
-        designs = self.decode(codes)
-        if self._known is None:
-            return evaluate(designs)
-        keys = [row.tobytes() for row in designs]
-        new = {key: i for i, key in enumerate(keys) if key not in self._known}
-        if new:
-            self._known.update(zip(new, evaluate(designs[list(new.values())]), strict=True))
-        self.repeats += len(keys) - len(new)
-        return np.array([self._known[key] for key in keys])
+    def grid_axes(self, points: int) -> list[Real]:
+        """Return up to `points` codes of each variable, evenly spread and each of another value."""
+        half = np.where(self.discrete, 0.5, 0.0)
+        sizes = np.where(self.discrete, np.minimum(self.upper - self.lower, points), points).astype(int)
+        axes = map(np.linspace, self.lower + half, self.upper - half, sizes)
+        return [np.rint(axis) if whole else axis for axis, whole in zip(axes, self.discrete, strict=True)]
 
 
-def _decoding(kinds: Sequence[str | tuple[float, ...]], lower: Sequence[float], upper: Sequence[float]) -> Decode:
+def _decoding(kinds: Sequence[str | Sequence[float]], lower: Sequence[float], upper: Sequence[float]) -> Decode:
     """Return the decoding of variables of checked kinds, ``""`` for real ones, within their bounds."""
     rows: list[tuple[int, float, float]] = []
     catalogue: list[float] = []
-    for kind, low, high in zip(kinds, lower, upper, strict=True):
+    for given, low, high in zip(kinds, lower, upper, strict=True):
+        kind = given if isinstance(given, str) else tuple(given)
         first, last = checks.kind_ends(kind, low, high)
         form = _FORMS.get(kind, REAL) if isinstance(kind, str) else LISTED
         if first == last:
             form = HELD
-        elif isinstance(kind, tuple):
+        elif not isinstance(kind, str):
             first, last = len(catalogue), len(catalogue) + len(kind) - 1
             catalogue += kind
         rows.append((form, first, last))
@@ -143,32 +130,7 @@ def _decoding(kinds: Sequence[str | tuple[float, ...]], lower: Sequence[float], 
     return Decode(forms, ends[0].copy(), ends[1].copy(), np.array(catalogue, dtype=float))
 
 
-def coded(problem: "Minimisable") -> "Minimisable":
-    """Return a problem for one search: on codes where a variable has a kind or is held, itself otherwise."""
-    plain = not getattr(problem, "kinds", None) and all(map(lt, problem.lower, problem.upper))
-    return problem if plain or isinstance(problem, Coded) else Coded(problem)
-
-
-def box(problem: "Minimisable") -> tuple[Real, Real]:
-    """Return the bounds (e,) of the codes of a problem, of its designs if it has none."""
-    problem = coded(problem)
-    return np.asarray(problem.lower, dtype=float), np.asarray(problem.upper, dtype=float)
-
-
-def decoded(problem: "Minimisable", codes: Real) -> Real:
-    """Return the designs (n, d) of codes (n, e) of a search on a problem, themselves if it has none."""
-    return problem.decode(codes) if isinstance(problem, Coded) else codes
-
-
-def grid_axes(problem: "Minimisable", points: int) -> list[Real]:
-    """Return up to `points` codes of each variable, evenly spread and each of another value."""
-    searched = coded(problem)
-    lower, upper = box(searched)
-    discrete = np.zeros(lower.size, dtype=bool)
-    if isinstance(searched, Coded):
-        form = searched.decoding.form
-        discrete = form[form != HELD] >= WHOLE
-    half = np.where(discrete, 0.5, 0.0)
-    sizes = np.where(discrete, np.minimum(upper - lower, points), points).astype(int)
-    axes = map(np.linspace, lower + half, upper - half, sizes)
-    return [np.rint(axis) if whole else axis for axis, whole in zip(axes, discrete, strict=True)]
+def box(problem: Minimisable) -> tuple[Real, Real]:
+    """Return the bounds (e,) of the codes of a problem."""
+    coding = Coding(problem)
+    return coding.lower, coding.upper

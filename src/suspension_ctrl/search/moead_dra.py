@@ -12,7 +12,7 @@ from ..compiled import call_compiled
 from ..quantities import Real
 from . import decomposition, operators
 from .constraints import constrained, ideal_with
-from .evaluation import evaluate_checked
+from .evaluation import SearchProblem
 from .kinds import box
 from .population import State
 from .problem import Minimisable
@@ -131,7 +131,7 @@ class MoeadDra:
         n = self.population
         return max(2, n // 100) if self.replacement_limit is None else max(1, int(self.replacement_limit * n))
 
-    def evaluations_per_iteration(self, objectives: int) -> int:
+    def evaluations_per_iteration(self, objectives: int, /) -> int:
         """Return the number of evaluations in an iteration; ValueError if the corners alone are more."""
         if self.population < 5 * objectives:
             needed = f">= {5 * objectives} for {objectives} objectives"
@@ -159,7 +159,7 @@ class MoeadDra:
         return toolbox
 
     def search(
-        self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
+        self, problem: SearchProblem, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
     ) -> Iterator[State]:
         """Yield the state after the start and after each iteration, without end (Figure 4 of the paper).
 
@@ -172,7 +172,7 @@ class MoeadDra:
         neighbours = decomposition.neighbourhoods(size, m, self.neighbours)
         if state is None:
             designs = np.array(toolbox.sample(rng, size), dtype=float)
-            values = evaluate_checked(toolbox.evaluate, designs, problem)
+            values = problem.values(toolbox.evaluate, designs)
             ideal, evaluations = ideal_with(np.full(m, np.inf), values, False), len(designs)
             if evaluations > size:
                 kept, _ = select_survivors(constrained(values, m), size)
@@ -180,9 +180,9 @@ class MoeadDra:
             utility, before, iteration = np.ones(size), values.copy(), 0
             yield State.of(designs, values, ideal, evaluations, utility=utility, before=before, iteration=0)
         else:
-            designs, values, ideal = state.designs.copy(), state.values.copy(), state.ideal.copy()
+            designs, values, ideal, evaluations = state.arrays()
             utility, before = state.memory["utility"], state.memory["before"]
-            iteration, evaluations = int(state.memory["iteration"]), state.evaluations
+            iteration = int(state.memory["iteration"])
         population = Decomposed(designs, values, ideal, weights, neighbours)
         while True:
             iteration += 1

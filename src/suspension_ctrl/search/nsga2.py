@@ -10,7 +10,7 @@ from deap.base import Toolbox
 from .. import checks
 from .constraints import any_feasible, constrained, ideal_with
 from .deap_adapter import select_with_deap
-from .evaluation import evaluate_checked
+from .evaluation import SearchProblem
 from .kinds import box
 from .operators import crowded_tournament, polynomial_mutation, sample_uniform, simulated_binary_crossover
 from .population import Generational, State
@@ -98,27 +98,23 @@ class Nsga2(Generational):
         return toolbox
 
     def search(
-        self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
+        self, problem: SearchProblem, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
     ) -> Iterator[State]:
         """Yield the state after the start and after each iteration, without end (Figure 3 of the paper).
 
         With a `state` go on after it.
         """
         size, m = self.population, len(problem.objectives)
-        if state is None:
-            designs = np.array(toolbox.sample(rng, size), dtype=float)
-            values = evaluate_checked(toolbox.evaluate, designs, problem)
-            ideal, evaluations = ideal_with(np.full(m, np.inf), values, False), len(designs)
-            kept, crowding = toolbox.select(constrained(values, m), size)
-            designs, values = designs.take(kept, axis=0), values.take(kept, axis=0)
-            yield State.of(designs, values, ideal, evaluations, crowding=crowding)
-        else:
-            designs, values, ideal, evaluations = state.designs, state.values, state.ideal, state.evaluations
-            crowding = state.memory["crowding"]
+        state = state or problem.before_the_start()
+        designs, values, ideal, evaluations = state.arrays()
+        crowding = state.memory.get("crowding")
         while True:
-            parents = toolbox.tournament(rng, constrained(values, m), crowding, size)
-            children = toolbox.mutate(rng, toolbox.mate(rng, designs.take(parents, axis=0)))
-            born = evaluate_checked(toolbox.evaluate, children, problem)
+            if crowding is None:
+                children = np.array(toolbox.sample(rng, size), dtype=float)
+            else:
+                parents = toolbox.tournament(rng, constrained(values, m), crowding, size)
+                children = toolbox.mutate(rng, toolbox.mate(rng, designs.take(parents, axis=0)))
+            born = problem.values(toolbox.evaluate, children)
             ideal, evaluations = ideal_with(ideal, born, any_feasible(values, m)), evaluations + len(children)
             designs, values = np.concatenate([designs, children]), np.concatenate([values, born])
             kept, crowding = toolbox.select(constrained(values, m), size)

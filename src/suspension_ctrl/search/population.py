@@ -93,7 +93,7 @@ class Generational:
 
     population: int
 
-    def evaluations_per_iteration(self, objectives: int) -> int:  # noqa: ARG002
+    def evaluations_per_iteration(self, _objectives: int, /) -> int:
         """Return the number of evaluations in an iteration."""
         return self.population
 
@@ -116,7 +116,7 @@ class State(Population):
             memory=FrozenMapping({name: np.array(value) for name, value in memory.items()}),
         )  # fmt: skip
 
-    @property
-    def values(self) -> Real:
-        """Objectives and constraints (n, m + c)."""
-        return np.hstack([self.objectives, self.constraints])
+    def arrays(self) -> tuple[Real, Real, Real, int]:
+        """Return copies of designs (n, d), values (n, m + c) and ideal point (m,), and the evaluations."""
+        values = np.hstack([self.objectives, self.constraints])
+        return self.designs.copy(), values, self.ideal.copy(), self.evaluations

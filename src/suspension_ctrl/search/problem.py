@@ -15,7 +15,7 @@ Kernel = tuple[Any, ...]
 
 
 class Minimisable(Protocol):
-    """The part of `Problem` and `RideProblem` for optimisers."""
+    """The interface of `Problem` and `RideProblem`."""
 
     @property
     def lower(self) -> Sequence[float]:
@@ -34,24 +34,24 @@ class Minimisable(Protocol):
         """Constraints (c,), whose texts are their names."""
 
     @property
-    def kernel(self) -> Kernel | None:
-        """Compiled function from a design (d,) to its values (m + c,), if any."""
-
-    @property
-    def evaluate(self) -> Callable[[Real], Real]:
-        """Function from designs (n, d) to values (n, m + c), objectives, then constraints."""
-
-
-class Described(Minimisable, Protocol):
-    """A problem with names of variables and units for the headers of tables."""
-
-    @property
     def variables(self) -> Sequence[str]:
         """Names of the variables (d,)."""
 
     @property
     def units(self) -> Mapping[str, str]:
         """Unit of a variable or an objective by name."""
+
+    @property
+    def kinds(self) -> Mapping[str, str | Sequence[float]]:
+        """Kind of a variable by name."""
+
+    @property
+    def kernel(self) -> Kernel | None:
+        """Compiled function from a design (d,) to its values (m + c,), if any."""
+
+    @property
+    def evaluate(self) -> Callable[[Real], Real]:
+        """Function from designs (n, d) to values (n, m + c), objectives, then constraints."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -166,8 +166,5 @@ def _is_kernel(kernel: Any) -> bool:
 
 
 def headers_of(problem: Minimisable) -> tuple[str, ...]:
-    """Return the names of variables and objectives with their units, () for a problem without."""
-    names = [*getattr(problem, "variables", ()), *problem.objectives]
-    if len(names) < len(problem.lower) + len(problem.objectives):
-        return ()
-    return tuple(column_headers(names, getattr(problem, "units", {})))
+    """Return the names of variables and objectives (d + m,) with their units."""
+    return tuple(column_headers([*problem.variables, *problem.objectives], problem.units))

@@ -16,6 +16,8 @@ from .problem import Minimisable
 if TYPE_CHECKING:
     import pandas as pd
 
+    from .evaluation import SearchProblem
+
 
 class Optimiser(Protocol):
     """Settings of an algorithm, the toolbox of its verbs, and the search made of them."""
@@ -28,14 +30,14 @@ class Optimiser(Protocol):
     def phases(self) -> tuple[str, ...]:
         """Timed verbs of the toolbox."""
 
-    def evaluations_per_iteration(self, objectives: int) -> int:
+    def evaluations_per_iteration(self, objectives: int, /) -> int:
         """Return how many designs an iteration evaluates."""
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
         """Return the verbs of the algorithm for `problem`."""
 
     def search(
-        self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
+        self, problem: "SearchProblem", toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
     ) -> Iterator[State]:
         """Yield the state after the start and after each iteration, without end; with a `state` go on after it."""
 

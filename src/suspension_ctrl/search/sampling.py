@@ -11,9 +11,9 @@ from deap.base import Toolbox
 from .. import checks
 from ..quantities import Real
 from .constraints import any_feasible, constrained, ideal_with
-from .evaluation import evaluate_checked
+from .evaluation import SearchProblem
 from .indicators import non_dominated
-from .kinds import box
+from .kinds import Coding
 from .population import Generational, State
 from .problem import Minimisable
 
@@ -84,28 +84,25 @@ class Sampling(Generational):
     def toolbox(self, problem: Minimisable) -> Toolbox:
         """Return the verbs of the sample, with these settings, for `problem`."""
         toolbox = Toolbox()
-        toolbox.register("points", _POINTS[self.points], variables=box(problem)[0].size)
+        toolbox.register("points", _POINTS[self.points], variables=Coding(problem).lower.size)
         toolbox.register("evaluate", problem.evaluate)
         toolbox.register("filter", non_dominated)
         return toolbox
 
     def search(
-        self, problem: Minimisable, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
+        self, problem: SearchProblem, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
     ) -> Iterator[State]:
         """Yield the state after the start and after each iteration, without end; with a `state` go on after it."""
-        lower, upper = box(problem)
-        m, c = len(problem.objectives), len(problem.constraints)
-        kept, values = np.empty((0, lower.size)), np.empty((0, m + c))
-        ideal, evaluations = np.full(m, np.inf), 0
+        m, size = len(problem.objectives), self.population
         if state is not None:
-            kept, values, ideal, evaluations = state.designs, state.values, state.ideal, state.evaluations
             seeds: Any = rng.bit_generator.seed_seq
-            rng = np.random.default_rng(seeds)  # a sequence is made anew and passed over
-        for unit in islice(toolbox.points(rng, self.population), evaluations // self.population, None):
-            designs = lower + (upper - lower) * unit
-            found = evaluate_checked(toolbox.evaluate, designs, problem)
-            ideal, evaluations = ideal_with(ideal, found, any_feasible(values, m)), evaluations + len(designs)
-            kept, values = np.concatenate([kept, designs]), np.concatenate([values, found])
+            rng = np.random.default_rng(seeds)  # a sequence begins anew and skips known parts
+        designs, values, ideal, evaluations = (state or problem.before_the_start()).arrays()
+        for unit in islice(toolbox.points(rng, size), evaluations // size, None):
+            drawn = problem.lower + (problem.upper - problem.lower) * unit
+            found = problem.values(toolbox.evaluate, drawn)
+            ideal, evaluations = ideal_with(ideal, found, any_feasible(values, m)), evaluations + size
+            designs, values = np.concatenate([designs, drawn]), np.concatenate([values, found])
             best = toolbox.filter(constrained(values, m))
-            kept, values = kept[best], values[best]
-            yield State.of(kept, values, ideal, evaluations)
+            designs, values = designs[best], values[best]
+            yield State.of(designs, values, ideal, evaluations)

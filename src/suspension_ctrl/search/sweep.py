@@ -14,9 +14,7 @@ from ..compiled import call, call_compiled, compilable, compiled, storable, verb
 from ..quantities import Integer, Real
 from .clock import untimed
 from .constraints import feasible_objectives
-from .evaluation import WORST, Judged, compare_kernel, evaluate_checked
-from .population import State
-from .problem import Minimisable
+from .evaluation import WORST, SearchProblem
 
 
 class Decomposed(NamedTuple):
@@ -27,10 +25,6 @@ class Decomposed(NamedTuple):
     ideal: Real  # (m,) least value seen of each objective, of feasible designs once there is one
     weights: Real  # (N, m) weight vectors over the spans of the objectives
     neighbours: Integer  # (N, T) nearest subproblems of each, itself first
-
-    def state(self, evaluations: int) -> State:
-        """Return a copy of the population after so many evaluations."""
-        return State.of(self.designs, self.values, self.ideal, evaluations)
 
     def span(self) -> Real:
         """Return the span (m,) from ideal point to worst feasible design (any, if none), 1 where it is zero."""
@@ -45,32 +39,27 @@ class Decomposed(NamedTuple):
 
 
 def sweep_sequential(
-    rng: np.random.Generator, chosen: Integer, population: Decomposed, toolbox: Toolbox, problem: Minimisable
+    rng: np.random.Generator, chosen: Integer, population: Decomposed, toolbox: Toolbox, problem: SearchProblem
 ) -> None:
     """Work on the chosen subproblems in order, each child after the replacements of the one before.
 
     Runs compiled if every verb is compiled and the problem has a kernel, otherwise in Python with the same draws.
     A kernel is compared with `evaluate` after the first sweep.
     """
-    judged = Judged.of(problem)
-    judged.sweep = function, ours, verbs = judged.sweep or swept_by(toolbox, judged)
-    box = np.array([problem.lower, problem.upper], dtype=float)
-    failed, first = np.zeros(1 + box.shape[1]), np.zeros(box.shape[1] + population.values.shape[1])
+    problem.sweep = function, ours, verbs = problem.sweep or swept_by(toolbox, problem)
+    box = np.array([problem.lower, problem.upper])
+    children, born = np.empty((chosen.size, box.shape[1])), np.empty((chosen.size, population.values.shape[1]))
     try:
-        mark = function(rng, chosen, population, None if ours else box, judged.strict, failed, first, *verbs)
+        made = function(rng, chosen, population, None if ours else box, problem.strict, children, born, *verbs)
     except NumbaError as error:
         raise ValueError(f"verbs must compile together, got {str(error).splitlines()[0]}") from None
-    if mark:
-        raise ValueError(_FAULTS[mark])
-    if failed[0]:
-        judged.fail("kernel", int(failed[0]), judged.decode(failed[np.newaxis, 1:])[0])
-    if function is not work_on and not judged.compared:
-        judged.compared = True
-        child, found = np.split(first, [box.shape[1]])
-        compare_kernel(child, found, judged)
+    if made < 0:
+        raise ValueError(_FAULTS[made])
+    if function is not work_on:
+        problem.take(children[:made], born[:made])
 
 
-def swept_by(toolbox: Toolbox, problem: Judged) -> tuple[Callable[..., int], bool, list[Any]]:
+def swept_by(toolbox: Toolbox, problem: SearchProblem) -> tuple[Callable[..., int], bool, list[Any]]:
     """Return the function of a search's sweeps, whether all its verbs are of this package, and these verbs."""
     verbs = [compiled_verb(untimed(getattr(toolbox, name))) for name in VERBS]
     verbs.append(compiled_evaluation(toolbox, problem))
@@ -78,12 +67,12 @@ def swept_by(toolbox: Toolbox, problem: Judged) -> tuple[Callable[..., int], boo
         ours = all(map(storable, verbs))
         return (_STORED if ours else _FRESH), ours, verbs
     verbs = [getattr(toolbox, name) for name in VERBS]
-    verbs.append(lambda child: evaluate_checked(toolbox.evaluate, child[np.newaxis], problem)[0])
+    verbs.append(lambda child: problem.values(toolbox.evaluate, child[np.newaxis])[0])
     return work_on, False, verbs
 
 
 def sweep_batch(
-    rng: np.random.Generator, chosen: Integer, population: Decomposed, toolbox: Toolbox, problem: Minimisable
+    rng: np.random.Generator, chosen: Integer, population: Decomposed, toolbox: Toolbox, problem: SearchProblem
 ) -> None:
     """Make the children of all chosen subproblems, evaluate them in one call, replace in order."""
     designs, values, ideal, weights, neighbours = population
@@ -92,7 +81,7 @@ def sweep_batch(
     for row, (i, partners) in enumerate(zip(chosen, ranges, strict=True)):
         child = toolbox.reproduce(rng, designs, i, partners)
         children[row] = toolbox.mutate(rng, toolbox.repair(rng, child, designs[i]))
-    born = evaluate_checked(toolbox.evaluate, children, problem)
+    born = problem.values(toolbox.evaluate, children)
     for child, value, partners in zip(children, born, ranges, strict=True):
         toolbox.update(rng, child, value, partners, designs, values, weights, ideal)
 
@@ -116,8 +105,8 @@ def work_on(
     population: Decomposed,
     box: Real | None,
     strict: bool,
-    failed: Real,
-    first: Real,
+    children: Real,
+    born: Real,
     mating_range: Any,
     reproduce: Any,
     repair: Any,
@@ -125,15 +114,14 @@ def work_on(
     update: Any,
     evaluate: Any,
 ) -> int:
-    """Make, evaluate and place one child for each chosen subproblem, in order.
+    """Make, evaluate and place one child for each chosen subproblem, in order, and return their number.
 
-    Into `failed` (1 + d,) go the number of children that could not be evaluated, one at most if `strict`, and the
-    first of them; into `first` (d + m + c,) the first child and its values. Return 0, or a mark of `_FAULTS` for
-    a kernel, or verbs that leave the `box` (2, d), if there is one.
+    Fills `children` (k, e) and their values `born` (k, m + c). If `strict` it ends at the first that cannot be
+    evaluated. Returns a mark of `_FAULTS` for a kernel, or verbs that leave the `box` (2, e), if there is one.
     """
     designs, values, ideal, weights, neighbours = population
-    born = np.empty(values.shape[1])
-    for i in chosen:
+    for k in range(chosen.size):
+        i = chosen[k]
         partners = call(mating_range, (rng, i, neighbours))
         if box is not None and not all_below(partners, designs.shape[0]):  # numba leaves out what None rules out
             return -2
@@ -147,15 +135,14 @@ def work_on(
         if box is not None and place_of(child, box) < 0:
             return place_of(child, box)
         value = call(evaluate, (child,))
-        if value.size != born.size:
+        if value.size != born.shape[1]:
             return -1
-        good = all_finite(value, born)
-        if i == chosen[0]:
-            copy_into(first, child, born)
-        if not good and count_failure(failed, child) and strict:
-            return 0
-        call(update, (rng, child, born, partners, designs, values, weights, ideal))
-    return 0
+        for v in range(child.size):
+            children[k, v] = child[v]
+        if not all_finite(value, born[k]) and strict:
+            return k + 1
+        call(update, (rng, child, born[k], partners, designs, values, weights, ideal))
+    return int(chosen.size)
 
 
 @compiled(inline="always")
@@ -168,25 +155,6 @@ def all_finite(value: Real, born: Real) -> bool:
     for j in range(born.size):
         born[j] = born[j] if good else WORST
     return good
-
-
-@compiled(inline="always")
-def count_failure(failed: Real, child: Real) -> bool:
-    """Count a failure in `failed` (1 + d,) and return True; keep the child of the first one."""
-    if failed[0] == 0.0:
-        for v in range(child.size):
-            failed[1 + v] = child[v]
-    failed[0] += 1.0
-    return True
-
-
-@compiled(inline="always")
-def copy_into(first: Real, child: Real, born: Real) -> None:
-    """Copy a child (d,) and its values (m + c,) into one array."""
-    for v in range(child.size):
-        first[v] = child[v]
-    for j in range(born.size):
-        first[child.size + j] = born[j]
 
 
 @compilable()
@@ -225,7 +193,7 @@ def compiled_verb(verb: partial[Any]) -> Any:
     return verb_of((verb.func, tuple(verb.keywords[name] for name in trailing)))
 
 
-def compiled_evaluation(toolbox: Toolbox, problem: Minimisable) -> Any:
+def compiled_evaluation(toolbox: Toolbox, problem: SearchProblem) -> Any:
     """Return the problem's kernel, None if it has none or the toolbox evaluates in another way."""
     evaluate = untimed(toolbox.evaluate)
     own = evaluate.func == problem.evaluate and not evaluate.args and not evaluate.keywords

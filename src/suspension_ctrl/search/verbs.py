@@ -12,12 +12,12 @@ from numba.extending import is_jitted
 from .. import checks
 from ..compiled import call_compiled
 from ..quantities import Bool, Integer, Real
+from .evaluation import SearchProblem
 from .gamultiobj import intermediate_crossover, select_controlled
-from .problem import Minimisable
 from .sweep import VERBS, sweep_sequential
 
 
-def with_checked_verbs(toolbox: Toolbox, default: Toolbox, problem: Minimisable) -> Toolbox:
+def with_checked_verbs(toolbox: Toolbox, default: Toolbox, problem: SearchProblem) -> Toolbox:
     """Return a copy of a toolbox in which each verb that differs from the default one is checked at every call.
 
     Compiled verbs inside a sweep of MOEA/D-DRA stay as they are: it checks them.
@@ -47,7 +47,7 @@ def _same(verb: Any, own: Any) -> bool:
 
 
 def _call_checked(
-    name: str, verb: Any, own: Any, problem: Minimisable, /, *arguments: Any, **settings: Any
+    name: str, verb: Any, own: Any, problem: SearchProblem, /, *arguments: Any, **settings: Any
 ) -> Any:
     """Call a verb in place of the optimiser's own one and return its result as arrays."""
     found, subject, d = verb(*arguments, **settings), f"{name} must return", len(problem.lower)
@@ -79,7 +79,7 @@ def _call_checked(
     return found
 
 
-def _designs(subject: str, found: Any, shape: tuple[int, ...], problem: Minimisable) -> Real:
+def _designs(subject: str, found: Any, shape: tuple[int, ...], problem: SearchProblem) -> Real:
     designs = _numbers(subject, found, shape)
     checks.rows_within(f"designs of {subject.split()[0]}", np.atleast_2d(designs), problem.lower, problem.upper)
     return designs

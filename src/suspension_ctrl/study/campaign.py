@@ -1,4 +1,4 @@
-"""A comparison carried out in a folder, resumable: timed runs, their reference front, runs over many seeds."""
+"""A comparison in a results folder, resumable: timed runs, reference front, runs over many seeds."""
 
 import platform
 import warnings
@@ -14,7 +14,6 @@ from ..search.indicators import ReferenceFront
 from . import lock, machine, reference, timing
 from .comparison import Comparison
 from .store import FolderStore
-from .study import PlannedRun
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -24,29 +23,18 @@ if TYPE_CHECKING:
 class Campaign:
     """A comparison in a folder of finished runs; a stopped campaign resumes with the missing ones.
 
-    Parameters
-    ----------
-    comparison : Comparison
-    folder : Path
-    tolerance : float
-        Largest relative change of the reference hypervolume by a finer grid [-].
-    watch : callable
-        Passes runs through as they are made, from their iterator, their number and a text: a progress bar.
-
-    Raises
-    ------
-    BlockingIOError
-        If another process has a campaign in the folder.
+    It holds the folder: BlockingIOError if another process does. `watch` passes runs through as they are made,
+    from their iterator, their number and a text, like a progress bar.
     """
 
     comparison: Comparison
     folder: Path
-    tolerance: float = reference.TOLERANCE
+    tolerance: float = reference.TOLERANCE  # largest relative change of the reference hypervolume by a finer grid
     watch: Callable[[Iterator[Any], int, str], Iterator[Any]] = lambda runs, _total, _text: runs
     _lock: Any = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "_lock", lock.hold(self.folder))  # the folder is this process's from here on
+        object.__setattr__(self, "_lock", lock.hold(self.folder))
 
     def time(self) -> FolderStore:
         """Make the timed runs one after the other on one thread, after a warm-up, and return them."""
@@ -55,13 +43,9 @@ class Campaign:
         runs = len(self.comparison.timed_runs())
         with machine.single_thread(), warnings.catch_warnings():
             warnings.simplefilter("ignore", InfeasibleWarning)  # their table shows runs without a feasible design
-            for _ in self.watch(self._timed(store), runs, "timed runs"):
+            for _ in self.watch(timing.carry_out(self.comparison, store), runs, "timed runs"):
                 pass
         return store
-
-    def _timed(self, store: FolderStore) -> Iterator[PlannedRun]:
-        timing.warm_up(self.comparison)
-        yield from timing.carry_out(self.comparison, store)
 
     def reference(self, store: FolderStore, *, grid: bool) -> tuple[ReferenceFront, str]:
         """Return the front of a grid, kept in the folder, or of the best timed runs, and its origin in words."""
@@ -72,12 +56,11 @@ class Campaign:
                 kept["grid"] = reference.refined(problem, self.tolerance).stored()
             refined = reference.Refined.of(kept["grid"])
             return refined.front, refined.describe(problem)
-        runs = (store[run.name] for run in self.comparison.timed_runs())
-        found = [timing.feasible_objectives(problem, run) for run in runs]
-        return reference.best_known(found), "the non-dominated designs of all these runs"
+        finals = [timing.feasible_objectives(problem, store[run.name]) for run in self.comparison.timed_runs()]
+        return reference.best_known(finals), "the non-dominated designs of all these runs"
 
     def judge(self, front: ReferenceFront, client: "Client | None" = None) -> tuple[pd.DataFrame, FolderStore]:
-        """Make the runs over many seeds, here or on a cluster; return a row per run, budget and set, and them."""
+        """Make the runs over many seeds, here or on a cluster; return a row per run, budget and set, and the runs."""
         store = self._store("quality", "seeds", reference=reference.summary(front))
         parts = []
         for population, study in self.comparison.studies(front).items():
@@ -87,7 +70,7 @@ class Campaign:
         return pd.concat(parts, ignore_index=True).drop(columns="problem"), store
 
     def _store(self, name: str, *also: str, **plan: Any) -> FolderStore:
-        """Return the finished runs in a subfolder that belongs to these settings, values and versions."""
+        """Return the store of a subfolder for these settings, values and versions."""
         keys = ("populations", "iterations", "algorithms", "seed", *also)
         plan |= {key: getattr(self.comparison, key) for key in keys}
         problem = self.comparison.problem

@@ -11,7 +11,7 @@ from ..search.gamultiobj import Gamultiobj
 from ..search.indicators import ReferenceFront
 from ..search.moead_dra import MoeadDra
 from ..search.nsga2 import Nsga2
-from ..search.problem import Described
+from ..search.problem import Minimisable
 from ..search.run import Optimiser
 from ..search.sampling import Sampling
 from .study import PlannedRun, Study
@@ -39,28 +39,15 @@ def optimiser(algorithm: str, population: int) -> Optimiser:
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Comparison(Record):
-    """Every algorithm on one problem at every population and number of iterations.
+    """Every algorithm on one problem at every population and number of iterations."""
 
-    Parameters
-    ----------
-    problem : Problem or RideProblem
-    algorithms : sequence of str
-        Names in `ALGORITHMS`; the first is the baseline.
-    populations, iterations : sequence of int
-        The configurations.
-    repeats, seeds : int
-        Timed runs of each algorithm at each configuration, and judged runs at each population.
-    seed : int
-        Seed of the first run; later runs count up from it.
-    """
-
-    problem: Described
-    algorithms: Sequence[str]
+    problem: Minimisable
+    algorithms: Sequence[str]  # names in `ALGORITHMS`; the first is the baseline
     populations: Sequence[int]
     iterations: Sequence[int]
-    repeats: int = 1
-    seeds: int = 1
-    seed: int = 0
+    repeats: int = 1  # timed runs of each algorithm at each configuration
+    seeds: int = 1  # judged runs of each algorithm at each population
+    seed: int = 0  # of the first run; later ones count up from it
 
     def __post_init__(self) -> None:
         self._keep(**{name: tuple(getattr(self, name)) for name in ("algorithms", "populations", "iterations")})
@@ -75,11 +62,7 @@ class Comparison(Record):
         return {(name, n): optimiser(name, n).evaluations_per_iteration(m) for name, n in pairs}
 
     def timed_runs(self) -> list[PlannedRun]:
-        """Return the timed runs in their order, algorithms taking turns.
-
-        An algorithm that spends fewer evaluations than another in equal iterations runs once more with equal
-        evaluations, up to a part of an iteration.
-        """
+        """Return the timed runs in order, algorithms in turn: at equal iterations, then at equal evaluations."""
         runs = []
         for size, count, repeat in product(self.populations, self.iterations, range(1, self.repeats + 1)):
             for name, budget, evaluations in self._budgets_of(size, count):
@@ -91,7 +74,11 @@ class Comparison(Record):
         return runs
 
     def _budgets_of(self, population: int, count: int) -> Iterator[tuple[str, str, int]]:
-        """Yield algorithm, equal effort and evaluations of the runs at `count` iterations."""
+        """Yield algorithm, equal effort and evaluations of the runs at `count` iterations.
+
+        An algorithm with fewer evaluations than another has a second run at equal evaluations, up to a part of an
+        iteration.
+        """
         cost = {name: each for (name, n), each in self.cost().items() if n == population}
         most = population + count * max(cost.values())
         for name, each in cost.items():
@@ -101,7 +88,7 @@ class Comparison(Record):
                 yield name, EQUAL_EVALUATIONS, population + (most - population) // each * each
 
     def budgets(self, population: int) -> list[int]:
-        """Return the evaluations at which runs are judged: steps of N/5 to 5 N, then of N, and timed totals."""
+        """Return the evaluations at which runs are judged: steps of N/5 up to 5 N, then of N, and timed totals."""
         spent = {n for count in self.iterations for _, _, n in self._budgets_of(population, count)}
         fine = {population + k * (population // 5) for k in range(21)}
         coarse = set(range(population, max(spent), population))

@@ -13,10 +13,10 @@ SETS = {"final population": POPULATION, "archive cut to N": CUT_ARCHIVE}
 
 
 class Findings(NamedTuple):
-    """Tables of the runs that ended, and the verdict on the first two algorithms, a paragraph per set."""
+    """Tables of the finished runs, and the verdict on the first two algorithms, a paragraph per set."""
 
     course: pd.DataFrame  # a row per run, budget and set, from `lenses.with_seconds`
-    equal: pd.DataFrame  # those at equal iterations, evaluations and time, from `lenses.at_equal`
+    equal: pd.DataFrame  # rows at equal iterations, evaluations and time, from `lenses.at_equal`
     medians: pd.DataFrame  # a row per configuration, lens, set and algorithm
     differences: pd.DataFrame  # of every two algorithms, from `inference.pairwise`
     reached: pd.DataFrame  # evaluations and seconds to the target, from `lenses.to_reach`
@@ -24,10 +24,9 @@ class Findings(NamedTuple):
 
 
 def findings(comparison: Comparison, table: pd.DataFrame, clock: pd.DataFrame, target: float) -> Findings | None:
-    """Return the findings of judged runs, None if none of them ended.
+    """Return the findings of judged runs, None if all raised; `target` is a share of the hypervolume [-].
 
-    `table` is from `Study.table`, of all populations, `clock` from `timing.seconds_by_evaluations`; `target` is a
-    share of the reference front's hypervolume [-].
+    `table` is from `Study.table` of all populations, `clock` from `timing.seconds_by_evaluations`.
     """
     ended = table[table.error.eq("")].drop(columns="error")
     if ended.empty:
@@ -54,7 +53,7 @@ def _verdict(differences: pd.DataFrame, algorithms: Sequence[str]) -> list[str]:
 
 
 def last_rows(table: pd.DataFrame) -> pd.DataFrame:
-    """Return one row per run, its final population or its error, in the form of the table of timed runs."""
+    """Return a row per run, its final population or its error, with the columns of the table of timed runs."""
     ends = table[table.error.ne("") | table.set.eq(POPULATION)]
     last = ends.groupby(["population", "algorithm", "seed"], sort=False).tail(1)
     return last.drop(columns=["set", "members", "budget"]).assign(timing=False)

@@ -25,9 +25,9 @@ def at_equal(
 ) -> pd.DataFrame:
     """Return the last row of each run at equal iterations, evaluations and time, by ``lens`` and ``iterations``.
 
-    Evaluations are those of the algorithm that spends the most in that many iterations, time is that of the first
-    algorithm for them. A run that finished early keeps its final state. `quality` is from `with_seconds`, `cost`
-    holds the evaluations of an iteration by algorithm and population, the first algorithm first.
+    Equal evaluations are those of the algorithm with the most in that many iterations, equal time is that of the
+    first algorithm. A run that finished early keeps its final state. `quality` is from `with_seconds`, `cost` has
+    the evaluations of an iteration by algorithm and population, the first algorithm first.
     """
     (first, _), *_ = cost
     parts = []
@@ -46,10 +46,10 @@ def at_equal(
 
 
 def to_reach(quality: pd.DataFrame, target: float) -> pd.DataFrame:
-    """Return runs, those that reached a relative hypervolume of `target`, and the median effort up to it.
+    """Return runs, runs that reached a relative hypervolume of `target`, and the median effort up to it.
 
-    A row per population, set and algorithm. Other runs count as infinitely late: a median exists where more than
-    half of the runs reached the target.
+    A row per population, set and algorithm; the effort of a run without the target is infinite, a median of
+    infinity is NaN.
     """
     reached = quality[quality.relative_hypervolume >= target].groupby(RUN, sort=False).head(1)
     runs = quality[RUN].drop_duplicates().merge(reached[[*RUN, "evaluations", "seconds"]], on=RUN, how="left")

@@ -12,7 +12,7 @@ from .. import checks
 from ..quantities import Real
 from ..search.constraints import feasible_objectives
 from ..search.indicators import ReferenceFront, best_of
-from ..search.kinds import box, coded, decoded, grid_axes
+from ..search.kinds import Coding
 from ..search.problem import Minimisable
 from .store import StoredRun
 
@@ -47,7 +47,7 @@ class Refined(NamedTuple):
 
     def describe(self, problem: Minimisable) -> str:
         """Return the grid of a problem and its convergence in words."""
-        points = " x ".join(str(axis.size) for axis in grid_axes(problem, self.points))
+        points = " x ".join(str(axis.size) for axis in Coding(problem).grid_axes(self.points))
         return (
             f"the non-dominated designs of a {points} grid (hypervolume {self.front.volume:.4f}, which half as "
             f"many values change by {self.change:.1e} and a second grid by {self.second:.1e})"
@@ -60,8 +60,8 @@ def refined(problem: Minimisable, tolerance: float = TOLERANCE, most: int = MOST
     Half as many points and a second grid change its hypervolume by up to `tolerance`.
     """
     checks.positive("tolerance", tolerance)
-    points, before = FIRST, None
-    while points <= most >= prod(axis.size for axis in grid_axes(problem, points)):
+    points, before, coding = FIRST, None, Coding(problem)
+    while points <= most >= prod(axis.size for axis in coding.grid_axes(points)):
         objectives = grid_front(problem, points)
         if len(objectives) and np.ptp(objectives, axis=0).all():  # indicators divide by the ranges
             front = ReferenceFront.of(objectives)
@@ -75,22 +75,22 @@ def refined(problem: Minimisable, tolerance: float = TOLERANCE, most: int = MOST
     none = " (no front of feasible designs found)" if problem.constraints and before is None else ""
     raise ValueError(
         f"problem must have a front that a grid of {most} designs settles to {tolerance:g}, got one of "
-        f"{len(box(problem)[0])} variables that does not{none}; give a reference front"
+        f"{coding.lower.size} variables that does not{none}; give a reference front"
     )
 
 
 def grid_front(problem: Minimisable, points: int) -> Real:
     """Return the non-dominated feasible objectives (n, m) on a grid of `points` values per variable at most."""
     checks.at_least("points", points, 2)
-    searched = coded(problem)
-    axes = grid_axes(searched, points)
+    coding = Coding(problem)
+    axes = coding.grid_axes(points)
     shape = [axis.size for axis in axes]
     m, total = len(problem.objectives), prod(shape)
     front = np.empty((0, m))
     for start in range(0, total, _CHUNK):
         places = np.unravel_index(np.arange(start, min(start + _CHUNK, total)), shape)
         codes = np.stack([axis[place] for axis, place in zip(axes, places, strict=True)], axis=-1)
-        found = problem.evaluate(decoded(searched, codes))
+        found = problem.evaluate(coding.decode(codes))
         front = best_of(np.concatenate([front, best_of(feasible_objectives(found, m))]))
     return front
 
@@ -115,10 +115,9 @@ def summary(front: ReferenceFront) -> dict[str, Any]:
 
 def fingerprint(problem: Minimisable) -> str:
     """Return a digest of the values of 64 designs: a parameter or a line of code that changes them changes it."""
-    rng, searched = np.random.default_rng(0), coded(problem)
-    lower, upper = box(searched)
-    codes = lower + (upper - lower) * rng.random((64, lower.size))
-    return _digest(problem.evaluate(decoded(searched, codes)).tobytes())
+    rng, coding = np.random.default_rng(0), Coding(problem)
+    codes = coding.lower + (coding.upper - coding.lower) * rng.random((64, coding.lower.size))
+    return _digest(problem.evaluate(coding.decode(codes)).tobytes())
 
 
 def _digest(content: bytes) -> str:

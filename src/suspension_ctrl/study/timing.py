@@ -11,14 +11,14 @@ from ..search.constraints import InfeasibleWarning
 from ..search.driver import minimise
 from ..search.indicators import ReferenceFront, evenly_spread, non_dominated
 from ..search.moead_dra import MoeadDra
-from ..search.problem import Described
+from ..search.problem import Minimisable
 from .comparison import CONFIGURATION, EQUAL_ITERATIONS, Comparison, optimiser
 from .store import StoredRun
 from .study import PlannedRun
 
 
 def warm_up(comparison: Comparison) -> None:
-    """Make a short run of each algorithm at each population: timed runs then compile and tabulate nothing."""
+    """Make a short run of each algorithm at each population: compilation and tables are outside of timed runs."""
     for algorithm, population in comparison.cost():
         # DEAP's sort has nothing to compile and takes quadratic time.
         size = min(population, 50) if algorithm == "nsga2-standard-sort" else population
@@ -31,10 +31,11 @@ def warm_up(comparison: Comparison) -> None:
 
 
 def carry_out(comparison: Comparison, store: MutableMapping[str, StoredRun]) -> Iterator[PlannedRun]:
-    """Make the timed runs absent from `store` one after the other, and yield each once it is stored.
+    """Warm up, make the timed runs absent from `store` one after the other, and yield each once it is stored.
 
-    Of a larger final population as many designs are stored as the start has, spread evenly.
+    A larger final population is stored as an evenly spread subset of the size of the start.
     """
+    warm_up(comparison)
     for planned in comparison.timed_runs():
         if planned.name not in store:
             problem, evaluations = comparison.problem, planned.evaluations
@@ -44,18 +45,18 @@ def carry_out(comparison: Comparison, store: MutableMapping[str, StoredRun]) -> 
         yield planned
 
 
-def front(problem: Described, run: StoredRun) -> pd.DataFrame:
-    """Return the non-dominated rows among the feasible ones of a final population."""
+def front(problem: Minimisable, run: StoredRun) -> pd.DataFrame:
+    """Return the non-dominated feasible rows of a final population."""
     return run.feasible[non_dominated(feasible_objectives(problem, run))]
 
 
-def feasible_objectives(problem: Described, run: StoredRun) -> Real:
-    """Return the objectives (n, m) of the feasible designs in a final population."""
+def feasible_objectives(problem: Minimisable, run: StoredRun) -> Real:
+    """Return the objectives (n, m) of the feasible designs of a final population."""
     return run.feasible[column_headers(problem.objectives, problem.units)].to_numpy()
 
 
 def tidy(comparison: Comparison, store: Mapping[str, StoredRun], reference: ReferenceFront) -> pd.DataFrame:
-    """Return one row per timed run: its key, evaluations, seconds of `Run.history`, hypervolume and igd_plus."""
+    """Return a row per timed run: its key, evaluations, seconds of `Run.history`, hypervolume and igd_plus."""
     rows = []
     for planned in comparison.timed_runs():
         run = store[planned.name]
@@ -67,10 +68,7 @@ def tidy(comparison: Comparison, store: Mapping[str, StoredRun], reference: Refe
 
 
 def final_populations(comparison: Comparison, store: Mapping[str, StoredRun]) -> pd.DataFrame:
-    """Return the final populations of the first repeat at equal iterations, as Figure 5 shows them.
-
-    Columns: algorithm, population, iterations, then variables and objectives with their units.
-    """
+    """Return the final populations of Figure 5: first repeat, equal iterations, by algorithm and configuration."""
     first = {"repeat": 1, "budget": EQUAL_ITERATIONS}
     runs = [run for run in comparison.timed_runs() if first.items() <= run.key.items()]
     by = ["algorithm", *CONFIGURATION]
@@ -79,10 +77,7 @@ def final_populations(comparison: Comparison, store: Mapping[str, StoredRun]) ->
 
 
 def seconds_by_evaluations(comparison: Comparison, store: Mapping[str, StoredRun]) -> pd.DataFrame:
-    """Return each algorithm's median time to each number of evaluations, from its longest runs.
-
-    Columns: algorithm, population, evaluations, seconds.
-    """
+    """Return the median seconds to each number of evaluations by algorithm and population, of the longest runs."""
     by = ["algorithm", "population"]
     parts = []
     for run in comparison.timed_runs():

@@ -18,7 +18,7 @@ import numpy as np
 from .. import checks
 from ..checks import installed
 from ..quantities import Real
-from ..search.problem import Described, Problem
+from ..search.problem import Minimisable, Problem
 from .machine import PACKAGES
 
 if TYPE_CHECKING:
@@ -182,7 +182,7 @@ def cluster(jobs: int | None = None, scheduler: str | None = None) -> AbstractCo
     return nullcontext() if scheduler is None else scheduler_at(scheduler)
 
 
-def distributed(problem: Described, client: "Client", chunk: int = 16) -> Problem:
+def distributed(problem: Minimisable, client: "Client", chunk: int = 16) -> Problem:
     """Return a slow problem evaluated on a cluster, `chunk` designs at a time, without its kernel.
 
     MOEA/D-DRA should then make its children in batches (``update="batch"``).
@@ -193,6 +193,6 @@ def distributed(problem: Described, client: "Client", chunk: int = 16) -> Proble
         parts = [designs[start : start + chunk] for start in range(0, len(designs), chunk)]
         return np.concatenate(client.gather(client.map(problem.evaluate, parts, pure=False)))
 
-    same = {name: getattr(problem, name) for name in ("lower", "upper", "objectives", "variables", "units")}
-    constraints = tuple(map(str, problem.constraints))
-    return Problem(evaluate=evaluate, constraints=constraints, kinds=getattr(problem, "kinds", {}), **same)
+    names = ("lower", "upper", "objectives", "variables", "units", "kinds")
+    same = {name: getattr(problem, name) for name in names}
+    return Problem(evaluate=evaluate, constraints=tuple(map(str, problem.constraints)), **same)
