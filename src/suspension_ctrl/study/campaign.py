@@ -60,7 +60,7 @@ class Campaign:
         return reference.best_known(finals), "the non-dominated designs of all these runs"
 
     def judge(self, front: ReferenceFront, client: "Client | None" = None) -> tuple[pd.DataFrame, FolderStore]:
-        """Make the runs over many seeds, here or on a cluster; return a row per run, budget and set, and the runs."""
+        """Make the runs over many seeds, here or on a cluster; return their table (`Study.table`) and store."""
         store = self._store("quality", "seeds", reference=reference.summary(front))
         parts = []
         for population, study in self.comparison.studies(front).items():
