@@ -236,6 +236,26 @@ def test_a_problem_that_a_file_cannot_hold_is_refused_in_one_line(tmp_path, chan
     assert not (tmp_path / "f.toml").exists()
 
 
+@pytest.mark.parametrize(
+    ("save", "message"),
+    [
+        (
+            lambda path: save_vehicle(path, load_vehicle("minaker_half").vehicle),
+            "file must be a VehicleFile, got Half",
+        ),
+        (
+            lambda path: save_road(path, "C"),
+            "a file must hold one of power-law, two-slope, iso-8608, measured, got 'C'",
+        ),
+        (lambda path: save_problem(path, 3), "problem must be a RideProblem, got 3"),
+        (lambda path: VehicleFile(vehicle=3), "vehicle must be one of masses and links .*, got a int"),
+    ],
+)
+def test_other_objects_are_refused_in_one_line(tmp_path, save, message):
+    with pytest.raises(ValueError, match=rf"^{message}[^\n]*$"):
+        save(tmp_path / "f.toml")
+
+
 def test_a_vehicle_without_name_source_struts_and_bounds_is_read(tmp_path):
     path = tmp_path / "f.toml"
     path.write_text('kind = "quarter-car"\nbody_mass = "0.3 t"\nwheel_mass_kg = 40\ntyre_stiffness = "200 N/mm"\n')

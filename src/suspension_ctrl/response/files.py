@@ -155,6 +155,8 @@ def save_problem(path: str | PathLike[str], problem: RideProblem) -> None:
     >>> sc.load_problem("problem.toml") == problem
     True
     """
+    if not isinstance(problem, RideProblem):
+        raise ValueError(f"problem must be a RideProblem, got {checks.shown(problem)}")
     vehicle, bounds, weighting = problem.cases[0].vehicle, problem.bounds, cast(str, problem.weighting)
     order = [one.name for one in vehicle.parameters if one.name in bounds]
     if list(bounds) != order:

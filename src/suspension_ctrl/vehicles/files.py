@@ -18,7 +18,7 @@ from .assembly import StrutParameter
 from .cars import FullCar, HalfCar, QuarterCar
 from .handling import RollGeometry
 from .mounted import FlexibleBody, Mounted, Part, Payload, Seat
-from .vehicle import AssembledVehicle, Vehicle
+from .vehicle import AssembledVehicle, Vehicle, assembled
 
 KINDS: dict[str, type[AssembledVehicle]] = {"quarter-car": QuarterCar, "half-car": HalfCar, "full-car": FullCar}
 
@@ -55,6 +55,7 @@ class VehicleFile(Record):
     source: str = ""
 
     def __post_init__(self) -> None:
+        assembled(self.vehicle)
         self._keep(setting=FrozenMapping(self.setting), bounds=FrozenMapping(self.bounds))
 
 
@@ -133,6 +134,8 @@ def save_vehicle(path: str | PathLike[str], file: VehicleFile) -> None:
     damper_N_s_per_m = 1500
     <BLANKLINE>
     """
+    if not isinstance(file, VehicleFile):
+        raise ValueError(f"file must be a VehicleFile, got {checks.shown(file)}")
     text = toml(vehicle_table(file), file, lambda table: read_vehicle(table, Mistakes()))
     write_text(Path(path), text)
 
