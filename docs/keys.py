@@ -95,7 +95,7 @@ def rows(record: Any) -> Iterator[Row]:
     """Yield the keys of a dataclass, meanings from its docstring."""
     meanings = dict(parameters(record))
     for key in keys_of(record).values():
-        default = "" if key.required or key.default in (None, "", (), {}) else _shown(key.default)
+        default = "" if key.required or key.default in (None, "", (), {}) else _shown(key)
         yield Row(key.key, form(key), key.unit, "required" if key.required else default, meanings[key.name])
 
 
@@ -114,7 +114,10 @@ def parameters(record: Any) -> Iterator[tuple[str, str]]:
             yield name, " ".join(text.split())
 
 
-def _shown(default: Any) -> str:
+def _shown(key: Key) -> str:
+    default = key.default
+    if key.kinds:
+        return f'`kind = "{next(kind for kind, record in key.kinds.items() if isinstance(default, record))}"`'
     if isinstance(default, tuple):
         return f"[{', '.join(f'{one:g}' for one in default)}]"
     if isinstance(default, bool):
