@@ -269,4 +269,4 @@ def test_a_script_itself_ends_so(script, tmp_path):
     assert done.returncode == 2
     assert done.stdout == ""
     assert done.stderr.count("\n") == 1
-    assert "study.toml: constraints[1]: constraint must be like" in done.stderr
+    assert "study.toml:2: constraints[1]: constraint must be like" in done.stderr
