@@ -9,7 +9,7 @@ from scipy.integrate import quad
 
 from suspension_ctrl import Iso8608Road, QuarterCar, simulate, weighting
 from suspension_ctrl.response.histories import exposure, running_rms, weighted
-from suspension_ctrl.response.weightings import FILTERS
+from suspension_ctrl.response.weightings import filters
 
 DT = 1e-3
 
@@ -82,7 +82,7 @@ def test_running_rms_of_what_is_steady():
     )
 
 
-@pytest.mark.parametrize("name", FILTERS)
+@pytest.mark.parametrize("name", filters())
 def test_weighted_sine_has_the_filters_magnitude(name):
     """At the frequency that the bilinear transform gives; the start is over after 40 s (Wf: 400 s)."""
     slow = name == "Wf"

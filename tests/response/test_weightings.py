@@ -20,7 +20,7 @@ def printed(value: float) -> float:
     return float(f"{value:.4g}")
 
 
-@pytest.mark.parametrize("name", weightings.FILTERS)
+@pytest.mark.parametrize("name", weightings.filters())
 def test_filters_equal_the_standard_at_its_reference_frequency(name):
     omega, factor = REFERENCE[name]
     assert printed(abs(weighting(name)(1j * omega))) == factor

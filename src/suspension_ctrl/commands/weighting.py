@@ -18,7 +18,7 @@ def weighting(out: o.Out = None) -> None:
     from . import results
 
     f = weightings.BANDS
-    every = weightings.FILTERS + weightings.TABLES
+    every = weightings.filters() + weightings.TABLES
     factors = {f"{name} [-]": weightings.by_name(name).factor(f) for name in every}
     folder = results.results_folder(out)
     write_csv(folder / "figure2.csv", pd.DataFrame({"frequency [Hz]": f, **factors}))

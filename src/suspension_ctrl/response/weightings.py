@@ -82,7 +82,6 @@ Weighting = str | SystemWeighting
 BANDS = 10.0 ** (np.arange(-10, 21) / 10)
 """Exact frequencies of the table's one-third-octave bands [Hz]; its frequency column rounds them."""
 
-FILTERS = ("Wk", "Wd", "Wf", "Wc", "We", "Wj", "Wb")
 TABLES = ("Wk-table", "Wb-table")
 
 
@@ -91,15 +90,15 @@ def checked(weighting: Weighting | control.LTI | None) -> Weighting | None:
     if isinstance(weighting, control.LTI):
         return SystemWeighting.of(weighting)
     if weighting is not None and not isinstance(weighting, SystemWeighting):
-        checks.one_of("weighting", weighting, FILTERS + TABLES)
+        checks.one_of("weighting", weighting, filters() + TABLES)
     return weighting
 
 
 def by_name(weighting: Weighting) -> TabulatedWeighting | SystemWeighting:
-    """Return a weighting by its name, of `FILTERS` or `TABLES`, or by its system; ValueError for other names."""
+    """Return a weighting by its name, of `filters` or `TABLES`, or by its system; ValueError for other names."""
     if isinstance(weighting, SystemWeighting):
         return weighting
-    checks.one_of("weighting", weighting, FILTERS + TABLES)
+    checks.one_of("weighting", weighting, filters() + TABLES)
     return TabulatedWeighting(weighting) if weighting in TABLES else SystemWeighting.of(_filter(weighting))
 
 
@@ -132,22 +131,30 @@ def weighting(name: str) -> control.TransferFunction:
      8.0 Hz: 1.04
     16.0 Hz: 0.77
     """
-    checks.one_of("weighting", name, FILTERS)
+    checks.one_of("weighting", name, filters())
     return _filter(name).copy(name=name)
+
+
+def filters() -> tuple[str, ...]:
+    """Return the names of the filters."""
+    return tuple(_parameters())
 
 
 @lru_cache
 def _filter(name: str) -> control.TransferFunction:
-    p = _parameters(name)
+    p = _parameters()[name]
     filter_ = p["gain"] * _band_limits(p) * _transition(p) * _upward_step(p)
     filter_.update_names(name=name, inputs=["acceleration"], outputs=["weighted_acceleration"])
     return filter_
 
 
-def _parameters(name: str) -> dict[str, float]:
-    """Row of the standard's table: gain, quality factors and frequencies [Hz]; where it has none, NaN."""
-    row = next(r for r in datafiles.rows("standards/iso8041_parameters.csv") if r["weighting"] == name)
-    return {key: float(row[key] or "nan") for key in row if key not in ("weighting", "use")}
+@lru_cache
+def _parameters() -> dict[str, dict[str, float]]:
+    """Rows of the standard's table by name: gain, quality factors, frequencies [Hz]; NaN for an empty cell."""
+    return {
+        row["weighting"]: {key: float(row[key] or "nan") for key in row if key not in ("weighting", "use")}
+        for row in datafiles.rows("standards/iso8041_parameters.csv")
+    }
 
 
 def _band_limits(p: dict[str, float]) -> control.TransferFunction:
