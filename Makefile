@@ -2,6 +2,7 @@
 # make test      the same set-up, all tests
 # make bench     speed beside other libraries, which it installs; writes docs/performance.md (ARGS="--quick": does not)
 # make soak     kills, full disks, spoilt files, lost workers; writes docs/reliability.md (ARGS="--quick": does not)
+# make docs      the site of docs, examples and docstrings in build/docs
 # make lint      ruff and mypy
 
 PYTHON ?= python3
@@ -10,7 +11,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 PEERS := $(VENV)/.peers
 
-.PHONY: compare test bench soak lint clean
+.PHONY: compare test bench soak docs lint clean
 
 compare: $(READY)
 	$(BIN)/python scripts/compare.py $(ARGS)
@@ -24,6 +25,9 @@ bench: $(PEERS)
 
 soak: $(READY)
 	cd benchmarks && ../$(BIN)/python -m soak $(or $(ARGS),--docs ../docs)
+
+docs: $(READY)
+	MPLBACKEND=agg $(BIN)/sphinx-build --fail-on-warning --keep-going --quiet docs build/docs
 
 lint: $(READY)
 	$(BIN)/ruff check

@@ -135,7 +135,7 @@ def frequency_responses(closed: control.LTI, f: Real, delays: Sequence[float] = 
 
 
 def response_psds(closed: control.LTI, f: Real, road: Real | Complex) -> dict[str, Real]:
-    """Return the spectrum of every response, equation (3): under one wheel |H(w)|^2 times the road's.
+    """Return the spectrum of every response, equation (3): under one wheel ``|H(w)|^2`` times the road's.
 
     Parameters
     ----------
