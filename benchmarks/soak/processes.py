@@ -59,9 +59,7 @@ def workers_killed(folder: Path, count: int) -> Counts:
     """Kill a worker of a campaign on two of them, again and again."""
     counts = Counts("a worker killed")
     wanted = _undisturbed(folder)
-    for number in range(count):
-        place = folder / f"worker{number}"
-        place.mkdir()
+    for number, place in enumerate(_places(folder, "worker", count)):
         process = campaign.start(place, "--jobs", 2)
         victims = _workers_of(process)
         time.sleep(0.3 * (number % 5))
@@ -78,6 +76,14 @@ def workers_killed(folder: Path, count: int) -> Counts:
             f"{status} {error!r}", differing=differs, unnamed=not (at_start or (status, error) == (0, ""))
         )
     return counts
+
+
+def _places(folder: Path, name: str, count: int) -> Iterator[Path]:
+    """Make and yield numbered folders in a folder."""
+    for number in range(count):
+        place = folder / f"{name}{number}"
+        place.mkdir()
+        yield place
 
 
 def _undisturbed(folder: Path) -> bytes:
@@ -105,9 +111,7 @@ def schedulers(folder: Path, count: int) -> Counts:
     """Kill the scheduler of a campaign, which goes on without; hand it one of another version, and none at all."""
     counts = Counts("scheduler killed, absent, of another version")
     wanted = _undisturbed(folder)
-    for number in range(count):
-        place = folder / f"scheduler{number}"
-        place.mkdir()
+    for place in _places(folder, "scheduler", count):
         with scheduler(place) as (process, address):
             running = campaign.start(place, "--scheduler", address)
             quality = place / campaign.RESULTS / "quality" / "records"

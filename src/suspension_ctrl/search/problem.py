@@ -91,7 +91,8 @@ class Problem(Record):
     Optimisers search a real box: a variable with a kind has a code there, such as its place in a catalogue
     (`search.kinds`). Verbs of a toolbox get codes; `evaluate`, `start`, callbacks and results have designs. If all
     variables are whole numbers, of catalogues or held, a search evaluates a design once: a budget counts all
-    designs asked for, `Run.repeats` those known before. A kernel, and a resumed search, evaluate them again.
+    designs asked for, `Run.repeats` those known before. A kernel evaluates them again, as fast as they are looked
+    up, and so does a resumed search: a run keeps its population, not every design.
 
     Examples
     --------

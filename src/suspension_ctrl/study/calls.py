@@ -1,4 +1,4 @@
-"""Calls made here or on the workers of a cluster: the same results in any order, also where workers die."""
+"""Calls in this process or on the workers of a cluster: the same results in any order, also if workers die."""
 
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 KILLS = 3
-"""Deaths of its worker after which a call is given up, the last of them with no other call on the cluster."""
+"""Deaths of its worker after which a call is given up, the last one without another call on the cluster."""
 
 PATIENCE = 120.0
 """Time [s] that a cluster may be without a worker: on a busy machine it takes long to replace a dead one."""
@@ -26,10 +26,10 @@ _PAUSE = 0.005  # between two looks at the calls [s]
 def outcomes(
     function: Callable[..., T], arguments: Mapping[str, tuple[Any, ...]], client: "Client | None" = None
 ) -> Iterator[tuple[str, T | None, str]]:
-    """Call the function with each of the arguments and yield name, result and error (``""``) of each as it ends.
+    """Call the function with each of the arguments; yield name, result and error (``""`` if none) as each ends.
 
-    A call whose worker dies is repeated, in the end alone, and has an error once it has killed `KILLS` of them.
-    ConnectionError if the scheduler or all its workers are lost.
+    A call is repeated if its worker dies, at last alone, up to `KILLS` times. ConnectionError if the scheduler or
+    all its workers are lost.
     """
     if client is None:
         for name, values in arguments.items():
@@ -65,9 +65,9 @@ def _unpickled(content: bytes) -> tuple[Any, str]:
 
 
 def _spread(pickled: Mapping[str, bytes], client: "Client") -> Iterator[tuple[str, Any, str]]:
-    """Make pickled calls on a cluster, no more at a time than it has threads: a worker's death then blames one.
+    """Make pickled calls on a cluster, at most one per thread: the death of a worker then has one suspect.
 
-    A call on a worker that died twice may have been innocent: it is made again when no other call is on.
+    After two deaths a call is repeated without any other call on the cluster.
     """
     threads = _Threads(client)
     waiting, suspects, kills = deque(pickled), deque[str](), dict.fromkeys(pickled, 0)
@@ -113,13 +113,13 @@ def _raise(error: BaseException) -> None:
 
 
 class _Threads:
-    """The threads of a cluster, asked for once a second."""
+    """The number of threads of a cluster, asked for once a second."""
 
     def __init__(self, client: "Client") -> None:
         self._client, self._count, self._asked, self._seen = client, 0, -1.0, monotonic()
 
     def count(self) -> int:
-        """Return their number; ConnectionError where there have been none for too long."""
+        """Return the number; ConnectionError after `PATIENCE` without a thread."""
         now = monotonic()
         if now - self._asked >= 1:
             try:

@@ -1,4 +1,4 @@
-"""A results folder held by one process at a time, and cleaned of what dead ones left half written."""
+"""A lock of a results folder for one process at a time, and the removal of unfinished files."""
 
 import json
 import os
@@ -21,18 +21,13 @@ LOCK, HOLDER = ".lock", ".in-use.json"
 """Files of a held folder: the lock, and the process that holds it."""
 
 OLD = 60.0
-"""Age [s] from which an unfinished file is left over: a process that is writing changes its file."""
+"""Age [s] of an unfinished file that no process writes any more."""
 
 
 def hold(folder: Path) -> "BaseFileLock":
-    """Make a folder and return its lock, which this process holds until the last reference to it is gone.
+    """Make a folder and return its lock; the process holds it until the last reference to it is gone.
 
-    The operating system ends it with its process, whatever ends that, and with the machine.
-
-    Raises
-    ------
-    BlockingIOError
-        If another process holds the folder.
+    The operating system frees the lock of a dead process. BlockingIOError if another process holds the folder.
     """
     with installed("study"):
         from filelock import FileLock, Timeout
@@ -75,7 +70,7 @@ def _clean(folder: Path) -> None:
 
 
 def set_aside(path: Path) -> None:
-    """Rename what is there to ``*.spoilt``, or ``*.spoilt2`` and so on where that exists."""
+    """Rename a file or folder, if any, to ``*.spoilt``, or the first free of ``*.spoilt1``, ``*.spoilt2``, ..."""
     if path.is_symlink() or path.exists():
         names = (path.with_name(f"{path.name}.spoilt{number or ''}") for number in count())
         path.rename(next(name for name in names if not name.exists()))

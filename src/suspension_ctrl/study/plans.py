@@ -37,13 +37,7 @@ def described(value: object) -> Any:
 
 
 def settle(path: Path, plan: Mapping[str, Any], *, started: bool) -> None:
-    """Write a plan, or compare it with the one in the file; a spoilt file is written anew unless runs `started`.
-
-    Raises
-    ------
-    ValueError
-        If the plans differ, or the file of a folder with runs is spoilt.
-    """
+    """Write a plan, or compare it with the file; ValueError if they differ, or it is spoilt and runs `started`."""
     wanted = json.loads(json.dumps(described(plan)))
     try:
         kept = read(path)
@@ -62,7 +56,7 @@ def settle(path: Path, plan: Mapping[str, Any], *, started: bool) -> None:
 
 
 def read(path: Path) -> dict[str, Any]:
-    """Return the object in a JSON file; ValueError if it is absent or spoilt, or holds what is not finite."""
+    """Return the object in a JSON file; ValueError if it is absent, spoilt or has a number that is not finite."""
     if not (path.is_file() and path.stat().st_size <= _MOST):
         raise ValueError(f"{path}: must be a regular file of up to {_MOST} bytes")
     try:

@@ -23,11 +23,11 @@ _RECORDS = "records"  # folder of their numbers of rows and digests, each writte
 
 
 class SpoiltRunWarning(UserWarning):
-    """A stored run was cut, changed or only half there, and will be made again."""
+    """A stored run is cut, changed or incomplete, and is made again."""
 
 
 class NotStoredError(OSError):
-    """A result could not be written; what was finished is kept."""
+    """A result could not be written; finished runs are kept."""
 
 
 class StoredRun(NamedTuple):
@@ -44,7 +44,7 @@ class StoredRun(NamedTuple):
 
 @contextmanager
 def keeping(folder: Path) -> Iterator[None]:
-    """Say in an OSError of writing results that finished runs are kept, and how to go on."""
+    """Add to an OSError of writing results that finished runs are kept, and the way to go on."""
     try:
         yield
     except (NotStoredError, BlockingIOError):
@@ -56,25 +56,11 @@ def keeping(folder: Path) -> Iterator[None]:
 
 
 class FolderStore(MutableMapping[str, StoredRun]):
-    """Finished runs by name, two CSV files each, in a folder that belongs to one plan and one process at a time.
+    """Finished runs by name, two CSV files each, in a folder of one plan and one process at a time.
 
-    A run is stored once its file in ``records`` exists: numbers of rows and digests of its tables, the last one
-    written. Runs whose files do not agree with it are named in a `SpoiltRunWarning` as the folder is opened, and
-    absent; their files are kept beside, as ``*.spoilt``.
-
-    Parameters
-    ----------
-    folder : Path
-        Made if absent.
-    plan : mapping
-        Settings and versions that the results depend on, for ``plan.json``.
-
-    Raises
-    ------
-    ValueError
-        If the folder holds runs of another plan.
-    BlockingIOError
-        If another process has opened it.
+    A run is stored once its file in ``records`` exists, the last one written: numbers of rows and digests of its
+    tables. A run with other files is named in a `SpoiltRunWarning` as the folder is opened, absent, and kept as
+    ``*.spoilt``. ValueError for a folder with runs of another plan, BlockingIOError if another process holds it.
     """
 
     def __init__(self, folder: Path, plan: Mapping[str, Any]) -> None:
@@ -117,7 +103,7 @@ class FolderStore(MutableMapping[str, StoredRun]):
         return self._folder / part / f"{name}.{'json' if part == _RECORDS else 'csv'}"
 
     def _set_spoilt_aside(self) -> None:
-        """Name the runs that are not as they were stored, and move what is wrong with them out of the way."""
+        """Name the spoilt runs and set their files aside."""
         tables_there = (path for part in _PARTS for path in sorted((self._folder / part).glob("[!.]*.csv")))
         for name in dict.fromkeys([*self, *(path.stem for path in tables_there)]):
             record = self._path(_RECORDS, name)
@@ -146,7 +132,7 @@ def _read_record(path: Path) -> dict[str, Any]:
 
 
 def _read_part(path: Path, record: Mapping[str, Any]) -> "pd.DataFrame":
-    """Return a table of a run that is as it was stored."""
+    """Return a table of a run, checked against its record."""
     import pandas as pd
 
     if not path.is_file():  # a folder, a pipe
