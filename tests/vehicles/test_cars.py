@@ -110,6 +110,25 @@ def test_a_full_car_is_its_half_car_on_roads_in_phase_and_only_rolls_out_of_phas
     assert (np.abs(out_of_phase[4:8] + out_of_phase[8:]) <= 1e-9 * np.abs(out_of_phase[4:8]).max()).all()
 
 
+CORNERS = ("front_left", "front_right", "rear_left", "rear_right")
+
+
+def corners(value, axle, tracks, struts, roads, s):
+    """Forces of struts and anti-roll bars, their places and the displacements of wheels, by corner."""
+    pull, at, wheels = {}, {}, {}
+    for corner, road in roads.items():
+        end, side = corner.split("_")
+        (track, bar), (k, c) = tracks[end], struts[end]
+        x, y = axle["cg_to_front"] if end == "front" else -axle["cg_to_rear"], track / 2
+        at[corner] = (x, y if side == "left" else -y)
+        sides = (side, "right" if side == "left" else "left")
+        travel, other = (value[f"{end}_{one}_suspension_travel"] for one in sides)
+        pull[corner] = (k + c * s) * travel + bar / track**2 * (travel - other)
+        stiffness = axle[f"{end}_tyre_stiffness"] + s * axle[f"{end}_tyre_damping"]
+        wheels[corner] = road + value[f"{corner}_tyre_load"] / stiffness
+    return pull, at, wheels
+
+
 @settings(max_examples=60)
 @given(
     masses, inertias, inertias, axles(), lengths, lengths, axle_struts(), bars, bars, frequencies,
@@ -153,21 +172,9 @@ def test_forces_and_moments_move_a_full_car_with_a_seat(
     heave, rolled, pitched, sitting = (
         value[f"{z}_acceleration"] / s**2 for z in ("body", "roll", "pitch", "seat")
     )
-    pull, at, wheels, scale = {}, {}, {}, 1 + np.abs(roads).max()
-    for road, corner in zip(roads, ("front_left", "front_right", "rear_left", "rear_right"), strict=True):
-        end, side = corner.split("_")
-        track, bar = (front_track, front_bar) if end == "front" else (rear_track, rear_bar)
-        at[corner] = (
-            axle["cg_to_front"] if end == "front" else -axle["cg_to_rear"],
-            track / 2 if side == "left" else -track / 2,
-        )
-        travel, other = (
-            value[f"{end}_{x}_suspension_travel"] for x in (side, "right" if side == "left" else "left")
-        )
-        (k, c), tyre = struts[end], value[f"{corner}_tyre_load"]
-        pull[corner] = (k + c * s) * travel + bar / track**2 * (travel - other)
-        wheels[corner] = road + tyre / (axle[f"{end}_tyre_stiffness"] + s * axle[f"{end}_tyre_damping"])
-        scale += abs(wheels[corner])
+    tracks = {"front": (front_track, front_bar), "rear": (rear_track, rear_bar)}
+    pull, at, wheels = corners(value, axle, tracks, struts, dict(zip(CORNERS, roads, strict=True)), s)
+    scale = 1 + np.abs(roads).max() + sum(map(abs, wheels.values()))
     scale += abs(heave) + 3 * abs(rolled) + 3 * abs(pitched) + abs(sitting)
     coefficients = (
         4e5 + 500 * abs(s) + sum(k + c * abs(s) for k, c in struts.values())
