@@ -40,11 +40,11 @@ def rows(folder: Path, *, quick: bool) -> Iterator[Counts]:
         yield processes.workers_killed(folder / "workers", 5)
         yield processes.schedulers(folder / "schedulers", 2)
         yield kills.signalled(folder / "signalled", 20)
-        yield fuzzed(1000)
+        yield fuzzed(10_000)
 
 
 def fuzzed(files: int) -> Counts:
-    """Hand fuzzed files to every reader; `python -m soak.fuzz 10000` says more of each."""
+    """Hand fuzzed files to every reader; `python -m soak.fuzz 10000` says which."""
     counts = Counts(f"fuzzed files, {files:,} of each reader")
     for name, reader in fuzz.readers().items():
         outcome = fuzz.fuzz(reader, files)

@@ -35,7 +35,7 @@ def compiled(**options: Any) -> Callable[[F], F]:
 
 def compilable(**options: Any) -> Callable[[F], F]:
     """Let compiled functions call a function, which stays as it is in Python."""
-    decorator: Callable[[F], F] = register_jitable(no_cfunc_wrapper=True, **options)
+    decorator: Callable[[F], F] = register_jitable(no_cfunc_wrapper=True, no_cpython_wrapper=True, **options)
     return decorator
 
 
