@@ -9,26 +9,14 @@ import pandas as pd
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cbook import is_math_text
-from matplotlib.figure import Figure
 from rich.text import Text
 
+from soak import names
+from soak.names import HOSTILE, shown
 from suspension_ctrl import escaping
 
-HOSTILE = [
-    "\x1b[31mred\x1b[0m", "\x1b]0;title\x07", "line\nbreak\r", "\u202egnp.exe", "\u2066x\u2069", "a\x00b",
-    "\ud800", "[bold]x[/bold]", "$x^2$", "$\\frac{", "a$", "_hidden", "a|b", "<b>x</b>",
-    "<script>alert(1)</script>", '"quoted"', "[x](javascript:y)", "*x* _y_ `z`", "=1+1", "+1+1", "-1+1",
-    "@SUM(A1)", "=cmd|' /C calc'!A0", "'=1", "\t=1", " =1", "\uff1d1", "\\", "\\input{x}", "50 % & #1 ~ ^", "",
-    "C:\\new\\x41",
-]  # fmt: skip
 TEXTS = st.one_of(st.sampled_from(HOSTILE), st.text(max_size=12), st.text("=+-@'\\$_|<>*`[]()\x1b\n", max_size=8))
-
-
-def shown(text: str) -> str:
-    """The text as every medium shows it, by Python's own escapes."""
-    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
 
 
 @given(TEXTS)
@@ -39,16 +27,16 @@ def test_a_terminal_gets_printable_text_alone(text):
     assert Text(found).plain == found
 
 
-@pytest.mark.parametrize("text", [text for text in HOSTILE if text not in ("", "\uff1d1")])  # of no glyph
-def test_a_figure_shows_no_formula_and_every_label(text):
-    figure = Figure(figsize=(8, 1))
-    ax = figure.subplots()
-    ax.plot([1, 2], label=escaping.figure(text))
-    legend = ax.legend()
-    FigureCanvasAgg(figure).draw()  # a formula with a mistake raises here
-    (label,) = [one.get_text() for one in legend.get_texts()]
-    assert not is_math_text(label)
-    assert label.replace(r"\$", "$").removeprefix(" ") == shown(text).removeprefix(" ")
+def test_every_medium_shows_every_hostile_name_as_text_alone():
+    counts = names.hostile()
+    assert counts.failures == []
+    assert counts.tried == 6 * len(HOSTILE) - 1
+
+
+@pytest.mark.parametrize("medium", ["terminal", "figure", "csv", "markdown", "latex", "html"])
+def test_a_medium_without_its_escapes_is_found_out(monkeypatch, medium):
+    monkeypatch.setattr(escaping, medium, lambda text: text)
+    assert names.hostile().differing > 0
 
 
 @given(TEXTS, TEXTS)

@@ -22,7 +22,7 @@ from suspension_ctrl.commands import terminal
 from suspension_ctrl.study.machine import processor_name
 from suspension_ctrl.tables import write_text
 
-from . import disks, fuzz, kills, processes, spoilt
+from . import disks, fuzz, kills, names, processes, spoilt
 from .counts import Counts
 
 PAGE, MARK = "reliability.md", "<!-- soak -->\n"
@@ -35,6 +35,7 @@ def rows(folder: Path, *, quick: bool) -> Iterator[Counts]:
     yield disks.two_writers(folder, 60 if quick else 1000)
     yield from disks.full(folder / "full", mounted=not quick and disks.may_mount(), sizes=1 if quick else 2)
     yield spoilt.spoilt(folder / "spoilt", 13 if quick else None)
+    yield names.hostile()
     if not quick:
         yield processes.deadly_runs()
         yield processes.workers_killed(folder / "workers", 5)

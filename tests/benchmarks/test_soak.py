@@ -21,6 +21,7 @@ def test_the_short_form_finds_no_harm(tmp_path):
         "two processes, 60 writes to one folder": 1,
         "full disk, by a limit of file size": 1,
         "spoilt files": len(list(spoilt.kinds(13))),
+        "hostile names through every medium": 191,
     }
     assert kills.session(os.getpid() + 2**20) == []
 
