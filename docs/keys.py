@@ -15,7 +15,7 @@ from suspension_ctrl.response.files import Document as ProblemDocument
 from suspension_ctrl.roads.coherence import COHERENCES
 from suspension_ctrl.roads.files import KINDS as ROADS
 from suspension_ctrl.roads.files import MeasuredFile, TabulatedFile
-from suspension_ctrl.schema import Key, keys_of
+from suspension_ctrl.schema.keys import Key, keys_of
 from suspension_ctrl.vehicles.files import KINDS as VEHICLES
 from suspension_ctrl.vehicles.files import Document as VehicleDocument
 from suspension_ctrl.vehicles.handling import RollGeometry

@@ -16,7 +16,9 @@ from ..quantities import unit
 from ..roads.files import KINDS as ROADS
 from ..roads.files import Folder, load_road, read_road
 from ..roads.spectra import Iso8608Road
-from ..schema import BAD, bad, content, keys_of, read, toml
+from ..schema.keys import BAD, bad, keys_of
+from ..schema.reading import read
+from ..schema.writing import content, toml
 from ..tables import write_text
 from ..vehicles.files import (
     VehicleFile,

@@ -14,7 +14,9 @@ from typing import NamedTuple
 from .. import checks
 from ..documents import Mistakes, Table, document, keyed
 from ..quantities import unit
-from ..schema import KIND, content, keys_of, kind_of, read, toml
+from ..schema.keys import KIND, keys_of
+from ..schema.reading import fields_named, kind_of, read
+from ..schema.writing import content, toml
 from ..tables import write_text
 from .coherence import COHERENCES, Tabulated
 from .measured import COHERENCE, MeasuredRoad, read_curve
@@ -156,7 +158,7 @@ def read_road(table: Table, folder: Folder) -> Road:
         coherence = coherence._replace(kinds=COHERENCES | {"tabulated": TabulatedFile})
     values = read(table, {**KIND, **keys_of(record), "coherence": coherence}, mistakes)
     mistakes.settle()
-    with keyed(table.name, {one.name: key for key, one in keys_of(record).items()}):
+    with fields_named(record, table.name):
         del values["kind"]
         if isinstance(tabulated := values.get("coherence"), TabulatedFile):
             values["coherence"] = _read_tabulated(tabulated, f"{table.name}coherence.", folder)

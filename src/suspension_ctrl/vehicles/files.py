@@ -12,7 +12,9 @@ from typing import Any
 from .. import checks, datafiles
 from ..documents import Mistakes, Table, document
 from ..quantities import FrozenMapping, Record, key_of
-from ..schema import BAD, KIND, Key, bad, constructed, content, fields_named, keys_of, kind_of, read, toml
+from ..schema.keys import BAD, KIND, Key, bad, keys_of
+from ..schema.reading import constructed, fields_named, kind_of, read
+from ..schema.writing import content, toml
 from ..tables import write_text
 from .assembly import StrutParameter
 from .cars import FullCar, HalfCar, QuarterCar

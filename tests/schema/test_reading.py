@@ -1,88 +1,14 @@
-"""Keys of files by the fields of dataclasses: values, units, all mistakes, and what is written is what is read."""
+"""Dataclasses read from tables of files: values, units, all mistakes."""
 
 import re
-import tomllib
-from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from suspension_ctrl.documents import Mistakes, Table
-from suspension_ctrl.quantities import Checked, Real, Record, frozen_array, unit
-from suspension_ctrl.schema import BAD, KIND, bad, content, keys_of, kind_of, made, read, toml
-
-NUMBER = "a number from 1e-12 to 1e+12 in size or 0"
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Tyre(Checked):
-    stiffness: float = field(metadata=unit("N/m"))
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Track(Record):
-    links: tuple[float, ...]
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Weight(Record):
-    place: tuple[float, float] = field(metadata=unit("m"))
-    share: tuple[float, ...] = field(metadata={"key": "share_percent"})
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Wheel(Checked):
-    mass: float = field(metadata=unit("kg"))
-    place: tuple[float, float] = field(metadata=unit("m"))
-    name: str = field(metadata={"key": "called"})
-    camber: float = field(default=0.0, metadata=unit("rad"))
-    lift: float = field(default=0.0, metadata=unit("m", -1, 1))
-    slip: float | None = None
-    spokes: tuple[float, ...] = ()
-    driven: bool = False
-    tyre: Tyre | None = None
-    ground: object = field(default=None, metadata={"kinds": {"tyre": Tyre, "track": Track}})
-    tyres: tuple[Tyre, ...] = field(default=(), metadata={"most": 3})
-    words: tuple[str, ...] = ()
-    weights: dict = field(default_factory=dict, metadata={"rows": Weight})
-    curve: Real = field(default=None, metadata=unit("m") | {"most": 200})
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.name == "spare":
-            raise ValueError(f"name must be of a wheel in use, got {self.name!r}")
-        if self.curve is not None:
-            self._keep(curve=frozen_array(self.curve))
-
-
-GOOD = {"mass_kg": 20, "place_m": [1, 0.5], "called": "left"}
-FULL = {
-    **GOOD, "camber_rad": 0.1, "lift_m": -0.5, "slip": 2, "spokes": [1, 2], "driven": True,
-    "tyre": {"stiffness_N_per_m": 2e5}, "ground": {"kind": "track", "links": [3]},
-    "tyres": [{"stiffness_N_per_m": 1e5}, {"stiffness_N_per_m": 3e5}], "words": ["a", "b"],
-    "weights": [{"place_m": [0, 1], "share_percent": [30, 40]}], "curve_m": [1, 2, 3],
-}  # fmt: skip
-WHEEL = Wheel(
-    20.0, (1.0, 0.5), "left", 0.1, -0.5, 2.0, (1.0, 2.0), True, Tyre(2e5), Track((3.0,)), (Tyre(1e5), Tyre(3e5)),
-    ("a", "b"), {(0.0, 1.0): (30.0, 40.0)}, [1, 2, 3],
-)  # fmt: skip
-
-
-def refused(table: dict, name: str = "wheel.") -> list[str]:
-    mistakes = Mistakes()
-    made(Wheel, Table(name, table), mistakes)
-    with pytest.raises(ValueError, match="must") as error:
-        mistakes.settle()
-    return str(error.value).split("\n")
-
-
-def accepted(table: dict) -> Wheel:
-    mistakes = Mistakes()
-    wheel = made(Wheel, Table("", table), mistakes)
-    mistakes.settle()
-    return wheel
+from suspension_ctrl.schema.keys import BAD, KIND, bad, keys_of
+from suspension_ctrl.schema.reading import kind_of, read, read_record
+from wheels import FULL, GOOD, NUMBER, WHEEL, Track, Tyre, Wheel, accepted, refused
 
 
 def test_a_dataclass_is_made_by_the_names_units_and_types_of_its_fields():
@@ -93,41 +19,6 @@ def test_a_dataclass_is_made_by_the_names_units_and_types_of_its_fields():
 def test_a_key_without_its_unit_takes_texts_with_units():
     texts = {"mass": "0.02 t", "place": ["1000mm", "50 cm"], "called": "left", "camber": "0.1rad"}
     assert accepted(texts) == Wheel(20.0, (1.0, 0.5), "left", 0.1)
-
-
-def test_what_is_written_is_what_is_read():
-    table = content(WHEEL)
-    assert table == FULL
-    text = toml(table, WHEEL, accepted_table)
-    assert tomllib.loads(text) == table
-    assert content(accepted(GOOD)) == GOOD  # no defaults
-
-
-def accepted_table(table: Table) -> Wheel:
-    return accepted(table.content)
-
-
-NUMBERS = st.floats(1e-12, 1e12)
-
-
-@given(
-    NUMBERS, st.tuples(NUMBERS, NUMBERS), st.text(min_size=1).filter(lambda text: text.strip() and text != "spare")
-)
-def test_any_record_is_read_as_it_was_written(mass, place, name):
-    wheel = Wheel(mass, place, name)
-    toml(content(wheel), wheel, accepted_table)  # raises if not
-
-
-def test_what_a_file_cannot_hold_is_refused():
-    large = Wheel(1e13, (1.0, 0.5), "left")
-    with pytest.raises(ValueError, match=f"^mass_kg must be {re.escape(NUMBER)}, got 10000000000000.0$"):
-        toml(content(large), large, accepted_table)
-    with pytest.raises(ValueError, match=r"^a file must hold all of what is written, got Wheel"):
-        toml(content(WHEEL), Wheel(3.0, (1.0, 0.5), "left"), accepted_table)
-    with pytest.raises(ValueError, match=r"^a file must hold numbers, texts and tables, got <object"):
-        content(Track(object()))
-    with pytest.raises(ValueError, match=r"^a file must hold one of tyre, got Track"):
-        content(Track((3.0,)), {"tyre": Tyre})
 
 
 @pytest.mark.parametrize(
@@ -187,7 +78,7 @@ def test_a_wrong_value_is_one_line(changes, message):
 )
 def test_a_key_that_is_not_known_is_named_with_the_nearest(key, message):
     mistakes = Mistakes()
-    assert made(Wheel, Table("", GOOD | {key: 1}), mistakes) == Wheel(20.0, (1.0, 0.5), "left")
+    assert read_record(Wheel, Table("", GOOD | {key: 1}), mistakes) == Wheel(20.0, (1.0, 0.5), "left")
     with pytest.raises(ValueError, match="^" + re.escape(message) + "$"):
         mistakes.settle()
 
@@ -222,7 +113,6 @@ def test_a_wrong_number_is_1_until_all_is_read_and_another_value_is_bad():
     assert values["mass"] == 1.0
     assert bad(values["name"], values["place"])
     assert not bad(values["mass"])
-    assert bad((1, (BAD,)))
     assert len(mistakes) == 3
 
 
@@ -230,7 +120,7 @@ def test_a_kind_names_a_dataclass():
     mistakes = Mistakes()
     table = Table("", {"kind": "tyre", "stiffness_N_per_m": 3})
     assert kind_of({"tyre": Tyre}, table, mistakes) is Tyre
-    assert made(Tyre, table, mistakes, KIND) == Tyre(3.0)
+    assert read_record(Tyre, table, mistakes, KIND) == Tyre(3.0)
     assert kind_of({"track": Track}, table, mistakes) is BAD
     assert len(mistakes) == 1
 
