@@ -23,6 +23,8 @@ PUBLIC = {
     "VehicleFile", "load_vehicle", "save_vehicle",
     "Constant", "Exponential", "Iso8608Road", "Isotropic", "MeasuredRoad", "PowerLawRoad", "Profile", "Tabulated",
     "TwoSlopeRoad", "load_road", "save_road",
+    "Chirp", "Cleat", "Plank", "Pothole", "Ramp", "RigChirp", "RigSine", "Sine", "SpeedBump", "Step",
+    "TrapezoidalBump",
     "ACC", "DLC", "DTL", "FrontLoadTransfer", "Limit", "LoadCase", "Measure", "RideProblem", "RollDamping",
     "RollGradient", "RootSumSquare", "SWS", "Term", "exposure", "international_roughness_index", "load_problem",
     "save_problem",    "response_psds", "ride", "simulate", "weighting",
