@@ -21,6 +21,8 @@ ROOMS = {
 PUBLIC = {
     "FlexibleBody", "FullCar", "HalfCar", "Payload", "Plant", "QuarterCar", "RollGeometry", "Seat",
     "VehicleFile", "load_vehicle", "save_vehicle",
+    "BilinearDamper", "BumpStop", "Damper", "DigressiveDamper", "Friction", "Inerter", "MeasuredStiffness",
+    "PowerDamper", "ReboundStop", "Rubber", "Spring", "TableDamper", "TableSpring", "parallel", "series",
     "Constant", "Exponential", "Iso8608Road", "Isotropic", "MeasuredRoad", "PowerLawRoad", "Profile", "Tabulated",
     "TwoSlopeRoad", "load_road", "save_road",
     "Chirp", "Cleat", "Plank", "Pothole", "Ramp", "RigChirp", "RigSine", "Sine", "SpeedBump", "Step",

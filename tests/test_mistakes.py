@@ -99,8 +99,6 @@ def test_a_seat_that_cannot_be_read_hides_no_other_mistake(tmp_path):
     assert [line.partition(": ")[2].partition(" must")[0] for line in said(tmp_path, "vehicle", text)] == [
         "seats[1].name",
         "seats[1].mass_kg",
-        "seats[1].spring_N_per_m",
-        "seats[1].damper_N_s_per_m",
         "struts.front.spring_N_per_m",
         "bounds.front.spring_N_per_m",
     ]

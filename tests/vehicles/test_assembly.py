@@ -10,7 +10,11 @@ import pytest
 from garage import BENDING, FULL, HALF, from_roads
 from suspension_ctrl.quantities import Record
 from suspension_ctrl.vehicles.assembly import Assembly, Link, Response, joined, label
-from suspension_ctrl.vehicles.vehicle import AssembledVehicle, anti_roll_bar, spring_and_damper
+from suspension_ctrl.vehicles.networks import placed
+from suspension_ctrl.vehicles.struts import Damper, Spring, parallel
+from suspension_ctrl.vehicles.vehicle import AssembledVehicle, anti_roll_bar
+
+STRUT = parallel(Spring(), Damper())
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -27,7 +31,7 @@ class Cab(Record, AssembledVehicle):
             tyres=[Link("axle", "axle_road", "wheel", 3e5, 200.0)],
             struts=[Link("axle", "wheel", "frame"), Link("cab", "frame", (0.0, 0.0))],
             supports=[Link("lead", None, "body", 500.0, 40.0)],
-            parameters=[*spring_and_damper("axle", [1.0, 0.0]), *spring_and_damper("cab", [0.0, 1.0])],
+            parameters=[*placed(STRUT, "axle", [1.0, 0.0])[0], *placed(STRUT, "cab", [0.0, 1.0])[0]],
             responses={
                 "frame_acceleration": Response("acceleration", "frame"),
                 "cab_travel": Response("travel", "cab"),

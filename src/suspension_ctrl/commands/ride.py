@@ -1,7 +1,7 @@
 """The ride of one vehicle on one road, and its modes, in the terminal and as CSV."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import options as o
 
@@ -66,7 +66,7 @@ def chosen_vehicle(
     from ..vehicles.cars import QuarterCar
     from ..vehicles.files import load_vehicle
 
-    given = {parameter: value for parameter, value in masses.items() if value is not None}
+    given: dict[str, Any] = {parameter: value for parameter, value in masses.items() if value is not None}
     if not given:
         file = load_vehicle(PAPERS if name is None else name)
         return file.name or str(name), file.vehicle, file.setting

@@ -52,6 +52,9 @@ def case_of(
     one_strut: bool = True,
 ) -> Case:
     """Return the mean squares (k,) of terms over the variables (v,), around a setting in the middle of the box."""
+    if load_case.vehicle.networks:
+        names = ", ".join(one.strut.elements[0].name for one in load_case.vehicle.networks)
+        raise ValueError(f"struts must be of springs, dampers and inerters in parallel, got {names}")
     weights = [term.weighting and weightings.by_name(term.weighting) for term in terms]
     kinks = {f for weighting in weights if weighting for f in weighting.breakpoints}
     f, w = frequency_nodes(band, nodes, kinks.union(load_case.breakpoints))

@@ -57,8 +57,9 @@ KIND = {"kind": Key("kind", "kind", str)}
 
 
 def keys_of(record: Any) -> Mapping[str, Key]:
-    """Return the keys of the fields of a dataclass."""
-    return {one.key: one for one in map(_key, fields(record))}
+    """Return the keys of the fields of a dataclass, but for those that no file has."""
+    written = (one for one in fields(record) if one.metadata.get("key", "") is not None)
+    return {one.key: one for one in map(_key, written)}
 
 
 def _key(one: Field[Any]) -> Key:

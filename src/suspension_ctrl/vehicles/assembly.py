@@ -14,6 +14,7 @@ import numpy as np
 
 from .. import checks
 from ..quantities import FrozenMapping, Real, Record, frozen_array, unit
+from .struts import Strut
 
 Position = tuple[float, float]  # a point (x, y) of the body [m]
 ResponseName = str | tuple[str, float, float]
@@ -85,6 +86,14 @@ class StrutParameter(Record):
         (checks.not_negative if self.default == 0 else checks.positive)(name, value, self.unit)
 
 
+class Network(NamedTuple):
+    """A strut without plain springs and dampers, at each port with a share of 1; names begin with the prefix."""
+
+    strut: Strut
+    prefix: str
+    share: tuple[float, ...]
+
+
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Assembly(Record):
     """The masses and links of a vehicle; coordinates and wheels by name."""
@@ -96,6 +105,7 @@ class Assembly(Record):
     struts: tuple[Link, ...]
     parameters: tuple[StrutParameter, ...]
     responses: Mapping[str, Response]
+    networks: tuple[Network, ...] = ()
     supports: tuple[Link, ...] = ()  # further springs and dampers, the same for every design
     bending: Mapping[Position, Mapping[str, float]] = _NONE  # by point, its share of each mode [kg^-1/2]
     payload: tuple[tuple[float, Position], ...] = ()  # masses [kg] fixed to points of the body

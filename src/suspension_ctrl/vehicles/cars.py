@@ -1,6 +1,6 @@
 """Quarter, half and full car."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -8,7 +8,12 @@ from typing import Any
 from ..quantities import Checked, unit
 from .assembly import Assembly, Link, Position, Response, StrutParameter
 from .feedback import System
-from .vehicle import AssembledVehicle, anti_roll_bar, spring_and_damper
+from .networks import placed
+from .struts import Damper, Spring, Strut, parallel
+from .vehicle import AssembledVehicle, anti_roll_bar
+
+SPRING_AND_DAMPER = parallel(Spring(), Damper())
+"""The strut of an axle that is not given another."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -21,6 +26,8 @@ class QuarterCar(Checked, AssembledVehicle):
         Mass of the body on this wheel, M_b, and of the wheel, M_w, above zero [kg].
     tyre_stiffness, tyre_damping : float
         Vertical stiffness, K_t, above zero [N/m], and damping of the tyre, zero or more [N s/m].
+    strut : Strut
+        A spring beside a damper by default; its coefficients are those of its elements.
 
     References
     ----------
@@ -43,16 +50,19 @@ class QuarterCar(Checked, AssembledVehicle):
     wheel_mass: float = field(metadata=unit("kg"))
     tyre_stiffness: float = field(metadata=unit("N/m"))
     tyre_damping: float = field(default=0.0, metadata=unit("N s/m"))
+    strut: Strut = field(default=SPRING_AND_DAMPER, metadata={"key": None})
 
     @cached_property
     def assembly(self) -> Assembly:
         """Its masses and links."""
+        parameters, networks = placed(self.strut, "", [1.0])
         return Assembly(
             masses={"wheel": self.wheel_mass, "body": self.body_mass},
             contacts={"": (0.0, 0.0)},
             tyres=(Link("", "road", "wheel", self.tyre_stiffness, self.tyre_damping),),
             struts=(Link("", "wheel", (0.0, 0.0)),),
-            parameters=tuple(spring_and_damper("", [1.0])),
+            parameters=tuple(parameters),
+            networks=tuple(networks),
             responses={
                 "body_acceleration": Response("acceleration", "body"),
                 "suspension_travel": Response("travel", ""),
@@ -79,11 +89,15 @@ class _TwoAxleCar(Checked, AssembledVehicle):
     cg_to_rear: float = field(metadata=unit("m"))
     front_tyre_damping: float = field(default=0.0, metadata=unit("N s/m"))
     rear_tyre_damping: float = field(default=0.0, metadata=unit("N s/m"))
+    front_strut: Strut = field(default=SPRING_AND_DAMPER, metadata={"key": None})
+    rear_strut: Strut = field(default=SPRING_AND_DAMPER, metadata={"key": None})
 
     def _assembly(
-        self, corners: Mapping[str, Position], inertias: Mapping[str, float], parameters: list[StrutParameter]
+        self, corners: Mapping[str, Position], inertias: Mapping[str, float], bars: Sequence[StrutParameter] = ()
     ) -> Assembly:
-        """Return the body on a wheel under each of its corners, named by axle and side."""
+        """Return the body on a wheel under each of its corners, named by axle and side, with anti-roll bars."""
+        shares = {axle: [float(corner.startswith(axle)) for corner in corners] for axle in ("front", "rear")}
+        front, rear = (placed(getattr(self, f"{axle}_strut"), axle, share) for axle, share in shares.items())
         mass, stiffness, damping = (
             {corner: float(getattr(self, f"{corner.split('_')[0]}_{what}")) for corner in corners}
             for what in ("wheel_mass", "tyre_stiffness", "tyre_damping")
@@ -98,7 +112,8 @@ class _TwoAxleCar(Checked, AssembledVehicle):
             contacts=corners,
             tyres=tuple(Link(c, f"{c}_road", f"{c}_wheel", stiffness[c], damping[c]) for c in corners),
             struts=tuple(Link(corner, f"{corner}_wheel", position) for corner, position in corners.items()),
-            parameters=tuple(parameters),
+            parameters=(*front[0], *rear[0], *bars),
+            networks=(*front[1], *rear[1]),
             responses=accelerations | travels | loads,
         )
 
@@ -120,6 +135,8 @@ class HalfCar(_TwoAxleCar):
         Vertical stiffness [N/m] and damping [N s/m].
     cg_to_front, cg_to_rear : float
         Distance of the axles from the centre of gravity [m].
+    front_strut, rear_strut : Strut
+        A spring beside a damper by default; coefficients are called ``front.spring`` and the like.
 
     Examples
     --------
@@ -152,7 +169,6 @@ class HalfCar(_TwoAxleCar):
         return self._assembly(
             {"front": (self.cg_to_front, 0.0), "rear": (-self.cg_to_rear, 0.0)},
             {"pitch": self.pitch_inertia},
-            [*spring_and_damper("front", [1.0, 0.0]), *spring_and_damper("rear", [0.0, 1.0])],
         )
 
 
@@ -176,6 +192,9 @@ class FullCar(_TwoAxleCar):
         Distance of the axles from the centre of gravity [m].
     front_track, rear_track : float
         Distance between left and right wheel [m], the centre of gravity midway. Struts stand over the wheels.
+    front_strut, rear_strut : Strut
+        Left and right alike; a spring beside a damper by default. Coefficients are called ``front.spring`` and the
+        like.
 
     Examples
     --------
@@ -215,8 +234,6 @@ class FullCar(_TwoAxleCar):
             {f"{axle}_{side}": (x, y * t) for axle, (x, t) in axles.items() for side, y in sides.items()},
             {"roll": self.roll_inertia, "pitch": self.pitch_inertia},
             [
-                *spring_and_damper("front", [1.0, 1.0, 0.0, 0.0]),
-                *spring_and_damper("rear", [0.0, 0.0, 1.0, 1.0]),
                 anti_roll_bar("front_antiroll", [1.0, -1.0, 0.0, 0.0], self.front_track),
                 anti_roll_bar("rear_antiroll", [0.0, 0.0, 1.0, -1.0], self.rear_track),
             ],

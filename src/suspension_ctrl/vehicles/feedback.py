@@ -2,14 +2,16 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import control
 import numpy as np
+from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
 from ..quantities import Complex, Real
-from .assembly import StrutParameter
+from .assembly import Network, StrutParameter
+from .struts import Fraction
 
 ORDERS = 3  # of the derivative of a deflection in a tension: springs 0, dampers 1, inerters and masses 2
 System: TypeAlias = control.StateSpace | control.FrequencyResponseData
@@ -54,25 +56,94 @@ def gains_by_order(parameters: Iterable[StrutParameter], values: Mapping[str, fl
     return gains
 
 
+class Dynamics(NamedTuple):
+    """Struts as gains (3, q, q) by order, and strictly proper filters from deflections to tensions, by port."""
+
+    gains: Real
+    filters: tuple[tuple[int, Fraction], ...] = ()
+
+    @classmethod
+    def of(cls, networks: Iterable[Network], values: Mapping[str, float], gains: Real) -> "Dynamics":
+        """Return gains and networks together; ValueError for force laws and rubber of constant loss."""
+        total, filters = gains.copy(), list[tuple[int, Fraction]]()
+        for network in networks:
+            own = {name.removeprefix(network.prefix): value for name, value in values.items()}
+            numerator, denominator = network.strut.fraction(own)
+            direct, rest = polynomial.polydiv(numerator, denominator)
+            for port in np.flatnonzero(network.share).tolist():
+                total[: direct.size, port, port] += direct
+                filters += [(port, (np.asarray(rest, dtype=np.float64), denominator))] if rest.any() else []
+        return cls(total, tuple(filters))
+
+    def around(self, plant: System) -> System:
+        """Return the plant, ports included, with these struts from last outputs to last inputs."""
+        if not isinstance(plant, control.StateSpace):
+            s = 1j * plant.omega
+            stiffness = np.tensordot(s[:, None] ** np.arange(ORDERS), self.gains, 1)
+            for port, (numerator, denominator) in self.filters:
+                stiffness[:, port, port] += polynomial.polyval(s, numerator) / polynomial.polyval(s, denominator)
+            return _around_stiffness(plant, stiffness)
+        return _with_filters(around(plant, self.gains), self.filters, self.gains.shape[1])
+
+
+def _with_filters(
+    plant: control.StateSpace, filters: Sequence[tuple[int, Fraction]], q: int
+) -> control.StateSpace:
+    """Return the plant with states of the filters after its own."""
+    a, b, c, d = plant.A, plant.B, plant.C, plant.D
+    states, first_out, first_in = list(plant.state_labels), len(c) - 2 * q, b.shape[1] - q
+    for port, (numerator, denominator) in filters:
+        own_a, own_b, own_c = _controllable(numerator, denominator)
+        k, deflection, tension = len(own_a), first_out + port, first_in + port
+        fed = own_b @ c[deflection : deflection + 1]  # ahead of the new states, which the tension drives
+        loop = own_b @ d[deflection : deflection + 1, tension : tension + 1] @ own_c
+        by_tension = b[:, tension : tension + 1] @ own_c
+        a = np.block([[a, by_tension], [fed, own_a + loop]])
+        b = np.vstack([b, own_b @ d[deflection : deflection + 1]])
+        c = np.hstack([c, d[:, tension : tension + 1] @ own_c])
+        states += [f"{plant.input_labels[tension]}_{len(states) + i}" for i in range(k)]
+    return control.ss(a, b, c, d, states=states, inputs=plant.input_labels, outputs=plant.output_labels)
+
+
+def _controllable(numerator: Real, denominator: Real) -> tuple[Real, Real, Real]:
+    """Return A (k, k), B (k, 1) and C (1, k) of a strictly proper fraction, balanced."""
+    from scipy.linalg import matrix_balance
+
+    k = denominator.size - 1
+    a, c = np.eye(k, k, 1), np.zeros((1, k))
+    a[-1] = -denominator[:-1] / denominator[-1]
+    c[0, : numerator.size] = numerator / denominator[-1]
+    balanced, scale = matrix_balance(a, permute=False)
+    b = np.asarray(np.linalg.solve(scale, np.eye(k, 1, 1 - k)), dtype=np.float64)
+    return np.asarray(balanced), b, np.asarray(c @ scale)
+
+
+def _around_stiffness(plant: control.FrequencyResponseData, stiffness: Complex) -> "MeasuredResponse":
+    """Return the plant with struts of a dynamic stiffness (n, q, q)."""
+    q, h = stiffness.shape[1], np.moveaxis(plant.frdata, 2, 0)
+    fed = stiffness @ h[:, -2 * q : -q]
+    closed = h + h[:, :, -q:] @ np.linalg.solve(np.eye(q) - fed[:, :, -q:], fed)
+    names = {"inputs": plant.input_labels, "outputs": plant.output_labels}
+    return MeasuredResponse(np.moveaxis(closed, 0, 2), plant.omega, **names)
+
+
 def around(plant: System, gains: Real) -> System:
     """Return the plant, ports included, with struts of these gains (3, q, q) from last outputs to last inputs.
 
     `control.StateSpace.lft` refuses gains above some 1e7 and has no second derivatives.
     """
-    q, names = gains.shape[1], {"inputs": plant.input_labels, "outputs": plant.output_labels}
-    if isinstance(plant, control.StateSpace):
-        b, c, d, fed = plant.B[:, -q:], plant.C[-2 * q :], plant.D[:, -q:], plant.D[-2 * q :]
-        if gains[2].any():
-            c, fed = np.vstack([c, c[-q:] @ plant.A]), np.vstack([fed, c[-q:] @ plant.B])
-        gain = np.hstack([*gains[: len(c) // q]])
-        k = np.linalg.solve(np.eye(q) - gain @ fed[:, -q:], gain)
-        matrices = plant.A + b @ k @ c, plant.B + b @ k @ fed, plant.C + d @ k @ c, plant.D + d @ k @ fed
-        return control.ss(*matrices, states=plant.state_labels, **names)
-    h = np.moveaxis(plant.frdata, 2, 0)
-    stiffness = np.tensordot((1j * plant.omega[:, None]) ** np.arange(ORDERS), gains, 1)
-    fed = stiffness @ h[:, -2 * q : -q]
-    closed = h + h[:, :, -q:] @ np.linalg.solve(np.eye(q) - fed[:, :, -q:], fed)
-    return MeasuredResponse(np.moveaxis(closed, 0, 2), plant.omega, **names)
+    if not isinstance(plant, control.StateSpace):
+        stiffness = np.tensordot((1j * plant.omega[:, None]) ** np.arange(ORDERS), gains, 1)
+        return _around_stiffness(plant, stiffness)
+    q, b, c, d = gains.shape[1], plant.B, plant.C, plant.D
+    b, c, d, fed = b[:, -q:], c[-2 * q :], d[:, -q:], d[-2 * q :]
+    if gains[2].any():
+        c, fed = np.vstack([c, c[-q:] @ plant.A]), np.vstack([fed, c[-q:] @ plant.B])
+    gain = np.hstack([*gains[: len(c) // q]])
+    k = np.linalg.solve(np.eye(q) - gain @ fed[:, -q:], gain)
+    matrices = plant.A + b @ k @ c, plant.B + b @ k @ fed, plant.C + d @ k @ c, plant.D + d @ k @ fed
+    names = {"inputs": plant.input_labels, "outputs": plant.output_labels}
+    return control.ss(*matrices, states=plant.state_labels, **names)
 
 
 def selected(system: System, outputs: Sequence[str], inputs: Sequence[str], name: str) -> System:

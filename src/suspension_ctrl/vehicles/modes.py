@@ -19,8 +19,9 @@ def modes_of(closed: control.StateSpace, assembly: Assembly) -> "pd.DataFrame":
     import pandas as pd
 
     poles, vectors = np.linalg.eig(closed.A)
+    n = len(assembly.coordinates)
     rows: list[tuple[Any, ...]] = []
-    for pole, vector in zip(poles, vectors[::2].T, strict=True):
+    for pole, vector in zip(poles, vectors[: 2 * n : 2].T, strict=True):
         if pole.imag >= 0:
             shape = (vector / vector[np.abs(vector).argmax()]).astype(complex)
             name = mode_name(shape, assembly.coordinates, np.diag(assembly.mass_matrix))

@@ -10,7 +10,9 @@ import numpy as np
 from .. import checks
 from ..quantities import Checked, FrozenMapping, Record, unit
 from .assembly import Assembly, Link, Position, Response, check_strut_names
-from .vehicle import AssembledVehicle, Vehicle, assembled, spring_and_damper
+from .networks import placed
+from .struts import Damper, Spring, Strut, parallel
+from .vehicle import AssembledVehicle, Vehicle, assembled
 
 
 class Part(Checked, ABC):
@@ -54,6 +56,8 @@ class Seat(Part):
         Occupant and moving part of the seat, > 0 [kg].
     spring, damper : float
         Stiffness [N/m] and damping coefficient [N s/m], > 0.
+    strut : Strut, optional
+        In place of spring and damper.
     position : (float, float)
         Place from the body's centre of gravity, x forward and y to the left [m]; on a flexible body one with known
         mode shapes.
@@ -80,10 +84,11 @@ class Seat(Part):
     """
 
     mass: float = field(metadata=unit("kg"))
-    spring: float = field(metadata=unit("N/m"))
-    damper: float = field(metadata=unit("N s/m"))
+    spring: float | None = field(default=None, metadata=unit("N/m"))
+    damper: float | None = field(default=None, metadata=unit("N s/m"))
     position: Position = field(default=(0.0, 0.0), metadata=unit("m"))
     name: str = "seat"
+    strut: Strut | None = field(default=None, metadata={"key": None})
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -91,6 +96,11 @@ class Seat(Part):
         if not (isinstance(self.name, str) and self.name.isidentifier()):
             raise ValueError(f"name must be of letters, digits and underscores, got {checks.shown(self.name)}")
         check_strut_names("name", [self.name])
+        for name, text in (("spring", "N/m"), ("damper", "N s/m")):
+            if self.strut is None:
+                checks.positive(name, getattr(self, name), text)
+            elif getattr(self, name) is not None:
+                raise ValueError(f"{name} must be part of the strut if there is one, got {getattr(self, name)}")
 
     def added_to(self, assembly: Assembly) -> Assembly:
         """Return the vehicle with this seat on it."""
@@ -99,7 +109,9 @@ class Seat(Part):
         if self.name in {"pitch", "roll", *assembly.coordinates, *assembly.roads, *struts, *coefficients}:
             raise ValueError(f"name must be one that the vehicle does not have yet, got {checks.shown(self.name)}")
         parameters = [replace(p, gain=np.pad(p.gain, (0, 1))) for p in assembly.parameters]
-        own = spring_and_damper(self.name, [*[0.0] * len(struts), 1.0], (self.spring, self.damper))
+        strut = self.strut or parallel(Spring(value=self.spring), Damper(value=self.damper))
+        own, networks = placed(strut, self.name, [*[0.0] * len(struts), 1.0])
+        others = (one._replace(share=(*one.share, 0.0)) for one in assembly.networks)
         kinds = {"acceleration": "acceleration", "suspension_travel": "travel"}
         responses = {f"{self.name}_{what}": Response(kind, self.name) for what, kind in kinds.items()}
         return replace(
@@ -107,6 +119,7 @@ class Seat(Part):
             masses={**assembly.masses, self.name: self.mass},
             struts=(*assembly.struts, Link(self.name, self.position, self.name)),
             parameters=(*parameters, *own),
+            networks=(*others, *networks),
             responses={**assembly.responses, **responses},
         )
 

@@ -16,8 +16,10 @@ from ..quantities import FrozenMapping, Record, unit
 from ..tables import read_table
 from .assembly import Position, Response, ResponseName, StrutParameter, check_strut_names, joined, label
 from .feedback import System, numbers_of, selected, system_of
+from .networks import placed
 from .plant_tables import frequency_responses
-from .vehicle import Vehicle, spring_and_damper
+from .struts import Damper, Spring, parallel
+from .vehicle import Vehicle
 
 _LEAST = 4  # lines of a cubic spline
 _CLOSEST = 1e-6  # Hz, least distance of lines: its powers in a spline are finite
@@ -123,8 +125,9 @@ class Plant(Record, Vehicle):
     @property
     def parameters(self) -> tuple[StrutParameter, ...]:
         """Coefficients of the struts."""
-        shares = np.eye(len(self.struts)).tolist()
-        return tuple(p for one in zip(self.struts, shares, strict=True) for p in spring_and_damper(*one))
+        strut, shares = parallel(Spring(), Damper()), np.eye(len(self.struts)).tolist()
+        placements = (placed(strut, *one) for one in zip(self.struts, shares, strict=True))
+        return tuple(parameter for parameters, _ in placements for parameter in parameters)
 
     def plant(self, responses: Sequence[ResponseName] | None = None) -> System:
         """Return the vehicle without its struts, see `Vehicle.plant`; points of the body to the millimetre."""

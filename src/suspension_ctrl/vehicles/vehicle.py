@@ -13,8 +13,8 @@ import numpy as np
 
 from .. import checks
 from ..quantities import Real, frozen_array
-from .assembly import Assembly, Position, Response, ResponseName, StrutParameter
-from .feedback import System, around, gains_by_order, selected
+from .assembly import Assembly, Network, Position, Response, ResponseName, StrutParameter
+from .feedback import Dynamics, System, gains_by_order, selected
 from .handling import Mechanics
 from .modes import modes_of
 
@@ -49,6 +49,11 @@ class Vehicle(ABC):
     @abstractmethod
     def parameters(self) -> tuple[StrutParameter, ...]:
         """Coefficients of the struts."""
+
+    @property
+    def networks(self) -> tuple[Network, ...]:
+        """Parts of the struts beside springs and dampers in parallel."""
+        return ()
 
     @abstractmethod
     def plant(self, responses: Sequence[ResponseName] | None = None) -> System:
@@ -111,9 +116,9 @@ class Vehicle(ABC):
         ValueError
             If a coefficient is unknown, missing or out of range; about responses as `plant`.
         """
-        q = len(self.struts)
-        gains = gains_by_order(self.parameters, self.coefficients(setting, **struts), q)
-        closed = around(self.plant(responses), gains)
+        q, values = len(self.struts), self.coefficients(setting, **struts)
+        dynamics = Dynamics.of(self.networks, values, gains_by_order(self.parameters, values, q))
+        closed = dynamics.around(self.plant(responses))
         return selected(closed, closed.output_labels[: -2 * q], closed.input_labels[:-q], "vehicle")
 
     def coefficients(self, setting: Setting | None = None, /, **struts: Any) -> dict[str, float]:
@@ -171,6 +176,11 @@ class AssembledVehicle(Vehicle):
         """Coefficients of the struts."""
         return self.assembly.parameters
 
+    @property
+    def networks(self) -> tuple[Network, ...]:
+        """Parts of the struts beside springs and dampers in parallel."""
+        return self.assembly.networks
+
     @cached_property
     def statics(self) -> Mechanics:
         """Its matrices, for static loads and roll."""
@@ -187,15 +197,6 @@ def assembled(vehicle: Vehicle) -> AssembledVehicle:
         needed = "one of masses and links for static loads, roll, modes and seats"
         raise ValueError(f"vehicle must be {needed}, got a {type(vehicle).__name__}")
     return vehicle
-
-
-def spring_and_damper(
-    name: str, share: Sequence[float], defaults: tuple[float | None, float | None] = (None, None)
-) -> list[StrutParameter]:
-    """Return the coefficients `name` of those struts whose `share` (q,) is 1."""
-    gain, prefix = np.diag(share), f"{name}." if name else ""
-    spring = StrutParameter(f"{prefix}spring", "N/m", gain, 0, defaults[0])
-    return [spring, StrutParameter(f"{prefix}damper", "N s/m", gain, 1, defaults[1])]
 
 
 def anti_roll_bar(name: str, difference: Sequence[float], track: float) -> StrutParameter:

@@ -1,0 +1,186 @@
+"""Networks of a vehicle's struts: the parts beside plain springs and dampers, as data of compiled loops.
+
+A strut's springs, dampers and inerters directly in parallel are coefficients of gains, see `StrutParameter`. All
+else, series, rubber and force laws, is a network at each of the strut's ports.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ..compiled import compilable
+from ..quantities import Bool, Integer, Real
+from .assembly import Network, StrutParameter
+from .force_laws import Curve, Factors, ForceLaw
+from .struts import (
+    Damper,
+    Element,
+    Inerter,
+    LinearElement,
+    MeasuredStiffness,
+    Parallel,
+    Rubber,
+    Series,
+    Spring,
+    Strut,
+)
+
+SPRING, DAMPER, INERTER, RUBBER, MEASURED, LAW, PARALLEL, SERIES = range(8)
+"""Kinds of nodes of a program."""
+
+_KINDS = {Spring: SPRING, Damper: DAMPER, Inerter: INERTER, Rubber: RUBBER, MeasuredStiffness: MEASURED}
+_NONE = -1
+
+
+def placed(strut: Strut, prefix: str, share: Sequence[float]) -> tuple[list[StrutParameter], list[Network]]:
+    """Return coefficients and network of a strut at the ports whose `share` (q,) is 1; names after the prefix."""
+    top = isinstance(strut, Parallel) and not isinstance(strut, Series)
+    parts = strut.parts if isinstance(strut, Parallel) and top else (strut,)
+    ratio = strut.installation_ratio if top else 1.0
+    gain, dot = np.diag(np.asarray(share, dtype=float)), f"{prefix}." if prefix else ""
+    parameters = []
+    for part in parts:
+        for one in part.coefficients:
+            plain = isinstance(part, LinearElement)
+            own = gain * (ratio * part.installation_ratio) ** 2 if plain else np.zeros_like(gain)
+            order = part.order if isinstance(part, LinearElement) else 0
+            parameters.append(StrutParameter(dot + one.name, one.unit, own, order, one.default))
+    rest = tuple(part for part in parts if not isinstance(part, LinearElement))
+    if not rest:
+        return parameters, []
+    return parameters, [Network(Parallel(rest, installation_ratio=ratio), dot, tuple(map(float, share)))]
+
+
+class Laws(NamedTuple):
+    """Force laws by coefficients of the vehicle: each of up to k knots, see `force_laws.Curve`; index -1 is 1."""
+
+    of_rate: Bool  # (l,), whether of the rate or of the deflection
+    knots: Integer  # (l,), number of knots
+    knot: Real  # (l, k, 2), constant and factor
+    knot_by: Integer  # (l, k), coefficient of the factor
+    slope: Real  # (l, k + 1)
+    slope_by: Integer  # (l, k + 1, 2), its coefficients
+    jump: Real  # (l, k)
+    jump_by: Integer  # (l, k)
+    power: Integer  # (l, 2), coefficients c and a of c |v|^a, -1 without
+
+
+class Program(NamedTuple):
+    """Networks as nodes; parts come before the node that they make up."""
+
+    kind: Integer  # (n,)
+    parts: Integer  # (n, 2), nodes in parallel or series
+    ratio: Real  # (n,), installation ratio
+    coefficient: Integer  # (n, 2), coefficients of the vehicle; of MEASURED the scale and its row
+    law: Integer  # (n,), law of a node of that kind
+    root: Integer  # (t,), last node of each network
+    laws: Laws
+
+    @classmethod
+    def of(cls, networks: Sequence[Network], coefficients: Sequence[str]) -> "Program":
+        """Return the program of networks, with indices of the vehicle's coefficients."""
+        index, rows, laws = {name: i for i, name in enumerate(coefficients)}, list[_Node](), list[ForceLaw]()
+        roots, owners = [], list[Network]()
+        for network in networks:
+            roots.append(_append(network.strut, network.prefix, index, rows, laws))
+            owners += [network] * (len(laws) - len(owners))
+        columns = [np.array(column) for column in zip(*rows, strict=True)] if rows else [np.empty(0)] * 5
+        kind, parts, ratio, coefficient, law = columns
+        return cls(
+            kind.astype(np.int64),
+            parts.astype(np.int64).reshape(-1, 2),
+            ratio.astype(float),
+            coefficient.astype(np.int64).reshape(-1, 2),
+            law.astype(np.int64),
+            np.array(roots, dtype=np.int64),
+            _laws_of([_indexed(law, owner.prefix, index) for law, owner in zip(laws, owners, strict=True)], laws),
+        )
+
+
+class _Node(NamedTuple):
+    kind: int
+    parts: tuple[int, int]
+    ratio: float
+    coefficient: tuple[int, int]
+    law: int
+
+
+def _append(strut: Strut, prefix: str, index: Mapping[str, int], rows: list[_Node], laws: list[ForceLaw]) -> int:
+    """Append the nodes of a strut and return the last."""
+    ratio = strut.installation_ratio
+    if isinstance(strut, Parallel):
+        kind = SERIES if isinstance(strut, Series) else PARALLEL
+        last, *others = [_append(part, prefix, index, rows, laws) for part in strut.parts]
+        for part in others:
+            rows.append(_Node(kind, (last, part), 1.0, (_NONE, _NONE), _NONE))
+            last = len(rows) - 1
+        rows[last] = rows[last]._replace(ratio=rows[last].ratio * ratio)
+        return last
+    own = [index[prefix + one.name] for one in strut.coefficients]
+    if isinstance(strut, ForceLaw):
+        laws.append(strut)
+        rows.append(_Node(LAW, (_NONE, _NONE), ratio, (_NONE, _NONE), len(laws) - 1))
+    else:
+        row = sum(node.kind == MEASURED for node in rows) if isinstance(strut, MeasuredStiffness) else _NONE
+        pair = (own[0], own[1] if len(own) > 1 else row)
+        rows.append(_Node(_KINDS[type(strut)], (_NONE, _NONE), ratio, pair, _NONE))
+    return len(rows) - 1
+
+
+def elements_of(networks: Sequence[Network], kind: type[Element]) -> Iterator[tuple[Network, Element]]:
+    """Yield the elements of a class in the order of `Program`, each with its network."""
+    for network in networks:
+        yield from ((network, element) for element in network.strut.elements if isinstance(element, kind))
+
+
+def _indexed(law: ForceLaw, prefix: str, index: Mapping[str, int]) -> tuple[Curve, list[int]]:
+    return law.curve, [index[prefix + one.name] for one in law.coefficients]
+
+
+def _laws_of(curves: Sequence[tuple[Curve, list[int]]], laws: Sequence[ForceLaw]) -> Laws:
+    """Return curves in arrays, padded to the most knots."""
+    n, k = len(curves), max((len(curve.knots) for curve, _ in curves), default=0)
+    found = Laws(
+        np.array([law.of_rate for law in laws], dtype=bool),
+        np.array([len(curve.knots) for curve, _ in curves], dtype=np.int64),
+        np.zeros((n, k, 2)),
+        np.full((n, k), _NONE),
+        np.zeros((n, k + 1)),
+        np.full((n, k + 1, 2), _NONE),
+        np.zeros((n, k)),
+        np.full((n, k), _NONE),
+        np.full((n, 2), _NONE),
+    )
+    for l, (curve, own) in enumerate(curves):  # noqa: E741
+        for i, (constant, (factor, by)) in enumerate(curve.knots):
+            found.knot[l, i] = constant, factor
+            found.knot_by[l, i] = own[by[0]] if by else _NONE
+        _put(curve.slopes, own, found.slope[l], found.slope_by[l])
+        _put(curve.jumps, own, found.jump[l], found.jump_by[l][:, None])
+        if curve.power:
+            found.power[l] = [own[j] for j in curve.power]
+    return found
+
+
+def _put(numbers: Sequence[Factors], own: Sequence[int], value: Real, by: Integer) -> None:
+    """Put numbers and the indices of their coefficients into rows."""
+    for i, (number, factors) in enumerate(numbers):
+        value[i] = number
+        by[i, : len(factors)] = [own[j] for j in factors]
+
+
+@compilable()
+def fill_curve(laws: Laws, law: int, values: Real, knot: Real, slope: Real, jump: Real) -> int:
+    """Fill in the knots (k,), slopes (k + 1,) and jumps (k,) of a law with these coefficients; return k."""
+    k = laws.knots[law]
+    for i in range(k):
+        by = laws.knot_by[law, i]
+        knot[i] = laws.knot[law, i, 0] + laws.knot[law, i, 1] * (values[by] if by >= 0 else 1.0)
+        by = laws.jump_by[law, i]
+        jump[i] = laws.jump[law, i] * (values[by] if by >= 0 else 1.0)
+    for i in range(k + 1):
+        slope[i] = laws.slope[law, i]
+        for by in laws.slope_by[law, i]:
+            slope[i] *= values[by] if by >= 0 else 1.0
+    return int(k)

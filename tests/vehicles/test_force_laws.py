@@ -1,0 +1,77 @@
+"""Force laws as curves: knots, slopes and jumps by their coefficients."""
+
+import re
+
+import numpy as np
+import pytest
+
+import suspension_ctrl as sc
+from suspension_ctrl.vehicles.networks import Program, fill_curve
+
+NAN = float("nan")
+
+
+def curve(law, **values):
+    """Knots, slopes and jumps of a law in a quarter car with these coefficients beside the defaults."""
+    car = sc.QuarterCar(body_mass=300.0, wheel_mass=30.0, tyre_stiffness=2e5, strut=sc.parallel(sc.Spring(), law))
+    coefficients = car.coefficients({"spring": 2e4} | {f"{law.name}.{name}": x for name, x in values.items()})
+    laws = Program.of(car.networks, list(coefficients)).laws
+    knot, slope, jump = np.empty(9), np.empty(10), np.empty(9)
+    k = fill_curve(laws, 0, np.array(list(coefficients.values())), knot, slope, jump)
+    return knot[:k], slope[: k + 1], jump[:k]
+
+
+@pytest.mark.parametrize(
+    ("law", "values", "expected"),
+    [
+        (sc.TableDamper(velocity=[-1, 0, 2], force=[-500, 0, 3000]), {"scale": 2.0}, ([0], [1000, 3000], [0])),
+        (sc.TableDamper(velocity=[0, 1, 2], force=[0, 3, 5]), {}, ([-1, 0, 1], [2, 3, 3, 2], [0, 0, 0])),
+        (sc.BumpStop(gap=0.02, stiffness=2e5), {}, ([-0.02], [2e5, 0], [0])),
+        (sc.ReboundStop(gap=0.02, stiffness=2e5), {"gap": 0.03}, ([0.03], [0, 2e5], [0])),
+        (
+            sc.BumpStop(gap=0.02, compression=[0, 0.01, 0.02], force=[0, 1000, 4000]),
+            {"scale": 2.0},
+            ([-0.03, -0.02], [6e5, 2e5, 0], [0, 0]),
+        ),
+        (sc.Friction(force=40.0), {}, ([0], [0, 0], [80])),
+        (
+            sc.DigressiveDamper(low_speed=4000, high_speed=800, knee=0.1),
+            {"rebound_over_bump": 3.0},
+            ([-0.1, 0, 0.1], [800, 4000, 12000, 2400], [0, 0, 0]),
+        ),
+        (sc.BilinearDamper(bump=750, rebound=2250), {}, ([0], [750, 2250], [0])),
+    ],
+)
+def test_curves(law, values, expected):
+    for found, numbers in zip(curve(law, **values), expected, strict=True):
+        np.testing.assert_allclose(found, numbers, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("make", "error"),
+    [
+        (
+            lambda: sc.TableDamper(velocity=[0, 1], force=[5, 9]),
+            "force must be 0 N at velocity 0, got 5 N",
+        ),
+        (lambda: sc.TableDamper(velocity=[-1, 0, 1], force=[-1, 0, -1]), "force must not fall over velocity"),
+        (lambda: sc.TableDamper(velocity=[0, 1, 1], force=[0, 1, 2]), "velocity must ascend, got 1, then 1"),
+        (lambda: sc.TableDamper(velocity=[0, 1], force=[0, NAN]), "velocity and force must be finite"),
+        (lambda: sc.TableSpring(deflection=[0, 1, 2], force=[0, 1]), "deflection and force must be of one length"),
+        (lambda: sc.TableSpring(deflection=[0.1, 1], force=[0.1, 1]), "got deflection from 0.1 to 1"),
+        (lambda: sc.BumpStop(gap=-0.1), "gap must be finite and > 0 m, got -0.1"),
+        (lambda: sc.BumpStop(gap=0.1, compression=[0, 1]), "stop must have a stiffness, or compression and force"),
+        (lambda: sc.BumpStop(compression=[1, 2], force=[0, 1]), "must begin with 0 m and 0 N, got 1 m and 0 N"),
+        (lambda: sc.DigressiveDamper(knee=0.0), "knee must be finite and > 0 m/s, got 0.0"),
+    ],
+)
+def test_bad_laws_are_one_line(make, error):
+    with pytest.raises(ValueError, match=re.escape(error)):
+        make()
+
+
+def test_a_force_law_is_not_closed_without_a_road():
+    strut = sc.parallel(sc.Spring(), sc.Friction(force=40.0), sc.Damper())
+    car = sc.QuarterCar(body_mass=300.0, wheel_mass=30.0, tyre_stiffness=2e5, strut=strut)
+    with pytest.raises(ValueError, match=r"^strut must be of springs.*got friction$"):
+        car.closed(spring=2e4, damper=1e3)
