@@ -1,4 +1,4 @@
-"""Checks of user input: a ValueError names the parameter, the value and what is allowed."""
+"""Checks of user input: each raises a ValueError with the parameter, what is allowed and the value."""
 
 import reprlib
 import stat
@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 _LARGEST = sys.float_info.max
-_SLACK = 1e-9  # share of its range by which a variable may pass a bound
-_SHOWN = 40  # most characters of a value in an error
+_SLACK = 1e-9  # tolerance of a bound, as a share of the range of the variable
+_SHOWN = 40  # characters of a value in an error
 _KINDS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
     "integer": (
         "hold a whole number of at most 1e15",
@@ -30,7 +30,7 @@ _BRIEF.maxstring = _BRIEF.maxother = _BRIEF.maxlong = _SHOWN
 
 @contextmanager
 def installed(extra: str) -> Iterator[None]:
-    """Name the extra of this package to install in place of the ModuleNotFoundError of an import in the block."""
+    """Replace a ModuleNotFoundError of the block by an ImportError that names the extra to install."""
     try:
         yield
     except ModuleNotFoundError as error:
@@ -42,13 +42,13 @@ def shown(value: object) -> str:
     """Return the repr of a value for an error: one line without control characters, cut to 40 characters."""
     try:
         text = " ".join(_BRIEF.repr(value).split())
-    except ValueError:  # Python spells no whole number of more than 4300 digits
+    except ValueError:  # Python converts no integer of more than 4300 digits
         text = "a number of thousands of digits"
     return text if len(text) <= _SHOWN else f"{text[: _SHOWN - 3]}..."
 
 
 def regular(path: Path, most: float) -> None:
-    """Raise ValueError unless the file is a regular one of at most `most` MB; OSError if there is none."""
+    """Raise ValueError unless a file is regular and has at most `most` MB; OSError if it does not exist."""
     status = path.stat()
     got = f"{status.st_size / 1e6:.6g} MB" if stat.S_ISREG(status.st_mode) else "another kind"
     if got == "another kind" or status.st_size > most * 1e6:
@@ -68,7 +68,7 @@ def not_negative(name: str, value: float, unit: str = "") -> None:
 
 
 def at_least(name: str, value: int, minimum: int) -> int:
-    """Return a whole number of any integer type as int; ValueError unless it is at least `minimum`."""
+    """Return an integer of any type as int; ValueError unless it is at least `minimum`."""
     if not (isinstance(value, int | np.integer) and not isinstance(value, bool) and value >= minimum):
         raise ValueError(f"{name} must be a whole number >= {minimum}, got {shown(value)}")
     return int(value)
@@ -101,7 +101,7 @@ def within(name: str, value: float, lowest: float, highest: float) -> None:
 
 
 def interval(name: str, value: ArrayLike, unit: str, *, equal: bool = False) -> None:
-    """Raise ValueError unless `value` is a pair of finite numbers with 0 <= lower < upper, or `equal` ones."""
+    """Raise ValueError unless `value` is a pair of finite numbers, 0 <= lower < upper, or <= if `equal`."""
     pair = list(value) if isinstance(value, Sequence | np.ndarray) else []
     real = len(pair) == 2 and all(map(_is_real, pair)) and 0 <= pair[0] <= pair[1] <= _LARGEST
     if not real or (pair[0] == pair[1] and not equal):
@@ -118,7 +118,7 @@ def ascending(name: str, values: NDArray[np.float64]) -> None:
 
 
 def position(name: str, value: object) -> tuple[float, float]:
-    """Return `value` as a pair of floats; ValueError unless it is one of finite numbers."""
+    """Return a pair of floats; ValueError unless `value` is two finite numbers."""
     pair = list(value) if isinstance(value, Sequence | np.ndarray) and not isinstance(value, str) else []
     if not (len(pair) == 2 and all(_is_real(x) and abs(x) <= _LARGEST for x in pair)):
         raise ValueError(f"{name} must be two finite numbers, x and y [m], got {shown(value)}")
@@ -138,7 +138,7 @@ def one_of(name: str, value: object, allowed: Collection[object]) -> None:
 
 
 def ordered(lower_name: str, upper_name: str, lower: ArrayLike, upper: ArrayLike) -> None:
-    """Raise ValueError unless both are finite, one-dimensional, of one length, lower <= upper, and < somewhere."""
+    """Raise ValueError unless bounds (d,) are finite, lower <= upper, and lower < upper in one variable."""
     low, high = np.asarray(lower, dtype=float), np.asarray(upper, dtype=float)
     if low.ndim != 1 or low.shape != high.shape or low.size == 0:
         needed, got = "one-dimensional and of one length", f"{lower!r} and {upper!r}"
@@ -154,7 +154,7 @@ def kinds(
     """Return the kinds of variables by name, catalogues sorted; ValueError unless they fit the bounds (d,)."""
     if not isinstance(given, Mapping):
         raise ValueError(f"kinds must be a mapping by variable, got {shown(given)}")
-    found: dict[str, str | tuple[float, ...]] = {}
+    checked: dict[str, str | tuple[float, ...]] = {}
     for name, kind in given.items():
         one_of("kinds", name, variables)
         low, high = (bound[variables.index(name)] for bound in (lower, upper))
@@ -162,29 +162,29 @@ def kinds(
             needed, fits = _KINDS[kind]
             if not fits(low, high):
                 raise ValueError(f"bounds of {name} must {needed}, got {low} and {high}")
-            found[name] = kind
+            checked[name] = kind
             continue
         listed = kind.tolist() if isinstance(kind, np.ndarray) else kind
         values = list(listed) if isinstance(listed, Iterable) and not isinstance(listed, str) else []
         if not values or not all(_is_real(value) and low <= value <= high for value in values):
             allowed = f"{', '.join(_KINDS)} or values from {low:g} to {high:g}"
             raise ValueError(f"kinds of {name} must be {allowed}, got {shown(kind)}")
-        found[name] = tuple(sorted({float(value) for value in values}))
-    ends = [kind_ends(found.get(name, ""), *pair) for name, *pair in zip(variables, lower, upper, strict=True)]
+        checked[name] = tuple(sorted({float(value) for value in values}))
+    ends = [kind_ends(checked.get(name, ""), *pair) for name, *pair in zip(variables, lower, upper, strict=True)]
     if all(first == last for first, last in ends):
         raise ValueError(f"kinds must leave a variable that is not held, got {shown(given)}")
-    return found
+    return checked
 
 
 def kind_ends(kind: str | tuple[float, ...], lower: float, upper: float) -> tuple[float, float]:
-    """Return the least and the greatest value of a variable of a kind within bounds."""
+    """Return the least and the greatest value of a variable of this kind within its bounds."""
     if isinstance(kind, tuple):
         return kind[0], kind[-1]
     return (float(ceil(lower)), float(floor(upper))) if kind == "integer" else (lower, upper)
 
 
 def designs(values: ArrayLike, variables: int) -> NDArray[np.float64]:
-    """Return `values` as a float array of shape (n, variables); ValueError for any other."""
+    """Return designs as a float array (n, variables); ValueError for another shape."""
     array = np.ascontiguousarray(_of_reals("designs must be", values), dtype=float)
     if array.ndim != 2 or array.shape[1] != variables:
         raise ValueError(f"designs must have shape (n, {variables}), got {array.shape}")
@@ -192,7 +192,7 @@ def designs(values: ArrayLike, variables: int) -> NDArray[np.float64]:
 
 
 def rows_within(name: str, rows: NDArray[np.float64], lower: ArrayLike, upper: ArrayLike) -> None:
-    """Raise ValueError unless every row (n, d) lies between `lower` and `upper` (d,), but for rounding."""
+    """Raise ValueError unless all rows (n, d) are within `lower` and `upper` (d,), up to rounding."""
     low, high = (np.asarray(bound, dtype=float)[:, np.newaxis] for bound in (lower, upper))
     columns, slack = rows.T.copy(), _SLACK * (high - low)  # (d, n): numpy is slow along short rows
     inside = (columns >= low - slack) & (columns <= high + slack)

@@ -1,4 +1,4 @@
-"""Where the data files are, in a checkout and in an installed wheel."""
+"""Data files of the package, in a checkout and in an installed wheel."""
 
 import csv
 from os import PathLike
@@ -6,7 +6,7 @@ from pathlib import Path
 
 from . import checks
 
-_FOLDERS = (Path(__file__).parent / "data", Path(__file__).parents[2] / "data")  # in a wheel, in a checkout
+_FOLDERS = (Path(__file__).parent / "data", Path(__file__).parents[2] / "data")  # of a wheel, of a checkout
 DATA = next(filter(Path.is_dir, _FOLDERS))
 
 
@@ -18,22 +18,22 @@ def path(name: str) -> Path:
 
 
 def named(kind: str, folder: str, source: str | PathLike[str]) -> Path:
-    """Return the path of a TOML file, or of the data file in `folder` of that name without its ending."""
+    """Return the path of a TOML file, or of the TOML file in the data folder with this name."""
     if Path(source).suffix == ".toml":
         return Path(source)
-    known = stems(folder)
-    if str(source) not in known:
-        allowed = f"one of {', '.join(known)} or the path of a .toml file"
+    shipped = stems(folder)
+    if str(source) not in shipped:
+        allowed = f"one of {', '.join(shipped)} or the path of a .toml file"
         raise ValueError(f"{kind} must be {allowed}, got {checks.shown(str(source))}")
     return path(f"{folder}/{source}.toml")
 
 
 def stems(folder: str) -> list[str]:
-    """Return the names, without their endings, of the data files in a folder, in alphabetical order."""
+    """Return the names, without endings, of the files in a data folder, sorted."""
     return sorted(file.stem for file in (DATA / folder).iterdir())
 
 
 def rows(name: str) -> list[dict[str, str]]:
-    """Rows of a CSV data file, each a dictionary by column name; lines that start with ``#`` name the source."""
+    """Return the rows of a CSV data file by column name, without comments (``#``)."""
     with path(name).open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(line for line in file if not line.startswith("#")))

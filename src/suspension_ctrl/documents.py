@@ -1,4 +1,4 @@
-"""TOML files in and out; an error names the file, the line and the key, and one error may list many mistakes."""
+"""TOML files: an error lists all mistakes, each with the file, its line and its key."""
 
 import re
 import tomllib
@@ -10,15 +10,15 @@ from typing import Any, NamedTuple
 
 from . import checks, escaping
 
-_LINES = 20  # most mistakes that an error lists
-_MEGABYTES, _DOTS = 0.25, 500  # of a file, in a line: tomllib takes quadratic time for a key a.b.c. ...
-_QUOTED = re.compile(r"(character|declare|namespace|key) ['\"(].*(?=\(at )")  # of the file, by tomllib
+_LINES = 20  # mistakes in an error
+_MEGABYTES, _DOTS = 0.25, 500  # of a file, and in a line: the time of tomllib for a key a.b.c. ... is quadratic
+_QUOTED = re.compile(r"(character|declare|namespace|key) ['\"(].*(?=\(at )")  # what tomllib quotes of a file
 _HEADER = re.compile(r"\s*(\[\[?)([^\[\]]{1,200})\]")
 _KEY = re.compile(r"\s*([\w.\"'-]{1,200})\s*=")
 
 
 class FileError(ValueError):
-    """One or more mistakes in a file, a line each."""
+    """Mistakes in a file, one per line."""
 
 
 def lines_of(error: ValueError) -> list[str]:
@@ -27,7 +27,7 @@ def lines_of(error: ValueError) -> list[str]:
 
 
 class Mistakes:
-    """The mistakes found in a file so far."""
+    """Collected mistakes in a file."""
 
     def __init__(self) -> None:
         self._lines: dict[str, None] = {}
@@ -41,28 +41,28 @@ class Mistakes:
 
     @contextmanager
     def noted(self, prefix: str = "") -> Iterator[None]:
-        """Note a ValueError of the block, each of its lines after the prefix, and go on after the block."""
+        """Note the lines of a ValueError of the block, each after the prefix, and suppress the error."""
         try:
             yield
         except ValueError as error:
             self._lines |= dict.fromkeys(f"{prefix}{line}" for line in lines_of(error))
 
     def settle(self) -> None:
-        """Raise a FileError that lists the mistakes, if there are any."""
+        """Raise a FileError with the mistakes, if any."""
         if self._lines:
             raise FileError("\n".join(self._lines))
 
 
 @contextmanager
 def naming(path: str | PathLike[str], numbers: Mapping[str, int] | None = None) -> Iterator[None]:
-    """Name the file, and by the `numbers` of lines the line, in an error about the content of a file."""
+    """Name the file, and the line of the key by `numbers`, in errors about the content of a file."""
     try:
         yield
     except (ValueError, RecursionError, ArithmeticError, MemoryError) as error:
         far = "the file must have tables of moderate depth and numbers of moderate size, got a"
-        said = lines_of(error) if isinstance(error, ValueError) else [f"{far} {type(error).__name__}"]
-        more = [f"{len(said) - _LINES} further mistakes"] if len(said) > _LINES else []
-        named = [f"{path}{_place(line, numbers or {})}: {line}" for line in [*said[:_LINES], *more]]
+        lines = lines_of(error) if isinstance(error, ValueError) else [f"{far} {type(error).__name__}"]
+        more = [f"{len(lines) - _LINES} further mistakes"] if len(lines) > _LINES else []
+        named = [f"{path}{_place(line, numbers or {})}: {line}" for line in [*lines[:_LINES], *more]]
         raise FileError("\n".join(map(escaping.terminal, named))) from None
 
 
@@ -73,18 +73,18 @@ def keyed(prefix: str, names: Mapping[str, str]) -> Iterator[None]:
         yield
     except ValueError as error:
         name, space, rest = str(error).partition(" ")
-        known = prefix + names[name] if name in names else f"{prefix[:-1]}: {name}" if prefix else name
-        raise ValueError(known + space + rest) from None
+        key = prefix + names[name] if name in names else f"{prefix[:-1]}: {name}" if prefix else name
+        raise ValueError(key + space + rest) from None
 
 
 class Table(NamedTuple):
     """A table of a file."""
 
-    name: str  # before its keys in errors: "struts.front."
+    name: str  # prefix of its keys in errors: "struts.front."
     content: Mapping[str, Any]
 
     def flat(self) -> "Table":
-        """Return the table with the values of its tables under dotted keys."""
+        """Return the table with the values of inner tables under dotted keys."""
         flat: dict[str, object] = {}
         for key, value in self.content.items():
             nested = isinstance(value, dict) and value
@@ -94,7 +94,7 @@ class Table(NamedTuple):
 
 @contextmanager
 def document(path: Path) -> Iterator[Table]:
-    """Yield the table of a TOML file in UTF-8; an error of the block names the file and the lines of its keys."""
+    """Yield the table of a TOML file in UTF-8; errors of the block name the file and the lines of keys."""
     numbers: dict[str, int] = {}
     with naming(path, numbers):
         checks.regular(path, _MEGABYTES)
@@ -103,7 +103,7 @@ def document(path: Path) -> Iterator[Table]:
             if (dots := max(line.count(".") for line in text.split("\n"))) > _DOTS:
                 raise ValueError(f"a line of {dots} dots, {_DOTS} are the most")
             content = tomllib.loads(text)
-        except ValueError as error:  # nothing of the file is quoted
+        except ValueError as error:  # quotes nothing of the file
             encoded = isinstance(error, UnicodeDecodeError)
             got = "another encoding" if encoded else _QUOTED.sub(r"\1 ", str(error))
             raise ValueError(f"the file must be TOML in UTF-8, got {got}") from None
@@ -112,8 +112,8 @@ def document(path: Path) -> Iterator[Table]:
 
 
 def line_numbers(text: str) -> dict[str, int]:
-    """Return the line of each key and header in a TOML text, named as in errors: ``seats[1].mass_kg``."""
-    found: dict[str, int] = {}
+    """Return the number of the line of each key and header in a TOML text: ``{"seats[1].mass_kg": 12}``."""
+    numbers: dict[str, int] = {}
     lengths: dict[str, int] = {}  # of arrays of tables
     table, inside = "", False
     for number, line in enumerate(text.split("\n"), start=1):
@@ -124,16 +124,16 @@ def line_numbers(text: str) -> dict[str, int]:
                 if header[1] == "[[" and header[2].rstrip().endswith(part):
                     lengths[table] = lengths.get(table, 0) + 1
                 table += f"[{lengths[table]}]" if table in lengths else ""
-            found.setdefault(table, number)
+            numbers.setdefault(table, number)
             table += "."
         elif not inside and (key := _KEY.match(line)):
-            found.setdefault(table + re.sub("[\"']", "", key[1]), number)
+            numbers.setdefault(table + re.sub("[\"']", "", key[1]), number)
         inside ^= (line.count('"""') + line.count("'''")) % 2 == 1
-    return found
+    return numbers
 
 
 def _place(message: str, numbers: Mapping[str, int]) -> str:
-    """Return ``:12``, the line of the key at the start of a message or of the table around it, if known."""
+    """Return ``:12``, the line of the key that a message begins with, or of its table; ``""`` if unknown."""
     key = message.split(" ", 1)[0].rstrip(":")
     while key and key not in numbers:
         key = key[: max(key.rfind("."), key.rfind("["), 0)]

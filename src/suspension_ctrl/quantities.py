@@ -1,4 +1,4 @@
-"""Quantities: values and names with units, and frozen records that are compared, hashed and shown by fields."""
+"""Quantities with units, and frozen records: equality, hash and repr by their fields."""
 
 import re
 import textwrap
@@ -21,13 +21,13 @@ Bool = NDArray[np.bool_]
 K = TypeVar("K")
 V = TypeVar("V", covariant=True)
 
-_WIDTH, _LINES = 88, 6  # most columns and lines of a record's repr
+_WIDTH, _LINES = 88, 6  # columns and lines of a repr
 _QUANTITY = re.compile(
     r"\s*([+-]?(?:\d{1,20}\.?\d{0,20}|\.\d{1,20})(?:[eE][+-]?\d{1,3})?)([^\d.].{0,29})?", re.ASCII
 )
 _TERM = re.compile(r"([A-Za-z%]+)\^?(-?\d?)", re.ASCII)
 _BASE = ("kg", "m", "s", "rad", "cycle")
-_UNITS = {  # by other units; g is standard gravity as in deg/g, a gram has no symbol here
+_UNITS = {  # in other units; g is standard gravity as in deg/g, not gram
     "t": "1000 kg", "lb": "0.45359237 kg", "km": "1000 m", "cm": "0.01 m", "mm": "0.001 m", "in": "0.0254 m",
     "ft": "0.3048 m", "ms": "0.001 s", "min": "60 s", "h": "3600 s", "mph": "0.44704 m/s", "Hz": "1 s^-1",
     "N": "1 kg m/s^2", "kN": "1000 N", "lbf": "4.4482216152605 N", "g": "9.80665 m/s^2", "%": "0.01",
@@ -36,14 +36,14 @@ _UNITS = {  # by other units; g is standard gravity as in deg/g, a gram has no s
 
 
 def unit(text: str, *limits: float) -> dict[str, Any]:
-    """Return the metadata of a field in this unit and from a lowest to a highest value, if there are `limits`."""
+    """Return the metadata of a field in this unit; `limits` are its lowest and highest value."""
     return {"unit": text, "limits": limits} if limits else {"unit": text}
 
 
 def quantity(name: str, text: str, unit: str = "", *, bare: bool = True) -> float:
-    """Return a number in `unit` by a text with a unit of that dimension, ``"100 km/h"``, or of a `bare` number.
+    """Return the number in `unit` of a text with a unit of the same dimension, ``"100 km/h"``.
 
-    The result is rounded once; factors of units are exact, but for degrees.
+    A text of a `bare` number is in `unit`. The result is rounded once; factors of units are exact, except degrees.
     """
     found = _QUANTITY.fullmatch(text) if isinstance(text, str) else None
     if not found or not (found[2] or bare):
@@ -52,8 +52,8 @@ def quantity(name: str, text: str, unit: str = "", *, bare: bool = True) -> floa
     try:
         (factor, dimension), (_, needed) = _dimension(given or unit), _dimension(unit)
     except KeyError:
-        known = ", ".join([*_BASE, *_UNITS])
-        raise ValueError(f"{name} must be in units of {known}, got {checks.shown(given)}") from None
+        symbols = ", ".join([*_BASE, *_UNITS])
+        raise ValueError(f"{name} must be in units of {symbols}, got {checks.shown(given)}") from None
     if dimension != needed:
         needed_unit = f"in {unit} or a unit like it" if unit else "a number without unit"
         raise ValueError(f"{name} must be {needed_unit}, got {checks.shown(text)} in {given}")
@@ -64,7 +64,7 @@ def quantity(name: str, text: str, unit: str = "", *, bare: bool = True) -> floa
 
 
 def _dimension(unit: str) -> tuple[Fraction, Counter[str]]:
-    """Return the factor of a unit to base units and their exponents; KeyError if a symbol is unknown."""
+    """Return the factor of a unit to base units, and the exponents of these; KeyError for an unknown symbol."""
     factor, exponents = Fraction(1), Counter[str]()
     terms = re.split(r"\s*([/ *])\s*", f"*{unit}" if unit else "")[1:]
     for sign, term in zip(terms[::2], terms[1::2], strict=True):
@@ -81,7 +81,7 @@ def _dimension(unit: str) -> tuple[Fraction, Counter[str]]:
 
 
 def wrapped(text: str) -> str:
-    """Return the text of a repr in lines, cut after the last that it may take."""
+    """Return the text of a repr wrapped into lines and cut."""
     return textwrap.fill(text, _WIDTH, subsequent_indent="    ", max_lines=_LINES, placeholder=" ...")
 
 
@@ -93,7 +93,7 @@ def frozen_array(values: ArrayLike, dtype: type = float) -> NDArray[Any]:
 
 
 class FrozenMapping(Mapping[K, V]):
-    """An immutable copy of a mapping, hashable with its values, and fit for pickling."""
+    """An immutable copy of a mapping, hashable by its items, which can be pickled."""
 
     def __init__(self, items: Mapping[K, V]) -> None:
         self._items = dict(items)
@@ -115,10 +115,10 @@ class FrozenMapping(Mapping[K, V]):
 
 
 class Record:
-    """Equality, hash, repr and pickling of a frozen dataclass (``eq=False, repr=False``) by its fields.
+    """Base of frozen dataclasses (``eq=False, repr=False``): equality, hash, repr and pickling by fields.
 
-    Cached properties are not pickled; arrays stay read-only. The metadata of a field may have its ``unit`` and a
-    function ``show`` from the value to the text in `repr`.
+    Cached properties are not pickled; arrays remain read-only. The metadata of a field may have its ``unit`` and a
+    function ``show``, which returns the text of the value in the repr.
     """
 
     def __eq__(self, other: object) -> bool:
@@ -144,7 +144,7 @@ class Record:
         return wrapped(text)
 
     def _keep(self, **values: object) -> None:
-        """Set fields of this frozen record, in ``__post_init__``."""
+        """Set fields of this frozen record in ``__post_init__``."""
         for name, value in values.items():
             object.__setattr__(self, name, value)
 
@@ -156,7 +156,7 @@ class Record:
 
 
 class Checked(Record):
-    """A record of numbers within the limits of their fields, or above zero; zero is allowed if it is a default."""
+    """A record whose numbers must be within the limits of their fields, see `check_limits`."""
 
     def __post_init__(self) -> None:
         for one in self._fields():
@@ -164,7 +164,7 @@ class Checked(Record):
 
 
 def check_limits(name: str, value: Any, one: Field[Any]) -> None:
-    """Raise ValueError about `name` if the value is outside the limits of a field that has some."""
+    """Raise ValueError if the value of a field is outside its limits; by default > 0, or >= 0 if 0 is default."""
     if value is None and one.default is None:
         return
     if "limits" in one.metadata:
@@ -185,7 +185,7 @@ def _hashable(value: object) -> object:
 
 
 def default_of(one: Field[Any]) -> object:
-    """Return the default of a field, MISSING if it has none."""
+    """Return the default of a field, or MISSING."""
     return one.default if one.default_factory is MISSING else one.default_factory()
 
 
@@ -207,12 +207,12 @@ def _shown(value: object, one: Field[Any]) -> str:
 
 
 def key_of(name: str, unit: str) -> str:
-    """Return the key of a quantity: its name and its unit, ``""`` if it has none."""
+    """Return the key of a quantity in a file: its name and its unit, if any."""
     return "_".join([name, *unit.replace("^", "").replace("/", " per ").split()])
 
 
 def signal_unit(signal: str) -> str:
-    """Return the unit of a response or a deflection by its name as a signal, empty if that tells none."""
+    """Return the unit of a response or a deflection by the name of its signal, ``""`` if unknown."""
     if signal in ("pitch_acceleration", "roll_acceleration"):
         return "rad/s^2"
     if signal.endswith("acceleration") or signal.startswith("acceleration_at"):
@@ -221,5 +221,5 @@ def signal_unit(signal: str) -> str:
 
 
 def column_headers(names: Sequence[str], units: Mapping[str, str]) -> list[str]:
-    """Return each name with its unit in brackets, as in the header of a table: ``"SWS [m]"``."""
+    """Return the headers of columns, each name with its unit in brackets: ``"SWS [m]"``."""
     return [f"{name} [{units[name]}]" if units.get(name) else name for name in names]

@@ -62,7 +62,7 @@ def bode(
 def labelled_designs(
     problem: "RideProblem", texts: Sequence[str], file: Path | None, vehicle: str | None, own: Mapping[str, float]
 ) -> dict[str, Sequence[float]]:
-    """Return the designs of texts and of a file by label; if none, the vehicle's own, or the paper's two."""
+    """Return the designs of texts and of a file by label; by default the vehicle's own, or the paper's two."""
     from ..paper import experiment as paper
 
     units = [problem.units[name] for name in problem.variables]
@@ -77,7 +77,7 @@ def labelled_designs(
 
 
 def read_designs(path: Path, problem: "RideProblem") -> list[list[float]]:
-    """Return the designs in a CSV file with a column for each variable; ValueError if it is no such file."""
+    """Return the designs in a CSV file with a column for each variable; ValueError for another file."""
     from ..quantities import column_headers
     from ..tables import read_table
 

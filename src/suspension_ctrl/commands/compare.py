@@ -1,4 +1,4 @@
-"""The paper's experiment on any problem: algorithms timed, and judged over many seeds."""
+"""The paper's experiment on any problem: timed runs of algorithms, and their quality over many seeds."""
 
 from typing import Any
 
@@ -34,10 +34,10 @@ def compare(
 ) -> None:
     """Time NSGA-II against MOEA/D-DRA: Tables 2 to 4, Figure 5.
 
-    With --quality every algorithm is judged over many seeds too: at equal iterations, evaluations and time, with
-    statistics and a verdict; these runs are not timed and can be spread over processes and machines. Writes
-    tables, figures, every run and every front to a folder; its path is the last line printed. An interrupted
-    command resumes with the same --out.
+    With --quality the algorithms are also compared over many seeds, at equal iterations, evaluations and time,
+    with statistics and a verdict; these runs are not timed and can be spread over processes and machines. Writes
+    tables, figures, runs and fronts to a folder; its path is the last line printed. An interrupted command resumes
+    with the same --out.
     """
     from ..study.workers import cluster
     from . import comparing
@@ -50,7 +50,7 @@ def compare(
     defaults = QUICK if quick else FULL
     options = context.params | {name: defaults[name] if v is None else v for name, v in given.items()}
     where = cluster(jobs, scheduler) if quality else None
-    if scheduler:  # refused before the timed runs, not after them
+    if scheduler:  # its errors come before the timed runs
         with cluster(scheduler=scheduler):
             pass
     comparing.carry_out(comparing.Request.of(options), where)

@@ -1,4 +1,4 @@
-"""A comparison as its command asks for it: timed, judged, written and printed."""
+"""The steps of `suspension-ctrl compare`: timed runs, quality over seeds, files and printed tables."""
 
 from collections.abc import Mapping
 from contextlib import AbstractContextManager
@@ -26,7 +26,7 @@ from . import quality, reports, results, terminal
 
 QUICK_TOLERANCE = 1e-3
 GRID_VARIABLES = 2  # of more a grid is too coarse, and of several wheels it would take too long
-RECORD = "environment.json"  # the first file of a comparison
+RECORD = "environment.json"  # the first file in the folder of a comparison
 PAPERS = ("vehicle", "road", "speed", "band", "problem")
 """Options without which the problem is the paper's."""
 
@@ -41,7 +41,7 @@ class Request:
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> Self:
-        """Return the request of checked options, and make its folder."""
+        """Return the request of these options, checked, and make its folder."""
         checks.within("target", options["target"], 0, 1)
         problem = chosen_problem(options)
         comparison = Comparison(
@@ -58,12 +58,12 @@ class Request:
         return cls(Campaign(comparison, folder, tolerance, terminal.progress), problem, options)
 
     def published(self) -> pd.DataFrame:
-        """Return the times of the paper, none beside another problem."""
+        """Return the times of the paper, empty for another problem."""
         of_paper = all(self.options[name] is None for name in PAPERS)
         return paper.published_seconds() if of_paper else paper.published_seconds().iloc[:0]
 
     def headers(self) -> dict[str, str]:
-        """Return the objectives with their units by name, first a travel, or else the last."""
+        """Return the headers of the objectives by name; a travel comes first, or else the last objective."""
         names, units = self.problem.objectives, self.problem.units
         across = next((name for name in names if units[name] == "m"), names[-1])
         ordered = [across, *(name for name in names if name != across)]
@@ -71,7 +71,7 @@ class Request:
 
 
 def chosen_problem(options: Mapping[str, Any]) -> RideProblem:
-    """Return the problem in a file, or the paper's with another vehicle, road, speed or other settings."""
+    """Return the problem of a file, or the paper's with another vehicle, road, speed or other parameters."""
     named = [options[name] for name in ("vehicle", "road", "speed")]
     settings, file = o.settings(options["weighting"], options["band"]), options["problem"]
     if file is None:
@@ -84,7 +84,7 @@ def chosen_problem(options: Mapping[str, Any]) -> RideProblem:
 
 
 def carry_out(request: Request, cluster: AbstractContextManager[Any] | None) -> None:
-    """Time, judge, write and say; with a cluster likewise the runs over many seeds."""
+    """Make, write and print the timed runs; with a cluster, also the runs over many seeds."""
     with keeping(request.campaign.folder):
         raised = _carried_out(request, cluster)
     print(request.campaign.folder)
@@ -96,7 +96,7 @@ def carry_out(request: Request, cluster: AbstractContextManager[Any] | None) -> 
 def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) -> int:
     """Return the number of runs that raised."""
     campaign, record = request.campaign, request.campaign.folder / RECORD
-    if not record.exists():  # of the command that began the timed runs
+    if not record.exists():  # written by the command that started the timed runs
         texts = {name: str(value) if isinstance(value, Path) else value for name, value in request.options.items()}
         with machine.single_thread():
             write_json(record, machine.describe(texts))
@@ -115,7 +115,7 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
         table, judged = campaign.judge(front, client)
     write_csv(campaign.folder / "runs.csv", pd.concat([timed, last_rows(table)]))
     clock, target = timing.seconds_by_evaluations(campaign.comparison, store), request.options["target"]
-    if found := findings(campaign.comparison, table, clock, target):
-        quality.write(request, found, judged)
-        quality.say(found, target)
+    if results := findings(campaign.comparison, table, clock, target):
+        quality.write(request, results, judged)
+        quality.say(results, target)
     return int(table.error.ne("").sum())

@@ -1,4 +1,4 @@
-"""Options of the commands, each declared once, and the parsers of their texts."""
+"""Options of the commands, each declared once, and parsers of their texts."""
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
@@ -25,7 +25,7 @@ def whole_numbers(name: str, text: str) -> list[int]:
 
 
 def numbers(name: str, text: str, units: Sequence[str]) -> tuple[float, ...]:
-    """Return the numbers of a comma-separated list, bare or with units like `units`; ValueError naming `name`."""
+    """Return the numbers of a comma-separated list in `units`, bare or with a unit; ValueError naming `name`."""
     from ..quantities import quantity
 
     parts = text.split(",")
@@ -35,7 +35,7 @@ def numbers(name: str, text: str, units: Sequence[str]) -> tuple[float, ...]:
 
 
 def by_name(name: str, text: str, units: Mapping[str, str]) -> dict[str, float]:
-    """Return numbers by name of a list such as ``front.spring=10kN/m,front.damper=2000``; ValueError otherwise."""
+    """Return the numbers by name of a text such as ``front.spring=10kN/m,front.damper=2000``."""
     from ..quantities import quantity
 
     pairs = [part.partition("=") for part in text.split(",") if part]
@@ -46,7 +46,7 @@ def by_name(name: str, text: str, units: Mapping[str, str]) -> dict[str, float]:
 
 
 def band(text: str) -> tuple[float, float]:
-    """Return the band [Hz] of a text such as ``0.5,20``, ``0.5Hz..20Hz`` or ``0.5Hz..``, which ends at 20 Hz."""
+    """Return the band [Hz] of a text such as ``0.5,20``, ``0.5Hz..20Hz`` or ``0.5Hz..`` (up to 20 Hz)."""
     if ".." in text:
         low, _, high = text.partition("..")
         text = f"{low.strip() or 0},{high.strip() or 20}"
@@ -60,19 +60,19 @@ def names(text: str) -> list[str]:
 
 
 def settings(weighting: str | None, frequencies: str | None) -> dict[str, Any]:
-    """Return the given settings of a ride problem."""
+    """Return the parameters of a ride problem that are given."""
     given: dict[str, Any] = {} if weighting is None else {"weighting": weighting}
     return given if frequencies is None else given | {"band": band(frequencies)}
 
 
 def in_unit(unit: str) -> Callable[[str], float]:
-    """Return the parser of a number, bare or with a unit like this one."""
+    """Return the parser of a number in this unit, bare or with a unit of the same dimension."""
 
     def parse(text: str) -> float:
         from ..quantities import quantity
 
         try:
-            return quantity("", str(text), unit)  # a default is a number already
+            return quantity("", str(text), unit)  # str: a default is a number
         except ValueError as error:
             raise BadParameter(str(error).strip()) from None
 

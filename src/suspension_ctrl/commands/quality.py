@@ -1,4 +1,4 @@
-"""Quality over many seeds: tables, verdict and figures, written to a folder and printed."""
+"""Tables, verdict and figures of the quality over many seeds, written to a folder and printed."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
@@ -26,15 +26,19 @@ SHORT = {
 DECIMALS = {"evals": 0, "HV / ref.": 4, "IGD+": 5, "epsilon": 4, "spread": 3, "time [s]": 4}
 
 
-def write(request: "Request", found: Findings, store: Mapping[str, StoredRun]) -> None:
+def write(request: "Request", results: Findings, store: Mapping[str, StoredRun]) -> None:
     """Write tables, verdict and figures."""
-    write_csv(request.campaign.folder / "quality.csv", found.course.drop(columns="seconds"))
-    for name, table in (("equal", found.medians), ("differences", found.differences), ("to_reach", found.reached)):
+    write_csv(request.campaign.folder / "quality.csv", results.course.drop(columns="seconds"))
+    for name, table in (
+        ("equal", results.medians),
+        ("differences", results.differences),
+        ("to_reach", results.reached),
+    ):
         write_table(request.campaign.folder / name, table.rename(columns=_header))
-    write_text(request.campaign.folder / "verdict.md", "\n\n".join(map(escaping.markdown, found.verdict)) + "\n")
+    write_text(request.campaign.folder / "verdict.md", "\n\n".join(map(escaping.markdown, results.verdict)) + "\n")
     with terminal.waiting("drawing"):
         for population in request.campaign.comparison.populations:
-            _draw(request, found, store, population)
+            _draw(request, results, store, population)
 
 
 def _header(column: str) -> str:
@@ -42,12 +46,12 @@ def _header(column: str) -> str:
     return column if column in PLAIN else f"{column.replace('_', ' ')} [{unit}]"
 
 
-def _draw(request: "Request", found: Findings, store: Mapping[str, StoredRun], population: int) -> None:
+def _draw(request: "Request", results: Findings, store: Mapping[str, StoredRun], population: int) -> None:
     comparison, folder = request.campaign.comparison, request.campaign.folder
-    course = found.course[found.course.population == population]
+    course = results.course[results.course.population == population]
     sets = (study.POPULATION, study.CUT_ARCHIVE)
     write_figure(folder / f"anytime_n{population}", figures.anytime_panels(course, sets))
-    equal = found.equal
+    equal = results.equal
     at_end = (equal.population == population) & (equal.iterations == max(comparison.iterations))
     last = equal[at_end & (equal.lens == lenses.EVALUATIONS) & (equal.set == study.POPULATION)]
     write_figure(folder / f"boxes_n{population}", figures.box_panels(last, INDICATORS))
@@ -59,12 +63,12 @@ def _draw(request: "Request", found: Findings, store: Mapping[str, StoredRun], p
         write_figure(folder / f"attainment_n{population}", drawn)
 
 
-def say(found: Findings, target: float) -> None:
+def say(results: Findings, target: float) -> None:
     """Print medians, evaluations and time to the target, and the verdict."""
-    final = found.medians[found.medians.set == study.POPULATION]
+    final = results.medians[results.medians.set == study.POPULATION]
     kept = ["lens", *CONFIGURATION, "algorithm", "evaluations", *INDICATORS]
     terminal.show("Final populations, medians", final[kept].rename(columns=SHORT), DECIMALS, keys=4)
     title = f"To {target:g} of the reference hypervolume, medians"
-    terminal.show(title, found.reached.rename(columns=SHORT), DECIMALS, keys=3)
-    for paragraph in found.verdict:
+    terminal.show(title, results.reached.rename(columns=SHORT), DECIMALS, keys=3)
+    for paragraph in results.verdict:
         terminal.note(paragraph)

@@ -1,4 +1,4 @@
-"""Tables 2 to 4, Figure 5 and the fronts of the timed runs: written to a folder, and printed."""
+"""Tables 2 to 4, Figure 5 and the fronts of the timed runs, written to a folder and printed."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
@@ -43,13 +43,13 @@ def say(request: "Request", store: Store, timed: pd.DataFrame, origin: str) -> N
     """Print the tables, the problem and the reference front."""
     problem, comparison = request.problem, request.campaign.comparison
     runs = comparison.timed_runs()
-    found = printed.timed_tables(timed, request.published())
+    tables = printed.timed_tables(timed, request.published())
     for number, algorithm in printed.ALGORITHMS.items():
-        if f"table{number}" in found:
-            table = printed.as_printed(found[f"table{number}"])
+        if f"table{number}" in tables:
+            table = printed.as_printed(tables[f"table{number}"])
             terminal.show(f"Table {number}: {algorithm}, seconds published / here", table)
     title = f"Table 4: % is the time of {comparison.algorithms[0]} over the time of each"
-    terminal.show(title, found["table4"].rename(columns=SHORT), DECIMALS, keys=4)
+    terminal.show(title, tables["table4"].rename(columns=SHORT), DECIMALS, keys=4)
     for line in problem.describe():
         terminal.note(line)
     weighted = f"ACC is weighted with {problem.weighting}. " if problem.weighted else ""
@@ -66,7 +66,7 @@ def say(request: "Request", store: Store, timed: pd.DataFrame, origin: str) -> N
 
 
 def _write_figure5(request: "Request", populations: pd.DataFrame) -> None:
-    """Draw the first algorithm beside the second, and in further figures beside each of the others."""
+    """Draw the first algorithm with the second, and in further figures with each of the others."""
     across, *up = request.headers().values()
     first, *others = request.campaign.comparison.algorithms
     for number, other in enumerate(others or [first]):

@@ -1,4 +1,4 @@
-"""The folder for the results of a command: new, empty, or of a command to resume."""
+"""The results folder of a command: new, empty, or of an interrupted command."""
 
 from contextlib import suppress
 from datetime import datetime
@@ -10,9 +10,9 @@ from ..tables import UNFINISHED
 
 
 def results_folder(out: Path | None, resumed_by: str | None = None) -> Path:
-    """Make and return the folder for the results of a command: `out`, or a new one ``results/<date-time>``.
+    """Make and return a results folder: `out`, or a new folder ``results/<date-time>``.
 
-    ValueError unless `out` is absent, empty, or holds the name `resumed_by`, and can be written.
+    ValueError unless `out` is absent, empty, or contains `resumed_by`, and can be written.
     """
     folder = out or Path("results") / datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
     try:
@@ -31,9 +31,9 @@ def results_folder(out: Path | None, resumed_by: str | None = None) -> Path:
 
 
 def _made_new(folder: Path) -> Path:
-    """Make `folder`, or where that exists the first of folder_2, folder_3, ... that does not."""
+    """Make and return `folder`, or if it exists the first free one of folder_2, folder_3, ..."""
     for path in chain([folder], (folder.with_name(f"{folder.name}_{number}") for number in count(2))):
-        with suppress(FileExistsError):  # also when another command takes the name at this moment
+        with suppress(FileExistsError):  # another command may take the name at the same moment
             path.mkdir(parents=True)
             break
     return path

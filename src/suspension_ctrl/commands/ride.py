@@ -1,4 +1,4 @@
-"""The ride of one vehicle on one road, and its modes, in the terminal and as CSV."""
+"""Ride and modes of one vehicle on one road, printed and written as CSV."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
@@ -28,7 +28,7 @@ def ride(
 ) -> None:
     """Print the ride and the modes of one vehicle.
 
-    A vehicle from a file with its own struts, or a quarter car from masses, tyre, spring and damper.
+    The vehicle is from a file, with its own struts, or a quarter car with given masses, tyre, spring and damper.
     Writes ride.csv and modes.csv to a folder; its path is the last line printed.
     """
     from ..paper import experiment as paper
@@ -45,8 +45,8 @@ def ride(
     settings = o.settings(weighting, band)
     problem, _ = paper.chosen(None, road, speed, allow_outside=allow_outside, **settings)
     case, (low, high) = LoadCase(vehicle=car, road=problem.road, speed=problem.speed), problem.band
-    found = ride(car, values, case.road, speed=case.speed, weighting=problem.weighting, band=problem.band)
-    table = (found if found.note.any() else found.drop(columns="note")).reset_index()
+    table = ride(car, values, case.road, speed=case.speed, weighting=problem.weighting, band=problem.band)
+    table = (table if table.note.any() else table.drop(columns="note")).reset_index()
     modes = car.modes(values)
     modes = modes[["name", *(column for column in modes.columns if column.endswith("]"))]]  # no amplitudes
     folder = results.results_folder(out)
@@ -62,7 +62,7 @@ def ride(
 def chosen_vehicle(
     name: str | None, masses: Mapping[str, float | None]
 ) -> "tuple[str, AssembledVehicle, Mapping[str, float]]":
-    """Return a vehicle with its title and its own setting: of a file, or a quarter car of given parameters."""
+    """Return title, vehicle and setting of a file, or of a quarter car with these masses."""
     from ..vehicles.cars import QuarterCar
     from ..vehicles.files import load_vehicle
 

@@ -1,4 +1,4 @@
-"""Ctrl-C and requests to end: a command ends in order, in one line, with the exit status of the signal."""
+"""Handling of SIGINT (Ctrl-C) and SIGTERM: clean end, one line, exit status of the signal."""
 
 import os
 import signal
@@ -13,19 +13,19 @@ _received: list[int] = []
 
 
 def end_at_once() -> None:
-    """Let a signal end the process on the spot, with its line: there is nothing to put in order yet."""
+    """End the process at the first signal, as long as there is nothing to clean up."""
     _handle(_leave)
 
 
 def end_in_order() -> None:
-    """Let the first signal raise KeyboardInterrupt: contexts close what they opened; let a second one end it."""
+    """Raise KeyboardInterrupt at the first signal, so that contexts are closed; end the process at the second."""
     _received.clear()
     _handle(_interrupt)
     sys.unraisablehook = _unraisable
 
 
 def ended() -> tuple[str, int] | None:
-    """Return the word and the exit status of the signal that came since `end_in_order`; later ones say nothing."""
+    """Return word and exit status of a signal received since `end_in_order`; further signals print nothing."""
     _handle(lambda number, _frame: os._exit(128 + number))
     sys.unraisablehook = sys.__unraisablehook__
     return _ending(_received[0]) if _received else None
@@ -36,10 +36,10 @@ def _ending(number: int) -> tuple[str, int]:
 
 
 def _handle(handler: Any) -> None:
-    if threading.current_thread() is not threading.main_thread():  # Python lets no other set handlers
+    if threading.current_thread() is not threading.main_thread():  # only this one may set handlers
         return
     for number in _WORDS:
-        if signal.getsignal(number) is not signal.SIG_IGN:  # as a shell has it for a background job
+        if signal.getsignal(number) is not signal.SIG_IGN:  # set by a shell for a background job
             signal.signal(number, handler)
 
 
@@ -57,15 +57,15 @@ def _interrupt(number: int, frame: FrameType | None) -> NoReturn:
 
 
 def _send(number: int) -> None:
-    if hasattr(signal, "pthread_kill"):  # to the main thread, which may sleep
+    if hasattr(signal, "pthread_kill"):  # wakes the main thread from a sleep
         signal.pthread_kill(threading.main_thread().ident or 0, number)
     else:
         signal.raise_signal(number)
 
 
-def _unraisable(found: Any) -> None:
-    """Send a signal again that came where Python cannot raise, as in a callback of a library."""
-    if isinstance(found.exc_value, KeyboardInterrupt) and _received:
+def _unraisable(event: Any) -> None:
+    """Repeat a signal that arrived where Python cannot raise, such as in a callback of a library."""
+    if isinstance(event.exc_value, KeyboardInterrupt) and _received:
         threading.Timer(0.1, _send, (_received.pop(),)).start()
     else:
-        sys.__unraisablehook__(found)
+        sys.__unraisablehook__(event)

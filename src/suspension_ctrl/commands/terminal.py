@@ -28,14 +28,14 @@ _GAP = 3  # columns of text between two columns of a table
 
 
 def run(app: typer.Typer, *before: str, name: str | None = None) -> NoReturn:
-    """Run an app with the arguments of this process, after those `before`, and end with its exit status.
+    """Run an app with the arguments `before` and those of this process, and exit with its status.
 
-    Bad input ends it with one line on standard error and status 2, a file that cannot be read or written and a
-    package that is not installed with one line and status 1, Ctrl-C with 130 and SIGTERM with 143.
+    An error is one line on standard error, with status 2 for wrong input, 1 for a file that cannot be read or
+    written and for a missing package, 130 for Ctrl-C, 143 for SIGTERM.
     """
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
-            stream.reconfigure(errors="replace")  # a symbol that the encoding lacks is no error
+            stream.reconfigure(errors="replace")  # no error for a symbol outside of the encoding
     warnings.showwarning = _warn
     try:
         signals.end_in_order()
@@ -51,7 +51,7 @@ def run(app: typer.Typer, *before: str, name: str | None = None) -> NoReturn:
 
 
 def _ending(error: BaseException) -> tuple[str, int]:
-    """Return lines and exit status for an error; others than those of input and surroundings are raised."""
+    """Return lines and exit status for an error of input or system; raise any other."""
     if isinstance(error, typer.TyperException):
         return " ".join(error.format_message().split()), 2
     if isinstance(error, ValueError):
@@ -70,7 +70,7 @@ def _ending(error: BaseException) -> tuple[str, int]:
 
 
 def _warn(message: Warning | str, *_: object, **__: object) -> None:
-    """Print a warning in one line, without the line of code that it came from."""
+    """Print a warning in one line, without its line of code."""
     complain(str(message), "warning")
 
 
@@ -87,7 +87,7 @@ def complain(message: str, kind: str = "error") -> None:
 
 
 def progress(items: Iterable[T], total: int, text: str = "") -> Iterator[T]:
-    """Pass `items` through with a progress bar, drawn only between them so as not to disturb a timed one."""
+    """Yield `items` with a progress bar, drawn only between them so that it does not disturb timings."""
     columns = [
         bars.TextColumn(text, markup=False),
         bars.BarColumn(),
@@ -105,22 +105,22 @@ def progress(items: Iterable[T], total: int, text: str = "") -> Iterator[T]:
 
 
 def waiting(text: str) -> AbstractContextManager[Any]:
-    """Return a context that shows a text beside a spinner in a terminal, nothing in a pipe."""
+    """Return a context that shows a text with a spinner, in a terminal only."""
     return stderr.status(text, spinner="line") if stderr.is_terminal else nullcontext()
 
 
 @contextmanager
 def compiling() -> Iterator[None]:
-    """Announce the first compilation by numba in this context, in a terminal; code from its cache is none."""
+    """Announce the first compilation by numba in the block, in a terminal only."""
     from numba.core import event
 
     class Compilation(event.Listener):
-        said = not stderr.is_terminal
+        announced = not stderr.is_terminal
 
         def on_start(self, _event: object) -> None:
-            if not self.said:
+            if not self.announced:
                 stderr.print("compiling, once after installation: about 10 s", highlight=False)
-            self.said = True
+            self.announced = True
 
         on_end = on_start
 
@@ -129,14 +129,14 @@ def compiling() -> Iterator[None]:
 
 
 def note(text: str) -> None:
-    """Print a paragraph as it is, but for what does not print."""
+    """Print a paragraph without markup, unprintable characters escaped."""
     console.print(escaping.terminal(text), markup=False, highlight=False, emoji=False)
 
 
 def show(title: str, table: "pd.DataFrame", digits: dict[str, int] | None = None, keys: int = 1) -> None:
-    """Print a table; numbers with the decimals that `digits` names by column, blank where there is none.
+    """Print a table; `digits` is the number of decimals by column; NaN is blank.
 
-    Where it is wider than the terminal its columns stand in blocks, the first `keys` of them in each.
+    The columns of a table wider than the terminal are printed in blocks, each with the first `keys` columns.
     """
     cells = {str(c): [_cell(value, (digits or {}).get(c)) for value in table[c]] for c in table.columns}
     right = {str(c) for c in table.columns if table[c].dtype.kind in "iuf"}
@@ -156,7 +156,7 @@ def show(title: str, table: "pd.DataFrame", digits: dict[str, int] | None = None
 
 
 def _blocks(keys: list[str], others: list[str], widths: dict[str, int]) -> list[list[str]]:
-    """Return the columns in blocks that fit the terminal, one at least of the others in each."""
+    """Return the columns in blocks that fit the terminal, each with one of the `others` at least."""
     blocks: list[list[str]] = []
     for name in others:
         if not blocks or sum(widths[c] for c in [*blocks[-1], name]) > console.width:

@@ -1,4 +1,4 @@
-"""The experiment of Yuen and Ramli (2010): its vehicle, road and bounds, and the tables it printed.
+"""The experiment of Yuen and Ramli (2010): vehicle, road, bounds, and the published tables.
 
 T. J. Yuen and R. Ramli, "Comparison of computational efficiency of MOEA/D and NSGA-II for passive vehicle
 suspension optimization", 2010.
@@ -23,7 +23,7 @@ def _table1() -> dict[str, dict[str, str]]:
 
 
 def ride_problem(**changes: Any) -> RideProblem:
-    """Return the problem of Table 1 with changed parameters of `RideProblem`, e.g. ``weighting``."""
+    """Return the problem of Table 1, with `changes` of parameters of `RideProblem`."""
     rows = _table1()
     value = {symbol: float(row["value"]) for symbol, row in rows.items() if row["value"]}
     car = QuarterCar(body_mass=value["Mb"], wheel_mass=value["Mw"], tyre_stiffness=value["Kt"])
@@ -69,7 +69,7 @@ def published_seconds() -> "pd.DataFrame":
 def chosen(
     vehicle: str | None, road: str | None, speed: float | None, *, allow_outside: bool = False, **settings: Any
 ) -> tuple[RideProblem, Mapping[str, float]]:
-    """Return the paper's problem with another vehicle, road, speed or settings, and the setting of the vehicle."""
+    """Return the paper's problem with another vehicle, road, speed or parameters, and the vehicle's setting."""
     papers = ride_problem()
     settings |= {"road": None if road is None else load_road(road, allow_outside=allow_outside), "speed": speed}
     if vehicle is None:

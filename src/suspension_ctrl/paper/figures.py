@@ -1,4 +1,4 @@
-"""The paper's figures: data in, Axes or Figure out; nothing is saved here."""
+"""Figures of the paper, drawn from data; nothing is saved here."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -18,7 +18,7 @@ from ..response.weightings import BANDS, by_name
 from ..study.comparison import CONFIGURATION
 from ..study.figures import COLOURS
 
-_MOST_IN_LEGEND = 12  # designs: of more, a legend would cover the curves; curves.csv names them all
+_MOST_IN_LEGEND = 12  # a legend of more designs would cover the curves; curves.csv names all
 _TITLES = {
     "suspension_travel": "SWS: suspension travel",
     "body_acceleration": "ACC: body acceleration",
@@ -27,7 +27,7 @@ _TITLES = {
 
 
 def weighting_factors(ax: Axes, filters: Sequence[str], tables: Sequence[str]) -> None:
-    """Draw Figure 2: factors of ISO 2631 weightings over frequency, filters as lines, tables as marks."""
+    """Draw Figure 2: factors of ISO 2631 weightings over frequency, filters as lines, tables as markers."""
     f = np.geomspace(0.1, 100, 400)
     for colour, name in zip(COLOURS, filters, strict=False):
         ax.loglog(f, by_name(name).factor(f), color=colour, label=f"{name}, filter")
@@ -40,7 +40,7 @@ def weighting_factors(ax: Axes, filters: Sequence[str], tables: Sequence[str]) -
 
 
 def final_populations(populations: pd.DataFrame, across: str, up: Sequence[str]) -> Figure:
-    """Draw Figure 5: columns `up` over column `across` of one or two algorithms, marks over rings."""
+    """Draw Figure 5: columns `up` over column `across` of one or two algorithms, rings and dots."""
     ring: dict[str, Any] = {"s": 22, "facecolors": "none", "edgecolors": COLOURS[0], "linewidths": 0.5}
     mark: dict[str, Any] = {"s": 4, "color": COLOURS[1], "linewidths": 0}
     names = populations.algorithm.unique().tolist()
@@ -56,9 +56,9 @@ def final_populations(populations: pd.DataFrame, across: str, up: Sequence[str])
         axes = place.subplots(len(up), 1, sharex=True, squeeze=False)[:, 0]
         for ax, objective in zip(axes, up, strict=True):
             (below, width), (beside, height) = _axis(across), _axis(objective)
-            for algorithm, found in part.groupby("algorithm", sort=False):
+            for algorithm, group in part.groupby("algorithm", sort=False):
                 label = escaping.figure(str(algorithm))
-                ax.scatter(found[across] * width, found[objective] * height, label=label, **styles[algorithm])
+                ax.scatter(group[across] * width, group[objective] * height, label=label, **styles[algorithm])
             ax.set_ylabel(beside)
         axes[-1].set_xlabel(below)
         axes[0].set_title(f"N = {population}, {iterations} iterations", fontsize=10)
@@ -82,7 +82,7 @@ def bode(designs: Sequence[DesignCurves]) -> Figure:
 
 
 def spectra(designs: Sequence[DesignCurves], weighting: str) -> Figure:
-    """Draw Figure 7: spectra of the responses, a line per design; accelerations weighted too, dashed."""
+    """Draw Figure 7: spectra of the responses, a line per design; weighted accelerations are dashed."""
     figure, axes = _columns(designs, 1)
     for ax, response in zip(axes[0], designs[0].responses, strict=True):
         unit, scale = _shown(signal_unit(response))
@@ -97,17 +97,17 @@ def spectra(designs: Sequence[DesignCurves], weighting: str) -> Figure:
 
 
 def _colours(count: int) -> Sequence[Any]:
-    """Return `count` colours: a palette for up to four, a graded map for more."""
+    """Return `count` colours: of a palette up to four, of a colour map beyond."""
     return COLOURS if count <= 4 else list(colormaps["viridis"](np.linspace(0, 0.9, count)))
 
 
 def _shown(unit: str) -> tuple[str, float]:
-    """Return the unit of an axis and the factor of its values, by the unit of the data."""
+    """Return the unit of an axis for data in a unit, and the factor to it."""
     return ("kN", 1e-3) if unit == "N" else (unit.replace("^2", "²"), 1.0)
 
 
 def _axis(header: str) -> tuple[str, float]:
-    """Return the label of an axis and the factor of its values, by the header of a column."""
+    """Return the label of an axis for a column with this header, and the factor of its values."""
     name, _, unit = header.removesuffix("]").partition(" [")
     shown, factor = _shown(unit)
     return escaping.figure(column_headers([name], {name: shown})[0]), factor
@@ -118,7 +118,7 @@ def _title(response: str) -> str:
 
 
 def _columns(designs: Sequence[DesignCurves], rows: int) -> tuple[Figure, NDArray[Any]]:
-    """Return a figure with a column for each response of the designs, and its Axes."""
+    """Return a figure with a column of `rows` Axes for each response, and the Axes."""
     columns = len(designs[0].responses)
     figure = Figure(figsize=(0.5 + 3.5 * columns, 1.4 + 2.6 * rows), layout="constrained")
     axes = figure.subplots(rows, columns, sharex=True, squeeze=False)
@@ -128,7 +128,7 @@ def _columns(designs: Sequence[DesignCurves], rows: int) -> tuple[Figure, NDArra
 
 
 def _marked_line(ax: Axes, design: DesignCurves, values: Real, colour: str) -> None:
-    """Draw a curve over frequency with a mark at each natural frequency."""
+    """Draw a curve over frequency with markers at the natural frequencies."""
     ax.plot(design.f, values, color=colour, lw=1.4, label=escaping.figure(design.label))
     shown = design.natural[(design.natural >= design.f[0]) & (design.natural <= design.f[-1])]
     ax.plot(shown, np.interp(shown, design.f, values), "o", color=colour, ms=4)

@@ -1,4 +1,4 @@
-"""The best strut within a limit of suspension travel: by descent, and picked from a Pareto set (Table 5)."""
+"""Best strut within a limit of suspension travel, by SLSQP and from a Pareto set (Table 5)."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
     from ..search.run import Run
 
 AT_LIMIT = 0.002
-"""Share of the limit by which the travel of a design picked for Table 5 may lie below it."""
+"""Largest distance of the travel from the limit, of a design picked for Table 5, as a share of the limit."""
 
-_STARTS = 8  # designs of a run, nearest to the limit, from which a search for Table 5 descends
-_HELD = 1e-6  # share of a limit by which a design within it may exceed it
+_STARTS = 8  # designs of a run nearest to the limit, from which SLSQP starts
+_HELD = 1e-6  # tolerance of a limit, as a share of it
 
 
 def least_within_limit(
@@ -32,7 +32,7 @@ def least_within_limit(
 ) -> tuple[float, ...]:
     """Return the design of least `objective` with SWS up to `limit` [m], or equal to it `at_limit`.
 
-    Sequential quadratic programming (SLSQP) descends from each of the `starts` (k, d); the best end counts. The
+    Sequential quadratic programming (SLSQP) starts from each of the `starts` (k, d); the best result counts. The
     maximum over wheels is not differentiable: it is replaced by a slack variable bounded below by each wheel
     (epigraph form).
     """
@@ -55,8 +55,8 @@ def least_within_limit(
 
     def room(point: Real) -> Real:
         """Return the distance (c,) from the slack variable, the last value of a point, and from other limits."""
-        found = scores(point)
-        return np.concatenate([point[-1] - found[:first] / scale, -found[last:]])
+        values = scores(point)
+        return np.concatenate([point[-1] - values[:first] / scale, -values[last:]])
 
     def held(end: Real) -> bool:
         spare = spare_travel(end)
@@ -75,7 +75,7 @@ def least_within_limit(
 
 
 def _of_each_wheel(problem: RideProblem, measure: Measure) -> list[Measure]:
-    """Return the measure at each wheel; itself if it is not the largest of several wheels."""
+    """Return a measure of the worst wheel as measures of single wheels, any other measure as it is."""
     if isinstance(measure, WheelMeasure):
         return [replace(measure, where=wheel) for wheel in problem.cases[0].vehicle.tyres]
     return [measure]
@@ -87,18 +87,18 @@ def pick_at_limit(
     """Return the design of least `objective` in a run's Pareto set with SWS up to `below` under the limit [m]."""
     sws = run.objectives[:, problem.measures.index(SWS())]
     at_limit = ((1 - below) * limit <= sws) & (sws <= limit)
-    there = np.flatnonzero(non_dominated(run.objectives) & at_limit)
-    if there.size == 0:
+    candidates = np.flatnonzero(non_dominated(run.objectives) & at_limit)
+    if candidates.size == 0:
         raise ValueError(
             f"sws_limit must be a travel within {100 * below:g} % of which the Pareto set has a design, its "
             f"{sws.size} have {sws.min():.4f} to {sws.max():.4f} m, got {limit} m"
         )
-    best = there[run.objectives[there, problem.measures.index(objective)].argmin()]
+    best = candidates[run.objectives[candidates, problem.measures.index(objective)].argmin()]
     return tuple(run.designs[best].tolist())
 
 
 def table5(problem: RideProblem, run: "Run", limit: float, own: Mapping[str, tuple[float, ...]]) -> "pd.DataFrame":
-    """Return Table 5: a vehicle's `own` designs or the paper's two, the best within a limit, and picked ones."""
+    """Return Table 5: a vehicle's `own` designs or the paper's, the best within the limit, and picked designs."""
     columns = experiment.table5()
     published = {"reference car": columns["reference"], "published optimum": columns["optimised"]}
     papers = {"reference car": experiment.reference_design(), "published optimum": experiment.optimised_design()}

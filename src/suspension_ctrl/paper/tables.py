@@ -1,4 +1,4 @@
-"""Tables of the comparison, measured beside published: DataFrame in, DataFrame out."""
+"""Tables of the comparison with measured and published values, as DataFrames."""
 
 from collections.abc import Mapping
 
@@ -10,18 +10,18 @@ from ..response.problem import RideProblem
 from ..study.comparison import CONFIGURATION, EQUAL_EVALUATIONS, EQUAL_ITERATIONS
 
 ALGORITHMS = {2: "nsga2", 3: "moead-dra"}
-"""The published algorithm by the number of its table of times."""
+"""Published algorithms by the number of the table with their times."""
 
 
 def timed_tables(runs: pd.DataFrame, published: pd.DataFrame) -> dict[str, pd.DataFrame]:
-    """Return Tables 2 to 4 as ``"table2"`` to ``"table4"``, without those of algorithms that did not run."""
-    found = {f"table{n}": seconds_by_repeat(runs, published, name) for n, name in ALGORITHMS.items()}
-    found["table4"] = comparison(runs, published)
-    return {name: table for name, table in found.items() if len(table)}
+    """Return Tables 2 to 4 as ``"table2"`` to ``"table4"``, without tables of algorithms that did not run."""
+    timed = {f"table{n}": seconds_by_repeat(runs, published, name) for n, name in ALGORITHMS.items()}
+    timed["table4"] = comparison(runs, published)
+    return {name: table for name, table in timed.items() if len(table)}
 
 
 def seconds_by_repeat(runs: pd.DataFrame, published: pd.DataFrame, algorithm: str) -> pd.DataFrame:
-    """Return Table 2 or 3: seconds of an algorithm's runs from `timing.tidy` beside the published ones."""
+    """Return Table 2 or 3: measured and published seconds of an algorithm, by runs from `timing.tidy`."""
     measured = runs[(runs.algorithm == algorithm) & (runs.budget == EQUAL_ITERATIONS)]
     keys = ["algorithm", *CONFIGURATION, "repeat"]
     table = measured.merge(published, on=keys, how="left")
@@ -30,7 +30,7 @@ def seconds_by_repeat(runs: pd.DataFrame, published: pd.DataFrame, algorithm: st
 
 
 def as_printed(table: pd.DataFrame) -> pd.DataFrame:
-    """Return Table 2 or 3 as printed: a column per configuration, a row "published / measured" per repeat."""
+    """Return Table 2 or 3 for printing: a column per configuration, a row "published / measured" per repeat."""
     columns: dict[str, list[str]] = {}
     for (population, iterations), part in table.groupby(CONFIGURATION):
         seconds = part[["published_seconds", "seconds"]]
@@ -45,9 +45,9 @@ def as_printed(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def comparison(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
-    """Return Table 4 of runs from `timing.tidy`: each algorithm beside the first at equal effort.
+    """Return Table 4 of runs from `timing.tidy`: each algorithm compared with the first at equal budgets.
 
-    Ratios are mean seconds of the first algorithm over those of each [%]; hypervolume and IGD+ are medians.
+    Ratios are mean seconds of the first algorithm over those of the row [%]; hypervolume and IGD+ are medians.
     """
     keys = [*CONFIGURATION, "algorithm", "budget"]
     summary = {
@@ -69,7 +69,7 @@ def comparison(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
 
 
 def _also_at_equal_evaluations(table: pd.DataFrame) -> pd.DataFrame:
-    """Repeat the rows of the algorithms whose evaluations the others match, as equal evaluations."""
+    """Return the rows of the algorithms with most evaluations again, as rows at equal evaluations."""
     others = table[table.budget == EQUAL_EVALUATIONS]
     matched = table.merge(others[CONFIGURATION].drop_duplicates(), on=CONFIGURATION)
     theirs = pd.MultiIndex.from_frame(others[[*CONFIGURATION, "algorithm"]])
@@ -80,7 +80,7 @@ def _also_at_equal_evaluations(table: pd.DataFrame) -> pd.DataFrame:
 def beside_published(
     problem: RideProblem, designs: Mapping[str, tuple[float, ...]], published: Mapping[str, Mapping[str, float]]
 ) -> pd.DataFrame:
-    """Return Table 5: objectives of designs by name, published values (NaN where none) and differences [%]."""
+    """Return Table 5: objectives of designs by name, published values (NaN if none) and differences [%]."""
     values = np.array(list(designs.values()), dtype=float)
     objectives = problem.evaluate(values)
     headers = column_headers([*problem.variables, *problem.objectives], problem.units)

@@ -1,4 +1,4 @@
-"""Runs in files: arrays and JSON in one ``.npz``, from which nothing is executed when it is read."""
+"""Runs in ``.npz`` files of arrays and JSON; reading one executes nothing."""
 
 import json
 from dataclasses import asdict
@@ -18,14 +18,14 @@ from .run import Checkpoint, Log, Run
 from .sampling import Sampling
 
 OPTIMISERS = {kind.__name__: kind for kind in (Nsga2, MoeadDra, Gamultiobj, Sampling)}
-"""Optimisers whose settings a file can hold."""
+"""Optimisers whose settings can be saved."""
 
 LARGEST = 2000.0
-"""Largest file that is read [MB]."""
+"""Maximum size of a file [MB]."""
 
 
 def save(run: Run, path: Path) -> None:
-    """Write a run to a file, whole or not at all."""
+    """Write a run to a file atomically."""
     optimiser, state, generator = run.checkpoint
     kind = type(optimiser).__name__
     if state is None:
@@ -45,33 +45,31 @@ def save(run: Run, path: Path) -> None:
 
 
 def _write(path: Path, arrays: dict[str, Any]) -> None:
-    with path.open("wb") as file:  # a name would get another ending
+    with path.open("wb") as file:  # numpy would change the ending of a name
         np.savez(file, allow_pickle=False, **arrays)
 
 
 def load(path: Path) -> Run:
-    """Return the run of a file; ValueError if it holds none."""
+    """Return the run in a file; ValueError if the file was not written by `save` or is damaged."""
     checks.regular(path, LARGEST)
     try:
         with path.open("rb") as stream, np.load(stream, allow_pickle=False) as file:
-            found = {name: file[name] for name in file.files}
-        text = json.loads(str(found["text"]))
+            arrays = {name: file[name] for name in file.files}
+        text = json.loads(str(arrays["text"]))
         kind, settings = text["optimiser"]
         optimiser = OPTIMISERS[kind](**settings)
-        memory = {name.removeprefix("memory_"): x for name, x in found.items() if name.startswith("memory_")}
+        memory = {name.removeprefix("memory_"): x for name, x in arrays.items() if name.startswith("memory_")}
         state = State(
-            designs=found["state_designs"], objectives=found["state_objectives"],
-            constraints=found["state_constraints"], ideal=found["ideal"], evaluations=text["evaluations"],
+            designs=arrays["state_designs"], objectives=arrays["state_objectives"],
+            constraints=arrays["state_constraints"], ideal=arrays["ideal"], evaluations=text["evaluations"],
             memory=FrozenMapping(memory),
         )  # fmt: skip
-        columns, rows = (
-            tuple(text["columns"]),
-            tuple((int(i), int(n), *rest) for i, n, *rest in found["rows"].tolist()),
-        )
+        columns = tuple(text["columns"])
+        rows = tuple((int(i), int(n), *rest) for i, n, *rest in arrays["rows"].tolist())
         last = dict(zip(columns, rows[-1], strict=True))
         np.random.default_rng(0).bit_generator.state = text["generator"]
         return Run(
-            designs=found["designs"], objectives=found["objectives"], constraints=found["constraints"],
+            designs=arrays["designs"], objectives=arrays["objectives"], constraints=arrays["constraints"],
             headers=tuple(text["headers"]), evaluations=text["evaluations"], seconds=last["seconds"],
             cpu_seconds=last["cpu_seconds"], seed=text["seed"], log=Log(columns, rows), failures=text["failures"],
             repeats=text["repeats"],

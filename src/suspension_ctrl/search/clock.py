@@ -1,4 +1,4 @@
-"""Seconds by phase of a search: stopwatches around the verbs of its toolbox."""
+"""Wall-clock time of each phase of a search, measured around the verbs of its toolbox."""
 
 from collections.abc import Callable, Iterable
 from functools import partial
@@ -9,7 +9,7 @@ from deap.base import Toolbox
 
 
 class PhaseClock:
-    """Stopwatches around the verbs of a toolbox that are phases; a verb inside another counts for itself alone."""
+    """Timers around the verbs of a toolbox that are phases; a phase excludes the time of phases inside it."""
 
     def __init__(self, toolbox: Toolbox, phases: Iterable[str]) -> None:
         self.seconds = dict.fromkeys(phases, 0.0)
@@ -18,7 +18,7 @@ class PhaseClock:
             setattr(toolbox, phase, partial(self.timed, phase, getattr(toolbox, phase)))
 
     def timed(self, phase: str, verb: Callable[..., Any], /, *arguments: Any, **settings: Any) -> Any:
-        """Call a verb; add its time, less that of phases inside it, to its phase."""
+        """Call a verb and add its time, without phases inside it, to its phase."""
         outer, self.inner = self.inner, 0.0
         start = perf_counter()
         try:
@@ -30,6 +30,6 @@ class PhaseClock:
 
 
 def untimed(verb: partial[Any]) -> partial[Any]:
-    """Return a verb without its stopwatch."""
+    """Return a verb without its timer."""
     clocked = isinstance(getattr(verb.func, "__self__", None), PhaseClock)
     return verb.args[1] if clocked else verb

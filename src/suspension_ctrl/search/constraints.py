@@ -1,4 +1,4 @@
-"""Constraints of designs: values (n, m + c) are m objectives to be minimised, then c constraints g, met if g <= 0.
+"""Constraints: the values (n, m + c) of designs are m objectives, then c constraints g, met if g <= 0.
 
 A feasible design is better than an infeasible one, a smaller violation better than a larger one (K. Deb, "An
 efficient constraint handling method for genetic algorithms", Computer Methods in Applied Mechanics and Engineering
@@ -43,12 +43,12 @@ def violation_of(value: Real, m: int) -> float:
 
 
 def violations(values: Real, m: int) -> Real:
-    """Return `violation_of` each design (n,), from values (n, m + c)."""
+    """Return the violation (n,) of each design, from values (n, m + c)."""
     return np.maximum(values[:, m:], 0.0).sum(axis=1)
 
 
 def any_feasible(values: Real, m: int) -> bool:
-    """Whether any of the designs with these values (n, m + c) meets all constraints."""
+    """Whether a design meets all constraints, from values (n, m + c)."""
     return bool((values[:, m:] <= 0.0).all(axis=1).any())
 
 
@@ -59,29 +59,32 @@ def feasible_objectives(values: Real, m: int) -> Real:
     return values[violations(values, m) == 0, :m]
 
 
-def ideal_with(ideal: Real, values: Real, found: bool) -> Real:
-    """Return the ideal point (m,) after values (n, m + c): of feasible designs alone once one is `found`.
+def ideal_with(ideal: Real, values: Real, has_feasible: bool) -> Real:
+    """Return the ideal point (m,) updated by values (n, m + c).
 
-    The least values of infeasible designs may be far out of reach of feasible ones.
+    `has_feasible` says whether `ideal` is of feasible designs. From the first feasible design on, only feasible
+    ones count, as the least values of infeasible designs may be far out of reach.
     """
     feasible = feasible_objectives(values, ideal.size)
     if len(feasible):
         least: Real = feasible.min(axis=0)
-        return np.minimum(ideal, least) if found else least
-    return ideal if found else np.minimum(ideal, values[:, : ideal.size].min(axis=0, initial=np.inf))
+        return np.minimum(ideal, least) if has_feasible else least
+    return ideal if has_feasible else np.minimum(ideal, values[:, : ideal.size].min(axis=0, initial=np.inf))
 
 
 _BEYOND = 1e-3
-"""Spread of infeasible designs beyond the worst feasible value, in its ranges or magnitudes: no range overflows,
-and 1e9 ranks of violation still differ in double precision."""
+"""Range of the objectives of infeasible designs, beyond the worst feasible value, over the feasible range: small,
+so that nothing overflows, and large enough to distinguish 1e9 ranks in double precision."""
 
 
 def constrained(values: Real, m: int) -> Real:
     """Return objectives (n, m) whose dominance is the constrained dominance of values (n, m + c).
 
-    Infeasible designs get objectives beyond the worst feasible ones, farther by the rank of their violation (a
-    violation itself may vanish beside a large objective). K. Deb, A. Pratap, S. Agarwal, T. Meyarivan, "A fast and
-    elitist multiobjective genetic algorithm: NSGA-II", IEEE Trans. Evol. Comput. 6(2), 2002, section VI.
+    Objectives of infeasible designs are replaced: they lie beyond the worst feasible ones, in the order of the
+    ranks of their violations (a violation itself may vanish beside a large objective).
+
+    K. Deb, A. Pratap, S. Agarwal, T. Meyarivan, "A fast and elitist multiobjective genetic algorithm: NSGA-II",
+    IEEE Trans. Evol. Comput. 6(2), 2002, section VI.
     """
     if values.shape[1] == m:
         return values

@@ -1,8 +1,8 @@
-"""Arrays as DEAP individuals and back, for operators and selections of DEAP.
+"""Operators and selections of DEAP on arrays.
 
-The first parameter of an operator of DEAP is ``individual`` or ``ind1``, as throughout ``deap.tools``, that of
-ours ``rng``. DEAP draws from Python's ``random``: the search's generator seeds it for a call, then its state
-returns. Every pair of parents mates; results are clipped to the bounds.
+An operator is one of DEAP if its first parameter is ``individual`` or ``ind1``, as throughout ``deap.tools``. DEAP
+draws from Python's ``random``: the generator of the search seeds it for each call, and its state is restored after
+the call. Every pair of parents mates; results are clipped to the bounds.
 """
 
 import inspect
@@ -21,7 +21,7 @@ from ..quantities import Integer, Real
 
 
 def with_deap_operators(toolbox: base.Toolbox, lower: Real, upper: Real) -> base.Toolbox:
-    """Return a copy of a toolbox with operators of DEAP on arrays within bounds (e,)."""
+    """Return a copy of a toolbox in which operators of DEAP work on arrays within bounds (e,)."""
     adapted = copy(toolbox)
     for name, adapter in (("mate", mate_by_deap), ("mutate", mutate_by_deap)):
         verb = getattr(adapted, name, None)
@@ -47,7 +47,7 @@ def mutate_by_deap(
 def mate_by_deap(
     rng: np.random.Generator, parents: Real, operator: Callable[..., Any], lower: Real, upper: Real
 ) -> Real:
-    """Return children (n, d) of consecutive parents (n, d); a last one without a mate is copied."""
+    """Return children (n, d) of consecutive parents (n, d); the last of an odd number is copied."""
     rows = parents.tolist()
     with _drawing_from(rng):
         for pair in range(0, len(rows) - 1, 2):
@@ -68,7 +68,7 @@ def _drawing_from(rng: np.random.Generator) -> Iterator[None]:
 def select_with_deap(
     objectives: Real, size: int, nd: Literal["standard", "log"] = "standard"
 ) -> tuple[Integer, Real]:
-    """Return the survivors of ``deap.tools.selNSGA2`` as `select_survivors` does; `nd` is the kind of sorting."""
+    """Return the result of `select_survivors` by ``deap.tools.selNSGA2``; `nd` is its sorting method."""
     from deap import tools  # a tenth of the package's import time, and few need it
 
     individuals = as_individuals(objectives)

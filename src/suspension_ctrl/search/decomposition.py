@@ -1,4 +1,4 @@
-"""Decomposition of a multi-objective problem into scalar ones: the steps of MOEA/D-DRA on arrays.
+"""Decomposition of a multi-objective problem into scalar subproblems: the steps of MOEA/D-DRA on arrays.
 
 Source: Q. Zhang, W. Liu, H. Li, "The performance of a new version of MOEA/D on CEC09 unconstrained MOP test
 instances", IEEE Congress on Evolutionary Computation, 2009.
@@ -15,17 +15,17 @@ from .constraints import violation_of, violations
 from .operators import draw_below
 
 ZERO_WEIGHT = 1e-4
-"""Stands for a weight of zero: every subproblem keeps every objective."""
+"""Replaces a weight of zero, so that every subproblem depends on every objective."""
 
-_ROWS = 32  # of distances at a time, for the processor's cache
-_SAMPLE_SEED = 2009  # equal sizes give equal weights: the sample is part of the definition
+_ROWS = 32  # of the distance matrix at a time: they stay in the processor's cache
+_SAMPLE_SEED = 2009  # fixed: the weights depend on the size alone
 
 
 @lru_cache
 def weight_vectors(size: int, objectives: int) -> Real:
-    """Return spread weight vectors (N, m), N >= m, of sum one, read-only: the unit vectors first.
+    """Return evenly spread weight vectors (N, m) of sum one, read-only, N >= m; the unit vectors come first.
 
-    Each further one is the farthest from all chosen ones in a uniform sample of the simplex.
+    Each further vector is the one of a uniform sample of the simplex that is farthest from all before it.
     """
     rng = np.random.default_rng(_SAMPLE_SEED)
     candidates = rng.dirichlet(np.ones(objectives), max(5000, 5 * size))
@@ -34,7 +34,7 @@ def weight_vectors(size: int, objectives: int) -> Real:
 
 
 def farthest_first(points: Real, start: Integer, size: int) -> Integer:
-    """Return the indices (size,) of those of the points (n, m) in `start`, then always of the farthest."""
+    """Return the indices (size,) of points (n, m): those of `start`, then repeatedly the farthest point."""
     columns = np.ascontiguousarray(points.T)
     chosen = np.empty(size, dtype=np.int64)
     nearest = np.full(len(points), np.inf)
@@ -42,18 +42,20 @@ def farthest_first(points: Real, start: Integer, size: int) -> Integer:
         chosen[i] = start[i] if i < start.size else nearest.argmax()
         squares = (columns - columns[:, chosen[i], np.newaxis]) ** 2
         np.minimum(nearest, squares.sum(axis=0), out=nearest)
-        nearest[chosen[i]] = -1.0  # never again, also where only copies are left
+        nearest[chosen[i]] = -1.0  # not chosen again, even if only copies are left
     return chosen
 
 
 @lru_cache
 def neighbourhoods(size: int, objectives: int, neighbours: int) -> Integer:
-    """Return the indices (N, T), read-only, of the nearest of `weight_vectors` to each, itself first."""
+    """Return the indices (N, T), read-only, of the T nearest `weight_vectors` of each, itself first."""
     weights = weight_vectors(size, objectives)
-    low = (1 << (size - 1).bit_length()) - 1  # a distance's last bits hold the index: plain sorting will do
+    # Sort keys: 1 + |a - b|^2 as a matrix product. Positive floats order like their bits, and the last bits, which
+    # are below the accuracy needed, are replaced by the index: one partition of integers gives the neighbours.
+    low = (1 << (size - 1).bit_length()) - 1
     squares, ones, indices = (weights**2).sum(axis=1), np.ones(size), np.arange(size)
-    left = np.column_stack([-2 * weights, ones, 1 + squares])  # 1 + |a - b|^2 as a product of matrices: bits of
-    right = np.stack([*weights.T, squares, ones])  # positive numbers have the numbers' order
+    left = np.column_stack([-2 * weights, ones, 1 + squares])
+    right = np.stack([*weights.T, squares, ones])
     nearest = np.empty((size, neighbours), dtype=np.int64)
     for rows in range(0, size, _ROWS):
         key = (left[rows : rows + _ROWS] @ right).view(np.int64)
@@ -66,16 +68,16 @@ def neighbourhoods(size: int, objectives: int, neighbours: int) -> Integer:
 
 
 def tchebycheff(values: Real, weights: Real, ideal: Real) -> Real:
-    """Return g(F | lambda) = max_j lambda_j |F_j - z_j| (n,), equation (14), of values (n, m + c), the first m."""
+    """Return g(F | lambda) = max_j lambda_j |F_j - z_j| (n,), equation (14), of values (n, m + c)."""
     return np.asarray((weights * np.abs(values[:, : ideal.size] - ideal)).max(axis=1))
 
 
 def choose_subproblems(
     rng: np.random.Generator, utility: Real, corners: Integer, size: int, tournament: int
 ) -> Integer:
-    """Return the subproblems (size,) to work on: the corners, then winners of tournaments by utility.
+    """Return the subproblems (size,) of an iteration: the corners, then winners of tournaments by utility.
 
-    A tournament is held among `tournament` drawn from those not chosen yet; the first drawn wins a tie.
+    `tournament` subproblems compete, drawn from those not chosen yet; the first drawn wins a tie.
     """
     draws = rng.random((size - corners.size, tournament))
     return chosen_by(draws, utility, corners, np.arange(utility.size), np.empty(size, dtype=np.int64))
@@ -83,7 +85,7 @@ def choose_subproblems(
 
 @compiled()
 def chosen_by(draws: Real, utility: Real, corners: Integer, open_: Integer, chosen: Integer) -> Integer:
-    """Fill `chosen` (c,) from `open_` (N,), which changes too: corners, then winners by draws from 0 to 1."""
+    """Fill and return `chosen` (c,): corners, then winners of draws from `open_` (N,), which changes too."""
     for c in range(chosen.size):
         left, best = open_.size - c, np.int64(0)
         if c < corners.size:
@@ -101,23 +103,23 @@ def chosen_by(draws: Real, utility: Real, corners: Integer, open_: Integer, chos
 
 
 class MatingRange(NamedTuple):
-    """Partners of a subproblem in mating and replacement: with `probability` its neighbours, otherwise all."""
+    """Partners of a subproblem in mating and replacement: its neighbours with `probability`, otherwise all."""
 
     probability: float
     everyone: Integer  # (N,)
 
     @compilable()
     def __call__(self, rng: np.random.Generator, i: int, neighbours: Integer) -> Integer:
-        """Return the partners (T,) or (N,) of subproblem i from the neighbours of each (N, T)."""
+        """Return the partners (T,) or (N,) of subproblem i, from the neighbours (N, T) of all."""
         if rng.random() < self.probability:
             return neighbours[i]
         return self.everyone
 
 
 class ReplaceWorse(NamedTuple):
-    """Replacement of at most `limit` partners of larger violation or, both feasible, of larger g(F | lambda).
+    """Replacement of at most `limit` partners of larger violation or, if both are feasible, larger g(F | lambda).
 
-    The rule with constraints is that of H. Jain, K. Deb, "An evolutionary many-objective optimization algorithm
+    The rule for constraints is from H. Jain, K. Deb, "An evolutionary many-objective optimization algorithm
     using reference-point based nondominated sorting approach, part II", IEEE Trans. Evol. Comput. 18(4), 2014.
     """
 
@@ -135,11 +137,11 @@ class ReplaceWorse(NamedTuple):
         weights: Real,
         ideal: Real,
     ) -> None:
-        """Replace partners by a child (d,) of values (m + c,), in place, after an update of the ideal point."""
-        # Partners are judged one by one: the first `limit` bettered ones of a random order equal as many drawn.
+        """Update the ideal point (m,), then replace partners by a child (d,) of values (m + c,), in place."""
+        # Drawing `limit` of the worse partners equals taking the first ones in a random order of all partners.
         violation = violation_of(child_values, ideal.size)
         lower_ideal(ideal, child_values, violation == 0.0, values)
-        bettered = np.empty_like(partners)
+        worse = np.empty_like(partners)
         count = 0
         constrained = child_values.size > ideal.size
         for p in partners:
@@ -150,12 +152,12 @@ class ReplaceWorse(NamedTuple):
                     mine = g if g > mine else mine
                     g = weights[p, j] * abs(values[p, j] - ideal[j])
                     theirs = g if g > theirs else theirs
-            bettered[count] = p
+            worse[count] = p
             count += mine < theirs
         for left in range(count, max(count - self.limit, 0), -1):
             drawn = draw_below(rng, left)
-            p = bettered[drawn]
-            bettered[drawn] = bettered[left - 1]
+            p = worse[drawn]
+            worse[drawn] = worse[left - 1]
             for v in range(child.size):
                 designs[p, v] = child[v]
             for j in range(child_values.size):
@@ -164,23 +166,23 @@ class ReplaceWorse(NamedTuple):
 
 @compiled(inline="always")
 def lower_ideal(ideal: Real, child: Real, feasible: bool, values: Real) -> None:
-    """Update the ideal point (m,) with a child's values (m + c,), in place, as `ideal_with` does."""
-    found, i = False, 0
-    while not found and i < values.shape[0]:
-        found = violation_of(values[i], ideal.size) == 0.0
+    """Update the ideal point (m,) by a child's values (m + c,), in place, as `ideal_with` does."""
+    has_feasible, i = False, 0
+    while not has_feasible and i < values.shape[0]:
+        has_feasible = violation_of(values[i], ideal.size) == 0.0
         i += 1
     for j in range(ideal.size):
-        if (feasible and not found) or (feasible == found and child[j] < ideal[j]):
+        if (feasible and not has_feasible) or (feasible == has_feasible and child[j] < ideal[j]):
             ideal[j] = child[j]
 
 
 def updated_utility(
     utility: Real, before: Real, values: Real, weights: Real, ideal: Real, threshold: float
 ) -> Real:
-    """Return the utilities (N,) after the values (N, m + c) followed those of `before`: 1 above the threshold.
+    """Return the utilities (N,) after a period, from values (N, m + c) at its start, `before`, and at its end.
 
-    Progress is the relative decrease of g, both taken at the present ideal point, or of an infeasible design's
-    violation; without progress a utility sinks by 5 %.
+    Progress is the relative decrease of g at the present ideal point, or of the violation of an infeasible design.
+    Progress above the threshold gives a utility of 1; without progress a utility decreases by 5 %.
     """
     old, new = violations(before, ideal.size), violations(values, ideal.size)
     by_value = old == 0.0

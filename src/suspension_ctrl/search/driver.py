@@ -1,4 +1,4 @@
-"""A search under way: budget, seed, times, and what ends it."""
+"""The loop around every search: budget, seed, times, callback, and the `Run` at its end."""
 
 import itertools
 import warnings
@@ -52,14 +52,14 @@ def minimise(
     seconds : float
         Wall-clock time [s] after which no iteration begins; alone, or beside a number as a second limit.
     seed : int, optional
-        Seed of every random draw; a fresh one, kept in the result, if not given.
+        Seed of every random draw; by default a new one, returned in `Run.seed`.
     toolbox : deap.base.Toolbox, optional
-        The optimiser's toolbox for this problem with other verbs, operators of DEAP among them.
+        The optimiser's toolbox for this problem with verbs exchanged, also by operators of DEAP.
     start : (k, d) array_like, Population or DataFrame, optional
-        Designs in place of the first k sampled ones; a DataFrame by its columns of the variables. Of more than the
-        population all are evaluated, and the best go on.
+        Designs that replace the first k sampled ones; a DataFrame has a column for each variable. If there are
+        more than the population, all are evaluated and the best are kept.
     callback : callable, optional
-        Function of the run so far, called after each iteration; True ends the search.
+        Function of the run so far, called after each iteration; the search ends if it returns True.
     failures : {"worst", "error"}
         A design with a value that is not finite counts as worst, or ends the search.
 
@@ -71,11 +71,11 @@ def minimise(
     Raises
     ------
     ValueError
-        If no budget is given or one is too small, the seed is negative, `start` does not fit, the evaluation
-        returns a wrong shape, or a verb what it must not.
+        If no budget is given or one is too small, the seed is negative, `start` does not fit the problem, or the
+        evaluation or a verb returns a wrong result.
     Exception
-        Whatever the evaluation raises, and KeyboardInterrupt, ends the search; the attribute ``run`` of the
-        exception is the run so far, without designs before the end of the start.
+        Any exception of the evaluation, and KeyboardInterrupt, ends the search; its attribute ``run`` is the run
+        so far, which has no designs before the end of the start.
 
     Warns
     -----
@@ -128,7 +128,7 @@ def resumed(
     failures: str,
     **limits: Any,
 ) -> Run:
-    """Return the run after a further search, as `Run.resume` does."""
+    """Return the run of a continued search, see `Run.resume`."""
     names = headers_of(problem)
     if names != run.headers:
         raise ValueError(f"problem must be that of the run, {', '.join(run.headers)}, got {', '.join(names)}")
@@ -139,7 +139,7 @@ def resumed(
 
 
 class _Search:
-    """A search under way."""
+    """A search with its toolbox, generator, log and present state."""
 
     def __init__(
         self, problem: Minimisable, optimiser: Optimiser, toolbox: Toolbox | None, seed: int, failures: str
@@ -156,7 +156,7 @@ class _Search:
         self.state: State | None = None
 
     def start_from(self, designs: Real) -> None:
-        """Put designs (k, d) before the samples of the toolbox."""
+        """Replace the first samples of the toolbox by designs (k, d)."""
         codes = self.problem.coding.encode("start", designs)
         sample: Callable[..., Real] | None = getattr(self.toolbox, "sample", None)
         if sample is None:
@@ -168,14 +168,14 @@ class _Search:
         self.toolbox.register("sample", sample_the_rest)
 
     def go_on_from(self, run: Run) -> None:
-        """Take up the search of a run."""
+        """Continue the search of a run."""
         self.state, self.rows = run.checkpoint.state, list(run.log.rows)
         self.problem.failures, self.problem.first = run.failures, "in the run before" if run.failures else ""
         self.problem.repeats = run.repeats
         self.rng.bit_generator.state = dict(run.checkpoint.generator)
 
     def until(self, count: float, seconds: float | None, callback: Callable[[Run], object] | None) -> Run:
-        """Carry out `count` more iterations, or fewer if time or callback end the search."""
+        """Run `count` more iterations, fewer if time or callback end the search."""
         end = perf_counter() + (inf if seconds is None else seconds)
         last = count + len(self.rows) - (self.state is not None)
         try:
@@ -195,7 +195,7 @@ class _Search:
         return run
 
     def _states(self) -> Iterator[State]:
-        """Yield the states of the search; append a row of the log for each."""
+        """Yield the states of the search; append a row to the log for each."""
         number, _, wall, cpu, *phases = self.rows[-1] if self.rows else (-1, 0, 0.0, 0.0)
         clock = PhaseClock(self.toolbox, self.optimiser.phases)
         clock.seconds.update(zip(clock.seconds, phases, strict=False))
@@ -228,7 +228,7 @@ class _Search:
 
 
 def _start_designs(problem: Minimisable, start: Any) -> Real:
-    """Return the designs (k, d) to start from."""
+    """Return the checked designs (k, d) of an argument `start`."""
     if isinstance(start, Population):
         start = start.designs
     elif hasattr(start, "columns"):
@@ -258,14 +258,14 @@ def _iteration_count(
     evaluations: int | None,
     seconds: float | None,
 ) -> float:
-    """Return the iterations after `start` evaluations within the budgets."""
+    """Return the number of iterations that the budget allows after `start` evaluations."""
     per_iteration = optimiser.evaluations_per_iteration(len(problem.objectives))
     if seconds is not None:
         checks.positive("seconds", seconds, "s")
     numbers = [number for number in (iterations, evaluations) if number is not None]
     if len(numbers) > 1 or (not numbers and seconds is None):
-        found = f"{iterations!r}, {evaluations!r} and {seconds!r}"
-        raise ValueError(f"one of iterations and evaluations, or seconds, must be given, got {found}")
+        got = f"{iterations!r}, {evaluations!r} and {seconds!r}"
+        raise ValueError(f"one of iterations and evaluations, or seconds, must be given, got {got}")
     if iterations is not None:
         return checks.at_least("iterations", iterations, 1)
     if evaluations is not None:

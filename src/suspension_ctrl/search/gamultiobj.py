@@ -1,15 +1,15 @@
-"""The NSGA-II of MATLAB's ``gamultiobj`` as of 2008, the paper's own, as a DEAP toolbox over arrays.
+"""NSGA-II as in MATLAB's ``gamultiobj`` of 2008, which the paper used, as a DEAP toolbox over arrays.
 
 Documented by The MathWorks (Genetic Algorithm and Direct Search Toolbox, "gamultiobj Algorithm" and "Options
 Reference"): a controlled elitist NSGA-II; tournaments of two; a fraction 0.8 of the children from intermediate
 crossover, the others from adaptive-feasible mutation; at most a fraction 0.35 of the population from the first
 front as long as others exist; crowding distance in objective space.
 
-Our reading of the rest: one child per pair of parents; survivors beyond the first front by rank, less crowded ones
-first, feasible ones before all others; a mutant's direction is uniformly random, turned away from bounds on which
-it lies, its length uniform up to a step and the bounds; "adaptive with respect to the last successful or
-unsuccessful generation" is Rechenberg's rule: the step doubles if more than a fifth of the mutants survived, and
-halves otherwise.
+What is not documented is our choice. A pair of parents has one child. Beyond the first front, survivors are chosen
+by rank, then by crowding distance, feasible designs before all others. A mutant steps in a uniformly random
+direction, turned away from bounds on which it lies; its length is uniform up to a step and within the bounds.
+"Adaptive with respect to the last successful or unsuccessful generation" is taken as Rechenberg's rule: the step
+doubles if more than a fifth of the mutants survived, and halves otherwise.
 """
 
 from collections.abc import Iterator
@@ -37,16 +37,16 @@ _SUCCESS = 0.2
 
 @dataclass(frozen=True, kw_only=True)
 class Gamultiobj(Generational):
-    """Settings of the controlled NSGA-II; an iteration costs `population` evaluations, and so does the start.
+    """Settings of the controlled NSGA-II: `population` evaluations at the start and in each iteration.
 
     Parameters
     ----------
     population : int
         Size of the population N, at least 4.
     crossover_fraction : float
-        Share of the children that come from crossover; the others are mutants.
+        Share of children made by crossover; the others are mutants.
     pareto_fraction : float
-        Largest share of the survivors that come from the first front while there are others.
+        Largest share of the survivors from the first front, as long as there are other fronts.
 
     Raises
     ------
@@ -55,7 +55,7 @@ class Gamultiobj(Generational):
 
     Examples
     --------
-    Dominated designs stay in the population, as at most 35 % of it come from the first front:
+    At most 35 % of the population is from the first front, so that dominated designs survive:
 
     >>> import suspension_ctrl as sc
     >>> file = sc.load_vehicle("yuen_ramli_2010")
@@ -77,7 +77,7 @@ class Gamultiobj(Generational):
         checks.within("pareto_fraction", self.pareto_fraction, 0, 1)
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
-        """Return the verbs of the algorithm, with these settings, for `problem`."""
+        """Return the toolbox of the algorithm for a problem."""
         lower, upper = box(problem)
         toolbox = Toolbox()
         toolbox.register("sample", sample_uniform, lower=lower, upper=upper)
@@ -91,7 +91,7 @@ class Gamultiobj(Generational):
     def search(
         self, problem: SearchProblem, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
     ) -> Iterator[State]:
-        """Yield the state after the start and after each iteration, without end; with a `state` go on after it."""
+        """Yield the state after the start and each iteration, without end; continue after a given `state`."""
         size, m = self.population, len(problem.objectives)
         crossed = round(self.crossover_fraction * size)
         state = state or problem.before_the_start()
@@ -115,27 +115,27 @@ class Gamultiobj(Generational):
             yield State.of(designs, values, ideal, evaluations, rank=rank, crowding=crowding, step=step)
 
     def _next_step(self, step: float, kept: Integer) -> float:
-        """Return the step after an iteration with survivors `kept` (N,) of parents, crossed children, mutants."""
+        """Return the next step from the survivors `kept` (N,), indices of parents, crossed children, mutants."""
         mutants = self.population + round(self.crossover_fraction * self.population)
         survived = np.count_nonzero(kept >= mutants) / max(1, 2 * self.population - mutants)
         return min(1.0, 2 * step) if survived > _SUCCESS else step / 2
 
 
 def ranked_tournament(rng: np.random.Generator, rank: NDArray[np.int32], crowding: Real, size: int) -> Integer:
-    """Return `size` parents, winners of tournaments of two from all (n,): lower rank, then less crowded."""
+    """Return `size` winners of tournaments of two out of ranks (n,): lower rank, then larger crowding distance."""
     a, b = (rng.random((2, size)) * rank.size).astype(np.int64)
     b_wins = (rank[b] < rank[a]) | ((rank[b] == rank[a]) & (crowding[b] > crowding[a]))
     return np.where(b_wins, b, a)
 
 
 def intermediate_crossover(rng: np.random.Generator, parents: Real) -> Real:
-    """Return children (n, d), uniform in the boxes between each two consecutive parents (2 n, d)."""
+    """Return children (n, d), each uniform in the box between two consecutive parents (2 n, d)."""
     first, second = parents[::2], parents[1::2]
     return first + rng.random(first.shape) * (second - first)
 
 
 def feasible_steps(rng: np.random.Generator, designs: Real, step: float, lower: Real, upper: Real) -> Real:
-    """Return mutants (n, d): steps in random directions, up to `step` widths of the box and inside it."""
+    """Return mutants (n, d) in the box: steps of at most `step` box widths in random directions."""
     direction = rng.normal(size=designs.shape)
     direction *= (upper - lower) / np.linalg.norm(direction, axis=1, keepdims=True)
     blocked = ((direction > 0) & (designs >= upper)) | ((direction < 0) & (designs <= lower))
@@ -147,7 +147,7 @@ def feasible_steps(rng: np.random.Generator, designs: Real, step: float, lower: 
 
 
 def contenders(values: Real, m: int, size: int) -> Integer:
-    """Return the indices, ascending, of the feasible of values (n, m + c), filled to `size` by least violation."""
+    """Return the indices of the feasible values (n, m + c), ascending, filled up to `size` by least violation."""
     violation = violations(values, m)
     count = max(size, np.count_nonzero(violation == 0))
     return np.sort(np.argsort(violation, kind="stable")[:count])
@@ -158,8 +158,8 @@ def select_controlled(
 ) -> tuple[Integer, NDArray[np.int32], Real]:
     """Return indices, ascending, of `size` survivors of objectives (n, m), their fronts and crowding distances.
 
-    At most a fraction is from the first front while others exist, after K. Deb, T. Goel, "Controlled elitist
-    non-dominated sorting genetic algorithms for better convergence", EMO 2001.
+    At most `pareto_fraction` of them is from the first front if there are others: K. Deb, T. Goel, "Controlled
+    elitist non-dominated sorting genetic algorithms for better convergence", EMO 2001.
     """
     rank = front_ranks(objectives)
     crowding = crowding_distances(objectives, rank)

@@ -16,9 +16,9 @@ from .decomposition import farthest_first
 
 
 def non_dominated(objectives: ArrayLike) -> Bool:
-    """Return which of the objectives (n, m), to be minimised, are dominated by no other; shape (n,).
+    """Return a mask (n,) of the rows of objectives (n, m), to be minimised, that no other row dominates.
 
-    A row with NaN counts as dominated and dominates none.
+    A row with NaN is dominated and dominates no other.
 
     Examples
     --------
@@ -35,16 +35,16 @@ def non_dominated(objectives: ArrayLike) -> Bool:
 
 
 def best_of(objectives: Real) -> Real:
-    """Return the non-dominated ones (k, m) of the objectives (n, m)."""
+    """Return the non-dominated rows (k, m) of objectives (n, m)."""
     return objectives[non_dominated(objectives)]
 
 
 def evenly_spread(objectives: Real, size: int) -> Integer:
-    """Return the indices, ascending, of at most `size` objectives (n, m) that cover the set evenly.
+    """Return the indices, ascending, of at most `size` rows of objectives (n, m) that cover the set evenly.
 
-    The ends come first, then always the farthest from all kept, each objective divided by its range (H. K. Singh,
-    K. S. Bhattacharjee, T. Ray, "Distance-based subset selection for benchmarking in evolutionary
-    multi/many-objective optimization", IEEE Trans. Evol. Comput. 23(5), 2019).
+    The ends come first, then repeatedly the row farthest from all before it, each objective divided by its range:
+    H. K. Singh, K. S. Bhattacharjee, T. Ray, "Distance-based subset selection for benchmarking in evolutionary
+    multi/many-objective optimization", IEEE Trans. Evol. Comput. 23(5), 2019.
     """
     if len(objectives) <= size:
         return np.arange(len(objectives))
@@ -55,7 +55,7 @@ def evenly_spread(objectives: Real, size: int) -> Integer:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ReferenceFront(Record):
-    """A front to measure others by; its ideal point becomes 0 and its nadir 1 in every objective.
+    """A reference front for indicators, in objectives scaled to its ideal point (0) and its nadir (1).
 
     An empty set (no feasible design) ranks last: hypervolume 0, IGD+ and epsilon infinite.
 
@@ -88,13 +88,13 @@ class ReferenceFront(Record):
     volume: float
 
     HYPERVOLUME_REFERENCE = 1.1
-    """Corner of the hypervolume in scaled objectives: a tenth beyond the nadir, since ends count too."""
+    """Reference point of the hypervolume in scaled objectives: beyond the nadir, so that the ends count."""
 
     EXACT = 5
-    """Objectives up to which the hypervolume is exact: of 8 and 300 points it takes minutes."""
+    """Largest number of objectives with an exact hypervolume: with 8 and 300 points it takes minutes."""
 
     SAMPLE = 2000
-    """Points of a fine front for distances."""
+    """Largest number of points for distances."""
 
     def __post_init__(self) -> None:
         self._keep(**{name: frozen_array(getattr(self, name)) for name in ("objectives", "ideal", "nadir")})
@@ -113,7 +113,7 @@ class ReferenceFront(Record):
     def scaled(self, objectives: ArrayLike) -> Real:
         """Return objectives (n, m) with this front's ideal point at 0 and its nadir at 1, without rows of NaN.
 
-        One that does not vary on the front is scaled by its value there, or by 1 if that is 0.
+        An objective that is constant on the front is divided by its value, or by 1 if that is 0.
         """
         values, size = checks.reals("objectives must be", objectives), np.abs(self.ideal)
         ranges = self.nadir - self.ideal
@@ -121,9 +121,9 @@ class ReferenceFront(Record):
         return (values[~np.isnan(values).any(axis=1)] - self.ideal) / scale
 
     def hypervolume(self, objectives: ArrayLike) -> float:
-        """Return the volume that objectives (n, m) dominate below 1.1 in scaled objectives [-].
+        """Return the volume dominated by objectives (n, m) up to 1.1 in scaled objectives [-].
 
-        Of more than `EXACT` objectives it is moocore's approximation, good to some 1e-3 (relative).
+        With more than `EXACT` objectives it is moocore's approximation, of a relative error of about 1e-3.
         """
         scaled, corner = self.scaled(objectives), self.HYPERVOLUME_REFERENCE
         if scaled.shape[-1] <= self.EXACT or len(scaled) == 0:
@@ -135,11 +135,11 @@ class ReferenceFront(Record):
         return self.hypervolume(objectives) / self.volume
 
     def igd_plus(self, objectives: ArrayLike) -> float:
-        """Return the modified inverted generational distance IGD+ of objectives (n, m) in scaled ones [-]."""
+        """Return the modified inverted generational distance IGD+ of objectives (n, m), scaled [-]."""
         return self._distance(moocore.igd_plus, objectives)
 
     def epsilon(self, objectives: ArrayLike) -> float:
-        """Return the least shift by which objectives (n, m) weakly dominate this front, in scaled ones [-]."""
+        """Return the least shift by which objectives (n, m), scaled, weakly dominate this front [-]."""
         return self._distance(moocore.epsilon_additive, objectives)
 
     def _distance(self, measure: Callable[..., Any], objectives: ArrayLike) -> float:
@@ -147,9 +147,9 @@ class ReferenceFront(Record):
         return float(measure(scaled, ref=self.scaled(self.objectives))) if len(scaled) else inf
 
     def spread(self, objectives: ArrayLike) -> float:
-        """Return the generalised spread of objectives (n, m) in scaled ones [-]; NaN of fewer than two points.
+        """Return the generalised spread of objectives (n, m), scaled [-]; NaN for fewer than two points.
 
-        It is 0 for equal distances of nearest neighbours and a set that contains the ends of this front.
+        It is 0 if all distances of nearest neighbours are equal and the set contains the ends of this front.
 
         References
         ----------

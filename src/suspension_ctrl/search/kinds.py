@@ -1,8 +1,8 @@
-"""Kinds of variables: whole numbers, catalogues, logarithms and held values behind the real box of a search.
+"""Kinds of variables: whole numbers, catalogues, logarithmic and held variables, coded in a real box.
 
-A search works on codes (e,) in a box, `Coding` turns them into designs (d,). Codes of whole numbers, and of places
-in a catalogue, are rounded: half a unit beyond the ends makes all equally likely. The code of a logarithmic
-variable is its logarithm; a held variable has none.
+A search works on codes (e,) in a box; `Coding` decodes them into designs (d,). Codes of whole numbers, and of
+places in a catalogue, are rounded; the box reaches half a unit beyond both ends, so that all values are equally
+likely. The code of a logarithmic variable is its logarithm; a held variable has no code.
 """
 
 from collections.abc import Sequence
@@ -21,12 +21,12 @@ _FORMS = {"log": LOGARITHM, "integer": WHOLE}
 
 
 class Decode(NamedTuple):
-    """Designs of codes."""
+    """Decoder of codes into designs."""
 
     form: Integer  # (d,) HELD, REAL, LOGARITHM, WHOLE or LISTED
-    lower: Real  # (d,) least and greatest value, or place in `catalogue`
+    lower: Real  # (d,) least and greatest value, of a catalogue their places in `catalogue`
     upper: Real
-    catalogue: Real  # (k,) the values of all catalogues, one after the other
+    catalogue: Real  # (k,) values of all catalogues, one after the other
 
     @compilable()
     def __call__(self, codes: Real) -> Real:
@@ -50,7 +50,7 @@ class Decode(NamedTuple):
 
 
 class DecodedKernel(NamedTuple):
-    """A kernel of designs, called with codes."""
+    """A kernel that decodes its argument first."""
 
     decode: Decode
     kernel: Any
@@ -64,7 +64,7 @@ class DecodedKernel(NamedTuple):
 
 
 class Coding:
-    """Codes of the designs of a problem, and their box; codes are the designs if all variables are real."""
+    """Coding of the designs of a problem and the box of its codes; real designs are their own codes."""
 
     def __init__(self, problem: Minimisable) -> None:
         self.variables = problem.variables
@@ -79,7 +79,7 @@ class Coding:
         self.discrete = form[form != HELD] >= WHOLE
 
     def kernel(self, kernel: Kernel) -> Kernel:
-        """Return a kernel of codes."""
+        """Return the kernel as a function of codes."""
         return kernel if self.plain else DecodedKernel(self.decoding, verb_of(kernel))
 
     def decode(self, codes: Real) -> Real:
@@ -87,7 +87,7 @@ class Coding:
         return codes if self.plain else np.asarray(call_compiled(self.decoding, np.ascontiguousarray(codes)))
 
     def encode(self, name: str, designs: Real) -> Real:
-        """Return codes (n, e) of designs (n, d) called `name`; ValueError for a value without one."""
+        """Return the codes (n, e) of designs (n, d), `name` in errors; ValueError for a value without a code."""
         form, low, high, catalogue = self.decoding
         codes = designs.copy()
         for v in np.flatnonzero(form == LISTED):
@@ -99,13 +99,13 @@ class Coding:
         other = (self.decode(codes) != designs) & ((form >= WHOLE) | (form == HELD))
         if other.any():
             row, v = np.argwhere(other)[0].tolist()
-            known = catalogue[int(low[v]) : int(high[v]) + 1] if form[v] == LISTED else low[v : v + 1]
-            allowed = "a whole number" if form[v] == WHOLE else f"one of {known.tolist()}"
+            values = catalogue[int(low[v]) : int(high[v]) + 1] if form[v] == LISTED else low[v : v + 1]
+            allowed = "a whole number" if form[v] == WHOLE else f"one of {values.tolist()}"
             raise ValueError(f"{name} must have {allowed} in {self.variables[v]}, got {designs[row, v]}")
         return codes
 
     def grid_axes(self, points: int) -> list[Real]:
-        """Return up to `points` codes of each variable, evenly spread and each of another value."""
+        """Return up to `points` codes per variable, evenly spread, that decode to different values."""
         half = np.where(self.discrete, 0.5, 0.0)
         sizes = np.where(self.discrete, np.minimum(self.upper - self.lower, points), points).astype(int)
         axes = map(np.linspace, self.lower + half, self.upper - half, sizes)
@@ -113,7 +113,7 @@ class Coding:
 
 
 def _decoding(kinds: Sequence[str | Sequence[float]], lower: Sequence[float], upper: Sequence[float]) -> Decode:
-    """Return the decoding of variables of checked kinds, ``""`` for real ones, within their bounds."""
+    """Return the decoder of variables of checked kinds, ``""`` for a real one, within their bounds (d,)."""
     rows: list[tuple[int, float, float]] = []
     catalogue: list[float] = []
     for given, low, high in zip(kinds, lower, upper, strict=True):

@@ -24,25 +24,25 @@ _SWEEPS = {"sequential": sweep_sequential, "batch": sweep_batch}
 
 @dataclass(frozen=True, kw_only=True)
 class MoeadDra:
-    """Settings of MOEA/D-DRA; the start costs `population` evaluations, an iteration a fifth of that.
+    """Settings of MOEA/D-DRA: `population` evaluations at the start, a fifth of that in each iteration.
 
     Parameters
     ----------
     population : int
         Number of subproblems N, at least five times the number of objectives.
     neighbourhood : float, optional
-        Size T of a neighbourhood as a fraction of N, at least 2 subproblems; a tenth, but at least 20
-        of them, if not given.
+        Size T of a neighbourhood as a fraction of N, at least 2 subproblems. The default is a tenth, at least 20
+        subproblems.
     neighbour_probability : float
         Probability delta that mates come from the neighbourhood.
     replacement_limit : float, optional
-        Largest number n_r of partners that a child replaces as a fraction of N, at least 1; a hundredth, but
-        at least 2, if not given.
+        Largest number n_r of partners that a child replaces as a fraction of N, at least 1. The default is a
+        hundredth, at least 2.
     scale_factor : float
         Factor F of differential evolution.
     repair_reach : float
-        A child's variable outside its bounds is drawn between the bound and this fraction of the way to the
-        parent's value. At 0 it goes to the bound, which helps where the front lies on bounds.
+        A variable of a child outside its bounds is drawn between the bound and this fraction of the way to the
+        parent's value. With 0 it is set to the bound, which helps if the front lies on bounds.
     mutation_probability : float, optional
         Probability that a variable mutates, 1/d if not given.
     mutation_eta : float
@@ -54,14 +54,14 @@ class MoeadDra:
     utility_threshold : float
         Relative progress above which a subproblem's utility is 1.
     normalise : bool
-        Divide each objective by its span, from the ideal point to the worst in the population (feasible designs
-        if any) at the start of the iteration; False is equation (14) to the letter.
+        Divide each objective by its span at the start of the iteration: the distance from the ideal point to the
+        worst value in the population, of feasible designs if there are any. False is equation (14) to the letter.
     objective_scales : (m,) sequence of float, optional
-        Divisors of the objectives without normalisation, 1 if not given. On the ride problem ``(1, 1, 1e3)``
-        takes DTL in kN, as the paper does.
+        Divisors of the objectives without normalisation, 1 by default. On the ride problem ``(1, 1, 1e3)``
+        means DTL in kN, as in the paper.
     update : {"sequential", "batch"}
-        Each child sees every replacement before it (the definition), or all children of an iteration come from
-        the population at its start and one call evaluates them.
+        "sequential", the definition: each child is made of the population after the replacements before it.
+        "batch": all children of an iteration are made of the population at its start and evaluated in one call.
 
     Raises
     ------
@@ -70,8 +70,8 @@ class MoeadDra:
 
     Examples
     --------
-    An iteration evaluates a fifth of the population. Each objective is divided by its span: tyre load in newtons
-    does not outweigh travel in metres.
+    An iteration evaluates a fifth of the population. As each objective is divided by its span, tyre loads in
+    newtons do not outweigh travels in metres.
 
     >>> import suspension_ctrl as sc
     >>> file = sc.load_vehicle("yuen_ramli_2010")
@@ -132,7 +132,7 @@ class MoeadDra:
         return max(2, n // 100) if self.replacement_limit is None else max(1, int(self.replacement_limit * n))
 
     def evaluations_per_iteration(self, objectives: int, /) -> int:
-        """Return the number of evaluations in an iteration; ValueError if the corners alone are more."""
+        """Return the number of evaluations in an iteration; ValueError if it is less than the objectives."""
         if self.population < 5 * objectives:
             needed = f">= {5 * objectives} for {objectives} objectives"
             reason = "since a fifth of it holds every corner subproblem"
@@ -140,7 +140,7 @@ class MoeadDra:
         return self.population // 5
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
-        """Return the verbs of the algorithm, with these settings, for `problem`."""
+        """Return the toolbox of the algorithm for a problem."""
         lower, upper = box(problem)
         probability = 1 / lower.size if self.mutation_probability is None else self.mutation_probability
         toolbox = Toolbox()
@@ -161,9 +161,9 @@ class MoeadDra:
     def search(
         self, problem: SearchProblem, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
     ) -> Iterator[State]:
-        """Yield the state after the start and after each iteration, without end (Figure 4 of the paper).
+        """Yield the state after the start and each iteration, without end; continue after a given `state`.
 
-        With a `state` go on after it.
+        Figure 4 of the paper.
         """
         size, m = self.population, len(problem.objectives)
         vectors = decomposition.weight_vectors(size, m)

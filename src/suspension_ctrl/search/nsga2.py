@@ -26,7 +26,7 @@ _SELECTIONS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Nsga2(Generational):
-    """Settings of NSGA-II; an iteration costs `population` evaluations, and so does the start.
+    """Settings of NSGA-II: `population` evaluations at the start and in each iteration.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ class Nsga2(Generational):
         checks.one_of("selection", self.selection, _SELECTIONS)
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
-        """Return the verbs of the algorithm, with these settings, for `problem`."""
+        """Return the toolbox of the algorithm for a problem."""
         lower, upper = box(problem)
         probability = 1 / lower.size if self.mutation_probability is None else self.mutation_probability
         select, sorting = _SELECTIONS[self.selection]
@@ -100,9 +100,9 @@ class Nsga2(Generational):
     def search(
         self, problem: SearchProblem, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
     ) -> Iterator[State]:
-        """Yield the state after the start and after each iteration, without end (Figure 3 of the paper).
+        """Yield the state after the start and each iteration, without end; continue after a given `state`.
 
-        With a `state` go on after it.
+        Figure 3 of the paper.
         """
         size, m = self.population, len(problem.objectives)
         state = state or problem.before_the_start()

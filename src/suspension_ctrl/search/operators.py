@@ -1,4 +1,4 @@
-"""Variation operators on real designs in a box, compiled; every draw comes from the generator handed in."""
+"""Variation operators on real designs in a box, compiled; all random numbers come from the given generator."""
 
 from typing import NamedTuple
 
@@ -9,8 +9,8 @@ from ..quantities import Bool, Integer, Real
 
 
 def sample_uniform(rng: np.random.Generator, size: int, lower: Real, upper: Real) -> Real:
-    """Return `size` designs drawn uniformly from the box, shape (size, d)."""
-    # What rng.uniform gives, which takes ten times as long with arrays for bounds.
+    """Return designs (size, d) drawn uniformly from the box."""
+    # The numbers of rng.uniform in a tenth of its time with arrays as bounds.
     return lower + (upper - lower) * rng.random((size, lower.size))
 
 
@@ -21,9 +21,10 @@ def draw_below(rng: np.random.Generator, count: int) -> np.int64:
 
 
 def crowded_tournament(rng: np.random.Generator, objectives: Real, crowding: Real, size: int) -> Integer:
-    """Return `size` parents, winners of binary tournaments by dominance, then by larger crowding distance.
+    """Return `size` winners of binary tournaments by dominance, then by larger crowding distance.
 
-    Every individual has one rival in each shuffled pass (Deb et al. 2002; ``selTournamentDCD`` of DEAP, any size).
+    Each pass shuffles the population and pairs neighbours (Deb et al. 2002; ``selTournamentDCD`` of DEAP, for any
+    size).
     """
     n = objectives.shape[0]
     passes = -(-size // (n // 2))
@@ -32,7 +33,7 @@ def crowded_tournament(rng: np.random.Generator, objectives: Real, crowding: Rea
 
 @compiled()
 def crowded_winners(draws: Real, coins: Real, objectives: Real, crowding: Real) -> Integer:
-    """Return the winners (k,) of passes shuffled by draws (p, n); coins (k,) from 0 to 1 decide ties."""
+    """Return the winners (k,) of passes shuffled by draws (p, n); draws `coins` (k,) decide ties."""
     order = np.arange(objectives.shape[0])
     pairs = order.size // 2
     winners = np.empty(coins.size, dtype=np.int64)
@@ -61,7 +62,7 @@ def shuffle(values: Integer, draws: Real) -> None:
 def simulated_binary_crossover(
     rng: np.random.Generator, parents: Real, lower: Real, upper: Real, eta: float, probability: float
 ) -> Real:
-    """Return children (n, d) of consecutive parents (n, d) by bounded SBX; a last one without a mate is copied.
+    """Return children (n, d) of consecutive parents (n, d) by bounded SBX; the last of an odd number is copied.
 
     K. Deb, R. B. Agrawal, Complex Systems 9, 1995, in the bounded form of Deb's NSGA-II code: a pair mates with
     `probability`, then each variable is recombined with probability 1/2.
@@ -73,7 +74,7 @@ def simulated_binary_crossover(
 
 @compiled()
 def recombined(parents: Real, mates: Bool, draws: Real, lower: Real, upper: Real, eta: float) -> Real:
-    """Return children (n, d); draws (n // 2, d, 3): whether a variable is recombined, its spread, their order."""
+    """Return children (n, d) by draws (n // 2, d, 3): recombination of a variable, spread, order of the pair."""
     children = parents.copy()
     for pair in range(mates.size):
         if not mates[pair]:
@@ -97,7 +98,7 @@ def recombined(parents: Real, mates: Bool, draws: Real, lower: Real, upper: Real
 
 @compilable()
 def sbx_spread(u: float, room: float, eta: float) -> float:
-    """Spread factor of SBX for the draw u, with `room` to the bound in units of the parents' distance."""
+    """Return the spread factor of SBX for the draw u; `room` is the distance to the bound over the parents'."""
     alpha = 2.0 - (1.0 + 2.0 * room) ** -(eta + 1.0)
     inside = u * alpha if u <= 1.0 / alpha else 1.0 / (2.0 - u * alpha)
     return float(inside ** (1.0 / (eta + 1.0)))
@@ -106,7 +107,7 @@ def sbx_spread(u: float, room: float, eta: float) -> float:
 def polynomial_mutation(
     rng: np.random.Generator, designs: Real, lower: Real, upper: Real, eta: float, probability: float
 ) -> Real:
-    """Return mutants (n, d) of designs (n, d) in the box, each variable with `probability`: polynomial mutation.
+    """Return mutants (n, d) of designs (n, d) by polynomial mutation of each variable with `probability`.
 
     K. Deb, M. Goyal, "A combined genetic adaptive search (GeneAS) for engineering design", 1996, in the bounded
     form of Deb's NSGA-II code.
@@ -117,7 +118,7 @@ def polynomial_mutation(
 
 @compiled()
 def mutated(designs: Real, mutates: Bool, draws: Real, lower: Real, upper: Real, eta: float) -> Real:
-    """Return mutants (n, d) of designs (n, d), changed where `mutates` (n, d), by draws (n, d)."""
+    """Return mutants (n, d) of designs (n, d) where `mutates` (n, d) is true, by draws (n, d)."""
     mutants = designs.copy()
     for i in range(designs.shape[0]):
         for v in range(designs.shape[1]):
@@ -136,12 +137,12 @@ def mutated_value(value: float, u: float, lower: float, upper: float, eta: float
     else:
         rest = (1.0 - (upper - value) / width) ** (eta + 1.0)
         step = 1.0 - (2.0 * (1.0 - u) + (2.0 * u - 1.0) * rest) ** (1.0 / (eta + 1.0))
-    mutant = value + step * width  # min and max are functions that numba compiles for each caller
+    mutant = value + step * width  # no min and max: numba compiles these functions for each caller
     return lower if mutant < lower else upper if mutant > upper else mutant
 
 
 class MutateDesign(NamedTuple):
-    """Polynomial mutation of one design, each variable with `probability`."""
+    """Polynomial mutation of one design: each variable changes with `probability`."""
 
     lower: Real
     upper: Real
@@ -164,7 +165,7 @@ class DifferentialChild(NamedTuple):
 
     @compilable()
     def __call__(self, rng: np.random.Generator, designs: Real, i: int, partners: Integer) -> Real:
-        """Return a child (d,) of individual i, with different r2 and r3 drawn from `partners`."""
+        """Return a child (d,) of individual i; r2 and r3 are different and drawn from `partners`."""
         first, second = draw_below(rng, partners.size), draw_below(rng, partners.size - 1)
         second += second >= first
         child = np.empty(designs.shape[1])
@@ -174,7 +175,7 @@ class DifferentialChild(NamedTuple):
 
 
 class RedrawOutside(NamedTuple):
-    """Repair: a variable out of bounds is drawn from the bound to `reach` of the way to the parent's value."""
+    """Repair: a variable out of bounds is drawn between the bound and `reach` of the way to the parent's value."""
 
     lower: Real
     upper: Real
@@ -182,7 +183,7 @@ class RedrawOutside(NamedTuple):
 
     @compilable()
     def __call__(self, rng: np.random.Generator, child: Real, parent: Real) -> Real:
-        """Return the child (d,) of a parent (d,) changed in place."""
+        """Return the child (d,) of a parent (d,), repaired in place."""
         for v in range(child.size):
             if child[v] < self.lower[v]:
                 child[v] = self.lower[v] + self.reach * rng.random() * (parent[v] - self.lower[v])

@@ -1,4 +1,4 @@
-"""A population: designs with objectives and constraints; the base of states, runs and traces."""
+"""Populations: designs with objectives and constraints, the base class of states, runs and traces."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -89,7 +89,7 @@ def _with_unit(header: str, value: float) -> str:
 
 
 class Generational:
-    """Settings of an algorithm with as many evaluations in an iteration as designs in its population."""
+    """Settings of an algorithm that evaluates a whole population in each iteration."""
 
     population: int
 
@@ -102,9 +102,9 @@ class Generational:
 class State(Population):
     """The population of a search after an iteration."""
 
-    ideal: Real  # (m,) least value seen of each objective, of feasible designs once there is one
+    ideal: Real  # (m,) least value so far of each objective, of feasible designs once there is one
     evaluations: int  # so far
-    memory: Mapping[str, Real]  # whatever else the algorithm needs to go on
+    memory: Mapping[str, Real]  # further arrays from which the algorithm continues
 
     @classmethod
     def of(cls, designs: Real, values: Real, ideal: Real, evaluations: int, **memory: ArrayLike) -> "State":

@@ -1,4 +1,4 @@
-"""Problems of the optimisers: objectives to be minimised over a box, of vehicles or of anything else."""
+"""Optimisation problems: objectives to be minimised over a box of variables, with constraints."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -11,7 +11,7 @@ from .. import checks
 from ..quantities import FrozenMapping, Real, Record, column_headers
 
 Kernel = tuple[Any, ...]
-"""A compiled function from a design (d,) to values (m + c,) with its further arguments; or a verb (`compiled`)."""
+"""A compiled function from a design (d,) to values (m + c,) and its further arguments, or a verb (`compiled`)."""
 
 
 class Minimisable(Protocol):
@@ -51,7 +51,7 @@ class Minimisable(Protocol):
 
     @property
     def evaluate(self) -> Callable[[Real], Real]:
-        """Function from designs (n, d) to values (n, m + c), objectives, then constraints."""
+        """Function from designs (n, d) to values (n, m + c): objectives, then constraints."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -88,11 +88,11 @@ class Problem(Record):
 
     Notes
     -----
-    Optimisers search a real box: a variable with a kind has a code there, such as its place in a catalogue
-    (`search.kinds`). Verbs of a toolbox get codes; `evaluate`, `start`, callbacks and results have designs. If all
-    variables are whole numbers, of catalogues or held, a search evaluates a design once: a budget counts all
-    designs asked for, `Run.repeats` those known before. A kernel evaluates them again, as fast as they are looked
-    up, and so does a resumed search: a run keeps its population, not every design.
+    Optimisers search a real box: a variable with a kind has a code in it, such as its place in a catalogue
+    (`search.kinds`). Verbs of a toolbox work on codes; `evaluate`, `start`, callbacks and results have designs. If
+    all variables are whole numbers, of catalogues or held, a search evaluates each design once. A budget counts
+    repeated designs too, and `Run.repeats` is their number. A kernel evaluates repeated designs again, as this
+    costs no more than looking them up. A resumed search does too: a run keeps its population, not every design.
 
     Examples
     --------
@@ -138,13 +138,13 @@ class Problem(Record):
             raise ValueError(f"evaluate must be callable, got {checks.shown(self.evaluate)}")
         for name in ("objectives", "constraints", "variables"):
             checks.listed(name, getattr(self, name))
-        if isinstance(self.objectives, str) or len(set(self.objectives)) < max(2, len(self.objectives)):
+        if len(set(self.objectives)) < max(2, len(self.objectives)):
             raise ValueError(f"objectives must be 2 or more different names, got {self.objectives!r}")
         outputs = [*self.objectives, *self.constraints]
-        if isinstance(self.constraints, str) or len(set(outputs)) < len(outputs):
+        if len(set(outputs)) < len(outputs):
             raise ValueError(f"constraints must be names different from all others, got {self.constraints!r}")
         names = tuple(self.variables) or tuple(f"x{i + 1}" for i in range(len(self.lower)))
-        if isinstance(self.variables, str) or not len(set(names)) == len(names) == len(self.lower):
+        if not len(set(names)) == len(names) == len(self.lower):
             raise ValueError(f"variables must be {len(self.lower)} different names, got {self.variables!r}")
         if self.kernel is not None and not _is_kernel(self.kernel):
             got = checks.shown(self.kernel)

@@ -1,4 +1,4 @@
-"""The result of a search: the final population, its cost and history, and the search as it stands."""
+"""The result of a search: final population, cost, history, and a checkpoint from which it continues."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Optimiser(Protocol):
-    """Settings of an algorithm, the toolbox of its verbs, and the search made of them."""
+    """Settings of an algorithm, with the toolbox of its verbs and its search."""
 
     @property
     def population(self) -> int:
@@ -31,7 +31,7 @@ class Optimiser(Protocol):
         """Timed verbs of the toolbox."""
 
     def evaluations_per_iteration(self, objectives: int, /) -> int:
-        """Return how many designs an iteration evaluates."""
+        """Return the number of evaluations in an iteration."""
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
         """Return the verbs of the algorithm for `problem`."""
@@ -39,7 +39,7 @@ class Optimiser(Protocol):
     def search(
         self, problem: "SearchProblem", toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
     ) -> Iterator[State]:
-        """Yield the state after the start and after each iteration, without end; with a `state` go on after it."""
+        """Yield the state after the start and each iteration, without end; continue after a given `state`."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -57,11 +57,11 @@ class Run(Population):
     log : Log
         Rows and columns of `history`.
     repeats : int
-        Of the evaluations, those of known designs of a problem without continuous variables (`Problem.kinds`).
+        Evaluations of designs evaluated before, of a problem without real variables (`Problem.kinds`).
     failures : int
-        Designs that could not be evaluated; their objectives are NaN where they are in the population.
+        Number of designs that could not be evaluated; in the population their objectives are NaN.
     checkpoint : Checkpoint
-        The search as it stands, for `resume`.
+        State from which `resume` continues.
 
     Examples
     --------
@@ -96,7 +96,7 @@ class Run(Population):
 
     @cached_property
     def history(self) -> "pd.DataFrame":
-        """A row for the start, iteration 0, and per iteration; counts and times [s] from the start of the run.
+        """A row for the start (iteration 0) and for each iteration; counts and times [s] are cumulative.
 
         Columns: ``iteration``, ``evaluations``, ``seconds``, ``cpu_seconds``, ``<phase>_seconds`` of each phase,
         ``ideal_<objective>`` of each objective, of feasible designs once there is one. A compiled sweep of
@@ -117,24 +117,24 @@ class Run(Population):
         callback: "Callable[[Run], object] | None" = None,
         failures: str = "worst",
     ) -> "Run":
-        """Go on with the search, as if it had not ended: bit for bit what one search of both lengths gives.
+        """Continue the search; the result is bit for bit that of one search of the total length.
 
         Parameters
         ----------
         problem : Problem or RideProblem
             The problem of the run.
         iterations, evaluations, seconds
-            As for `minimise`, from here on.
+            Budget of the continuation, as for `minimise`.
         toolbox, callback, failures
-            As for `minimise`; a toolbox of own verbs is given again.
+            As for `minimise`; a toolbox with own verbs must be given again.
         """
-        from . import driver  # which makes runs
+        from . import driver  # it imports this module
 
         limits = {"iterations": iterations, "evaluations": evaluations, "seconds": seconds}
         return driver.resumed(self, problem, toolbox, callback, failures, **limits)
 
     def save(self, path: str | Path) -> None:
-        """Write the run to a file, whole or not at all; `load` reads it.
+        """Write the run to a file that `load` reads; a write is atomic.
 
         Parameters
         ----------
@@ -144,7 +144,7 @@ class Run(Population):
         Raises
         ------
         ValueError
-            If the optimiser is none of this package, or the run has no designs.
+            If the optimiser is not one of this package, or the run has no designs.
         """
         from . import checkpoints
 
@@ -157,7 +157,7 @@ class Run(Population):
         Raises
         ------
         ValueError
-            If the file is another one or spoilt.
+            If the file was not written by `save` or is damaged.
         """
         from . import checkpoints
 
@@ -170,7 +170,7 @@ class Run(Population):
 
 
 class Checkpoint(NamedTuple):
-    """A search after an iteration: its optimiser, its state and the state of its generator."""
+    """Optimiser, state and random generator of a search after an iteration."""
 
     optimiser: Optimiser
     state: State | None  # None before the end of the start
@@ -178,7 +178,7 @@ class Checkpoint(NamedTuple):
 
 
 class Log(NamedTuple):
-    """Rows and columns of a history, before a table is made of them."""
+    """Columns and rows of `Run.history`."""
 
     columns: tuple[str, ...]
     rows: tuple[tuple[float, ...], ...]

@@ -1,4 +1,4 @@
-"""Searches that do not learn: random and Sobol samples of the box, the baselines of any other search."""
+"""Random and Sobol samples of the box: the baselines of all searches."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -19,13 +19,13 @@ from .problem import Minimisable
 
 
 def random_points(rng: np.random.Generator, size: int, variables: int) -> Iterator[Real]:
-    """Yield samples (size, variables) of independent points in the unit cube, without end."""
+    """Yield samples (size, variables) of independent uniform points in the unit cube, without end."""
     while True:
         yield rng.random((size, variables))
 
 
 def sobol_points(rng: np.random.Generator, size: int, variables: int) -> Iterator[Real]:
-    """Yield consecutive parts (size, variables) of one scrambled Sobol sequence in the unit cube, without end."""
+    """Yield consecutive parts (size, variables) of one scrambled Sobol sequence, without end."""
     from scipy.stats import qmc  # half a second: not at import of the package
 
     sequence = qmc.Sobol(variables, rng=rng)
@@ -43,10 +43,10 @@ _POINTS: dict[str, Callable[..., Iterator[Real]]] = {"random": random_points, "s
 
 @dataclass(frozen=True, kw_only=True)
 class Sampling(Generational):
-    """Settings of a sample; an iteration costs `population` evaluations, and so does the start.
+    """Settings of a sample: `population` evaluations at the start and in each iteration.
 
-    Its population is the non-dominated designs of all evaluated ones; while none is feasible, those of the least
-    violation.
+    The population of a run holds the non-dominated designs of all that were evaluated; as long as none is
+    feasible, the designs of the least violation.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ class Sampling(Generational):
         checks.one_of("points", self.points, _POINTS)
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
-        """Return the verbs of the sample, with these settings, for `problem`."""
+        """Return the toolbox of the sample for a problem."""
         toolbox = Toolbox()
         toolbox.register("points", _POINTS[self.points], variables=Coding(problem).lower.size)
         toolbox.register("evaluate", problem.evaluate)
@@ -92,17 +92,17 @@ class Sampling(Generational):
     def search(
         self, problem: SearchProblem, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
     ) -> Iterator[State]:
-        """Yield the state after the start and after each iteration, without end; with a `state` go on after it."""
+        """Yield the state after the start and each iteration, without end; continue after a given `state`."""
         m, size = len(problem.objectives), self.population
         if state is not None:
             seeds: Any = rng.bit_generator.seed_seq
-            rng = np.random.default_rng(seeds)  # a sequence begins anew and skips known parts
+            rng = np.random.default_rng(seeds)  # the sequence restarts; `islice` skips the evaluated parts
         designs, values, ideal, evaluations = (state or problem.before_the_start()).arrays()
         for unit in islice(toolbox.points(rng, size), evaluations // size, None):
-            drawn = problem.lower + (problem.upper - problem.lower) * unit
-            found = problem.values(toolbox.evaluate, drawn)
-            ideal, evaluations = ideal_with(ideal, found, any_feasible(values, m)), evaluations + size
-            designs, values = np.concatenate([designs, drawn]), np.concatenate([values, found])
+            sample = problem.lower + (problem.upper - problem.lower) * unit
+            sampled = problem.values(toolbox.evaluate, sample)
+            ideal, evaluations = ideal_with(ideal, sampled, any_feasible(values, m)), evaluations + size
+            designs, values = np.concatenate([designs, sample]), np.concatenate([values, sampled])
             best = toolbox.filter(constrained(values, m))
             designs, values = designs[best], values[best]
             yield State.of(designs, values, ideal, evaluations)

@@ -1,6 +1,6 @@
-"""NSGA-II's survivor selection on arrays: fronts by moocore, crowding distances as in DEAP's ``selNSGA2``.
+"""Survivor selection of NSGA-II on arrays: fronts by moocore, crowding distances as in DEAP's ``selNSGA2``.
 
-Ties: of equal values, and of equal crowding distances, the earlier individual of the population goes first.
+Ties of objectives or of crowding distances are broken by the order in the population.
 """
 
 import moocore
@@ -11,14 +11,15 @@ from ..compiled import compiled
 from ..quantities import Integer, Real
 
 _FEW = 24
-"""Equal values in a row up to which insertion is the quicker sort."""
+"""Maximum number of consecutive equal values sorted by insertion; more are sorted faster by numpy."""
 
 
 def select_survivors(objectives: Real, size: int) -> tuple[Integer, Real]:
     """Return indices, ascending, of `size` survivors of objectives (n, m), and their crowding distances [-].
 
-    Whole fronts by rank, the last by larger crowding distance: K. Deb, A. Pratap, S. Agarwal, T. Meyarivan, "A
-    fast and elitist multiobjective genetic algorithm: NSGA-II", IEEE Trans. Evol. Comput. 6(2), 2002.
+    Whole fronts survive by rank, and of the last front the designs of largest crowding distance: K. Deb, A.
+    Pratap, S. Agarwal, T. Meyarivan, "A fast and elitist multiobjective genetic algorithm: NSGA-II", IEEE Trans.
+    Evol. Comput. 6(2), 2002.
     """
     rank = front_ranks(objectives)
     last = int(np.searchsorted(np.cumsum(np.bincount(rank)), size))
@@ -28,24 +29,25 @@ def select_survivors(objectives: Real, size: int) -> tuple[Integer, Real]:
     surplus = index.size - size
     if surplus:
         front = np.flatnonzero(rank == last)
-        stays = np.ones(index.size, dtype=bool)
-        stays[front[rising_order(-crowding.take(front))[-surplus:]]] = False
-        index, crowding = index[stays], crowding[stays]
+        survives = np.ones(index.size, dtype=bool)
+        survives[front[rising_order(-crowding.take(front))[-surplus:]]] = False
+        index, crowding = index[survives], crowding[survives]
     return index, crowding
 
 
 def front_ranks(objectives: Real) -> NDArray[np.int32]:
-    """Return the fronts (n,), from 0, of objectives (n, m)."""
-    order = np.argsort(objectives[:, 0])  # moocore sorts by the last objective: quick where that is done already
+    """Return the number of the front (n,), from 0, of each row of objectives (n, m)."""
+    order = np.argsort(objectives[:, 0])  # moocore sorts by the last objective, which is quick if presorted
     rank = np.empty(order.size, dtype=np.int32)
     rank[order] = moocore.pareto_rank(objectives.take(order, axis=0)[:, ::-1])
     return rank
 
 
 def crowding_distances(objectives: Real, rank: NDArray[np.int32]) -> Real:
-    """Return the crowding distances (n,) within whole fronts, from objectives (n, m) and ranks (n,).
+    """Return the crowding distances (n,) of objectives (n, m) within the fronts of ranks (n,).
 
-    The mean over the objectives of the gap between both neighbours over the front's range; infinite at its ends.
+    The distance is the mean, over the objectives, of the gap between both neighbours divided by the range of the
+    front; it is infinite at the ends of a front.
     """
     distance = np.zeros(rank.size)
     m, fronts = objectives.shape[1], int(rank.max()) + 1
@@ -55,14 +57,14 @@ def crowding_distances(objectives: Real, rank: NDArray[np.int32]) -> Real:
 
 
 def rising_order(values: Real) -> Integer:
-    """Return ``np.argsort(values, kind="stable")``, in a quarter of its time where few values are equal."""
+    """Return ``np.argsort(values, kind="stable")``, four times as fast if few values are equal."""
     order = np.argsort(values)
     return order if settle_ties(values, order) else np.argsort(values, kind="stable")
 
 
 @compiled()
 def settle_ties(value: Real, order: Integer) -> bool:
-    """Sort equal values of a rising `order` (n,) by index, in place; False if they are too many."""
+    """Sort the indices of equal values in a rising `order` (n,), in place; return False if there are too many."""
     begin = 0
     for k in range(1, order.size):
         if value[order[k]] != value[order[begin]]:
@@ -79,19 +81,19 @@ def settle_ties(value: Real, order: Integer) -> bool:
 
 @compiled()
 def add_gaps(value: Real, order: Integer, rank: NDArray[np.int32], fronts: int, m: int, distance: Real) -> None:
-    """Add to `distance` (n,) the share of one of m objectives, of `value` (n,) that rises in `order` (n,)."""
+    """Add one of m objectives, `value` (n,) rising in `order` (n,), to the crowding distances `distance` (n,)."""
     low, high = np.empty((2, fronts))
-    before, here = np.empty((2, fronts), dtype=np.int64)
+    previous, last = np.empty((2, fronts), dtype=np.int64)
     for r in range(fronts):
-        low[r], high[r], before[r], here[r] = np.inf, -np.inf, -1, -1
+        low[r], high[r], previous[r], last[r] = np.inf, -np.inf, -1, -1
     for i in range(rank.size):
         low[rank[i]], high[rank[i]] = min(low[rank[i]], value[i]), max(high[rank[i]], value[i])
     for i in order:
         r = rank[i]
-        if here[r] < 0:
+        if last[r] < 0:
             distance[i] = np.inf
-        elif before[r] >= 0 and high[r] > low[r]:
-            distance[here[r]] += (value[i] - value[before[r]]) / (m * (high[r] - low[r]))
-        before[r], here[r] = here[r], i
+        elif previous[r] >= 0 and high[r] > low[r]:
+            distance[last[r]] += (value[i] - value[previous[r]]) / (m * (high[r] - low[r]))
+        previous[r], last[r] = last[r], i
     for r in range(fronts):
-        distance[here[r]] = np.inf
+        distance[last[r]] = np.inf

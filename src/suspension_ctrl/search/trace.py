@@ -1,4 +1,4 @@
-"""Trace of a search: every design it evaluates and its populations at budgets of evaluations."""
+"""Trace of a search: all evaluated designs, and the populations at given budgets of evaluations."""
 
 import warnings
 from collections.abc import Iterable, Mapping
@@ -17,12 +17,12 @@ from .run import Optimiser
 class Trace(Population):
     """All evaluated designs of a search, in order."""
 
-    states: Mapping[int, State]  # after the last iteration within each budget of evaluations
-    spent: Mapping[int, int]  # designs evaluated until then, fewer than asked for if some were known
+    states: Mapping[int, State]  # by budget, after the last iteration within it
+    spent: Mapping[int, int]  # by budget, different designs evaluated within it: repeats are not counted
 
 
 def trace(problem: Minimisable, optimiser: Optimiser, budgets: Iterable[int], seed: int) -> Trace:
-    """Return the trace of the search of `minimise` with this seed, up to the largest of the budgets."""
+    """Return the trace of `minimise` with this seed, up to the largest of the budgets [evaluations]."""
     ordered, m = sorted(set(budgets)), len(problem.objectives)
     per_iteration = optimiser.evaluations_per_iteration(m)
     if not ordered or ordered[0] < optimiser.population:

@@ -1,4 +1,4 @@
-"""Checks of a toolbox: a verb that returns the wrong count, kind or place is one line that names the verb."""
+"""Checks of the verbs of a user's toolbox: a wrong result is an error of one line that names the verb."""
 
 from collections.abc import Iterator
 from copy import copy
@@ -18,14 +18,14 @@ from .sweep import VERBS, sweep_sequential
 
 
 def with_checked_verbs(toolbox: Toolbox, default: Toolbox, problem: SearchProblem) -> Toolbox:
-    """Return a copy of a toolbox in which each verb that differs from the default one is checked at every call.
+    """Return a copy of a toolbox that checks the results of the verbs that are not the default ones.
 
-    Compiled verbs inside a sweep of MOEA/D-DRA stay as they are: it checks them.
+    Compiled verbs in a sweep of MOEA/D-DRA are left out: the sweep checks them.
     """
     wanted = set(vars(default))
-    if strange := sorted(set(vars(toolbox)) ^ wanted):
+    if wrong := sorted(set(vars(toolbox)) ^ wanted):
         verbs = ", ".join(sorted(wanted - {"clone", "map"}))
-        raise ValueError(f"toolbox must have the verbs {verbs}, got {'no ' * (strange[0] in wanted)}{strange[0]}")
+        raise ValueError(f"toolbox must have the verbs {verbs}, got {'no ' * (wrong[0] in wanted)}{wrong[0]}")
     checked = copy(toolbox)
     swept = VERBS if getattr(getattr(default, "sweep", None), "func", None) is sweep_sequential else ()
     for name, own in vars(default).items():
@@ -49,44 +49,44 @@ def _same(verb: Any, own: Any) -> bool:
 def _call_checked(
     name: str, verb: Any, own: Any, problem: SearchProblem, /, *arguments: Any, **settings: Any
 ) -> Any:
-    """Call a verb in place of the optimiser's own one and return its result as arrays."""
-    found, subject, d = verb(*arguments, **settings), f"{name} must return", len(problem.lower)
+    """Call a user's verb in place of the optimiser's `own` and return its checked result as arrays."""
+    result, subject, d = verb(*arguments, **settings), f"{name} must return", len(problem.lower)
     match name:
         case "sample":
-            return _designs(subject, found, (arguments[1], d), problem)
+            return _designs(subject, result, (arguments[1], d), problem)
         case "mate" if own.func is intermediate_crossover:
-            return _designs(subject, found, (len(arguments[1]) // 2, d), problem)
+            return _designs(subject, result, (len(arguments[1]) // 2, d), problem)
         case "mate" | "mutate":
-            return _designs(subject, found, arguments[1].shape, problem)
+            return _designs(subject, result, arguments[1].shape, problem)
         case "repair":
-            return _designs(subject, found, (d,), problem)
+            return _designs(subject, result, (d,), problem)
         case "reproduce":
-            return _numbers(subject, found, (d,))
+            return _numbers(subject, result, (d,))
         case "update_utility":
-            return _numbers(subject, found, arguments[0].shape)
+            return _numbers(subject, result, arguments[0].shape)
         case "tournament":
-            return _indices(subject, found, arguments[3], len(arguments[1]))
+            return _indices(subject, result, arguments[3], len(arguments[1]))
         case "choose_subproblems":
-            return _indices(subject, found, arguments[3], len(arguments[1]), distinct=True)
+            return _indices(subject, result, arguments[3], len(arguments[1]), distinct=True)
         case "mating_range":
-            return _indices(subject, found, None, len(arguments[2]))
+            return _indices(subject, result, None, len(arguments[2]))
         case "select":
-            return _selection(subject, found, arguments, 3 if own.func is select_controlled else 2)
+            return _selection(subject, result, arguments, 3 if own.func is select_controlled else 2)
         case "filter":
-            return _mask(subject, found, len(arguments[0]))
+            return _mask(subject, result, len(arguments[0]))
         case "points":
-            return _points(subject, found, arguments[1], d)
-    return found
+            return _points(subject, result, arguments[1], d)
+    return result
 
 
-def _designs(subject: str, found: Any, shape: tuple[int, ...], problem: SearchProblem) -> Real:
-    designs = _numbers(subject, found, shape)
+def _designs(subject: str, result: Any, shape: tuple[int, ...], problem: SearchProblem) -> Real:
+    designs = _numbers(subject, result, shape)
     checks.rows_within(f"designs of {subject.split()[0]}", np.atleast_2d(designs), problem.lower, problem.upper)
     return designs
 
 
-def _numbers(subject: str, found: Any, shape: tuple[int, ...]) -> Real:
-    numbers = checks.reals(subject, found)
+def _numbers(subject: str, result: Any, shape: tuple[int, ...]) -> Real:
+    numbers = checks.reals(subject, result)
     if numbers.shape != shape:
         raise ValueError(f"{subject} an array of shape {shape}, got {numbers.shape}")
     if not np.isfinite(numbers).all():
@@ -94,11 +94,11 @@ def _numbers(subject: str, found: Any, shape: tuple[int, ...]) -> Real:
     return numbers
 
 
-def _indices(subject: str, found: Any, size: int | None, below: int, distinct: bool = False) -> Integer:
-    indices = np.asarray(found)
+def _indices(subject: str, result: Any, size: int | None, below: int, distinct: bool = False) -> Integer:
+    indices = np.asarray(result)
     if indices.dtype.kind not in "iu" or indices.ndim != 1 or (size is not None and indices.size != size):
         counted = "indices" if size is None else f"{size} indices"
-        got = f"{indices.dtype} of shape {indices.shape}" if indices.dtype.kind != "O" else checks.shown(found)
+        got = f"{indices.dtype} of shape {indices.shape}" if indices.dtype.kind != "O" else checks.shown(result)
         raise ValueError(f"{subject} {counted}, got {got}")
     if indices.size and not (indices.min() >= 0 and indices.max() < below):
         raise ValueError(f"{subject} indices from 0 to {below - 1}, got {indices.min()} to {indices.max()}")
@@ -107,26 +107,26 @@ def _indices(subject: str, found: Any, size: int | None, below: int, distinct: b
     return indices.astype(np.int64)
 
 
-def _selection(subject: str, found: Any, arguments: Any, count: int) -> tuple[Any, ...]:
+def _selection(subject: str, result: Any, arguments: Any, count: int) -> tuple[Any, ...]:
     objectives, size = arguments
-    if not isinstance(found, tuple) or len(found) != count:
-        raise ValueError(f"{subject} a tuple of {count} arrays, got {checks.shown(type(found).__name__)}")
-    index, *others = found
+    if not isinstance(result, tuple) or len(result) != count:
+        raise ValueError(f"{subject} a tuple of {count} arrays, got {checks.shown(type(result).__name__)}")
+    index, *others = result
     crowding = [checks.reals(subject, other) for other in others]
     if any(other.shape != (size,) for other in crowding):
         raise ValueError(f"{subject} arrays of shape {(size,)}, got {[other.shape for other in crowding]}")
     return (_indices(subject, index, size, len(objectives), distinct=True), *crowding)
 
 
-def _mask(subject: str, found: Any, size: int) -> Bool:
-    mask = np.asarray(found)
+def _mask(subject: str, result: Any, size: int) -> Bool:
+    mask = np.asarray(result)
     if mask.dtype != bool or mask.shape != (size,):
         raise ValueError(f"{subject} {size} truth values, got {mask.dtype} of shape {mask.shape}")
     return mask
 
 
-def _points(subject: str, found: Any, size: int, variables: int) -> Iterator[Real]:
-    for points in found:
+def _points(subject: str, result: Any, size: int, variables: int) -> Iterator[Real]:
+    for points in result:
         numbers = _numbers(subject, points, (size, variables))
         if not (numbers.min() >= 0 and numbers.max() <= 1):
             raise ValueError(f"{subject} numbers from 0 to 1, got {numbers.min()} to {numbers.max()}")

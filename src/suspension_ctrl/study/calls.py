@@ -1,4 +1,4 @@
-"""Calls in this process or on the workers of a cluster: the same results in any order, also if workers die."""
+"""Function calls in this process or on the workers of a cluster, repeated if a worker dies."""
 
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping
@@ -15,20 +15,20 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 KILLS = 3
-"""Deaths of its worker after which a call is given up, the last one without another call on the cluster."""
+"""Deaths of a worker after which its call has failed; before the last one the call runs alone on the cluster."""
 
 PATIENCE = 120.0
-"""Time [s] that a cluster may be without a worker: on a busy machine it takes long to replace a dead one."""
+"""Longest time [s] without any worker: on a busy machine, starting a new one is slow."""
 
-_PAUSE = 0.005  # between two looks at the calls [s]
+_PAUSE = 0.005  # between two polls of the calls [s]
 
 
 def outcomes(
     function: Callable[..., T], arguments: Mapping[str, tuple[Any, ...]], client: "Client | None" = None
 ) -> Iterator[tuple[str, T | None, str]]:
-    """Call the function with each of the arguments; yield name, result and error (``""`` if none) as each ends.
+    """Call a function with each tuple of arguments; yield name, result and error (``""`` if none) of ended calls.
 
-    A call is repeated if its worker dies, at last alone, up to `KILLS` times. ConnectionError if the scheduler or
+    A call whose worker dies is repeated, and has failed after `KILLS` deaths. ConnectionError if the scheduler or
     all its workers are lost.
     """
     if client is None:
@@ -49,15 +49,15 @@ def outcomes(
 
 
 def outcome(function: Callable[..., T], arguments: tuple[Any, ...]) -> tuple[T | None, str]:
-    """Call the function and return its result, or None and its error in one line."""
+    """Return the result of a call, or None and its error in one line."""
     try:
         return function(*arguments), ""
-    except (Exception, SystemExit) as error:  # whatever an evaluation raises, the other runs go on
+    except (Exception, SystemExit) as error:  # an evaluation may raise anything; the other runs continue
         return None, " ".join(f"{type(error).__name__}: {error}".split())
 
 
 def _unpickled(content: bytes) -> tuple[Any, str]:
-    """Make a pickled call, on a worker."""
+    """Return result and error of a pickled call, on a worker."""
     from distributed.protocol.pickle import loads
 
     call, error = outcome(loads, (content,))
@@ -65,9 +65,9 @@ def _unpickled(content: bytes) -> tuple[Any, str]:
 
 
 def _spread(pickled: Mapping[str, bytes], client: "Client") -> Iterator[tuple[str, Any, str]]:
-    """Make pickled calls on a cluster, at most one per thread: the death of a worker then has one suspect.
+    """Yield name, result and error of pickled calls on a cluster, at most one per thread.
 
-    After two deaths a call is repeated without any other call on the cluster.
+    A dead worker then points to one call. After two deaths of its worker a call is repeated alone on the cluster.
     """
     threads = _Threads(client)
     waiting, suspects, kills = deque(pickled), deque[str](), dict.fromkeys(pickled, 0)
@@ -95,7 +95,7 @@ def _spread(pickled: Mapping[str, bytes], client: "Client") -> Iterator[tuple[st
 
 
 def _result(future: Any, name: str) -> tuple[int, Any, str]:
-    """Return the workers that a finished call has killed, its result and its error."""
+    """Return the number of workers killed by a finished call, its result and its error."""
     from distributed import KilledWorker
 
     if future.status == "finished":
@@ -113,13 +113,13 @@ def _raise(error: BaseException) -> None:
 
 
 class _Threads:
-    """The number of threads of a cluster, asked for once a second."""
+    """Number of threads of a cluster, requested once a second at most."""
 
     def __init__(self, client: "Client") -> None:
         self._client, self._count, self._asked, self._seen = client, 0, -1.0, monotonic()
 
     def count(self) -> int:
-        """Return the number; ConnectionError after `PATIENCE` without a thread."""
+        """Return the number; ConnectionError if it was 0 for `PATIENCE`."""
         now = monotonic()
         if now - self._asked >= 1:
             try:

@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Campaign:
-    """A comparison in a folder of finished runs; a stopped campaign resumes with the missing ones.
+    """A comparison with its results folder; an interrupted campaign resumes with the missing runs.
 
-    It holds the folder: BlockingIOError if another process does. `watch` passes runs through as they are made,
-    from their iterator, their number and a text, like a progress bar.
+    It locks the folder: BlockingIOError if another process has. `watch(runs, number, text)` yields the runs of an
+    iterator unchanged, like a progress bar.
     """
 
     comparison: Comparison
@@ -37,7 +37,7 @@ class Campaign:
         object.__setattr__(self, "_lock", lock.hold(self.folder))
 
     def time(self) -> FolderStore:
-        """Make the timed runs one after the other on one thread, after a warm-up, and return them."""
+        """Make the timed runs one after the other on one thread, after a warm-up; return their store."""
         made_on = {"processor": machine.processor_name(), "python": platform.python_version()}
         store = self._store("timed", "repeats", **made_on)
         runs = len(self.comparison.timed_runs())
@@ -48,7 +48,7 @@ class Campaign:
         return store
 
     def reference(self, store: FolderStore, *, grid: bool) -> tuple[ReferenceFront, str]:
-        """Return the front of a grid, kept in the folder, or of the best timed runs, and its origin in words."""
+        """Return the reference front of a grid, stored in the folder, or of the timed runs; and its origin."""
         problem = self.comparison.problem
         if grid:
             kept = self._store("reference")
@@ -60,17 +60,17 @@ class Campaign:
         return reference.best_known(finals), "the non-dominated designs of all these runs"
 
     def judge(self, front: ReferenceFront, client: "Client | None" = None) -> tuple[pd.DataFrame, FolderStore]:
-        """Make the runs over many seeds, here or on a cluster; return their table (`Study.table`) and store."""
+        """Make the runs over many seeds, on a cluster if given; return their table (`Study.table`) and store."""
         store = self._store("quality", "seeds", reference=reference.summary(front))
         parts = []
         for population, study in self.comparison.studies(front).items():
             missing = sum(run.name not in store for run in study.runs())
-            made = self.watch(study.carry_out(store, client), missing, f"quality, N = {population}")
-            parts.append(study.table(store, {run.name: error for run, error in made if error}))
+            runs = self.watch(study.carry_out(store, client), missing, f"quality, N = {population}")
+            parts.append(study.table(store, {run.name: error for run, error in runs if error}))
         return pd.concat(parts, ignore_index=True).drop(columns="problem"), store
 
     def _store(self, name: str, *also: str, **plan: Any) -> FolderStore:
-        """Return the store of a subfolder for these settings, values and versions."""
+        """Return the store of a subfolder; its plan holds settings, a digest of values, and versions."""
         keys = ("populations", "iterations", "algorithms", "seed", *also)
         plan |= {key: getattr(self.comparison, key) for key in keys}
         problem = self.comparison.problem

@@ -1,4 +1,4 @@
-"""Algorithms compared on one problem: the timed runs, and the studies over many seeds."""
+"""Comparison of algorithms on one problem: its timed runs, and its studies over many seeds."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ ALGORITHMS: dict[str, Callable[..., Optimiser]] = {
     "random": partial(Sampling, points="random"),
     "sobol": partial(Sampling, points="sobol"),
 }
-"""Optimisers by name. Raw MOEA/D-DRA takes equation (14) to the letter, in the paper's units (DTL in kN)."""
+"""Optimisers by name. Raw MOEA/D-DRA is equation (14) to the letter, in the paper's units (DTL in kN)."""
 
 EQUAL_ITERATIONS, EQUAL_EVALUATIONS = "iterations", "evaluations"
 CONFIGURATION = ["population", "iterations"]
@@ -39,7 +39,7 @@ def optimiser(algorithm: str, population: int) -> Optimiser:
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Comparison(Record):
-    """Every algorithm on one problem at every population and number of iterations."""
+    """Runs of each algorithm on one problem at each population and number of iterations."""
 
     problem: Minimisable
     algorithms: Sequence[str]  # names in `ALGORITHMS`; the first is the baseline
@@ -47,7 +47,7 @@ class Comparison(Record):
     iterations: Sequence[int]
     repeats: int = 1  # timed runs of each algorithm at each configuration
     seeds: int = 1  # judged runs of each algorithm at each population
-    seed: int = 0  # of the first run; later ones count up from it
+    seed: int = 0  # of the first run; the next run has the next number
 
     def __post_init__(self) -> None:
         self._keep(**{name: tuple(getattr(self, name)) for name in ("algorithms", "populations", "iterations")})
@@ -62,7 +62,7 @@ class Comparison(Record):
         return {(name, n): optimiser(name, n).evaluations_per_iteration(m) for name, n in pairs}
 
     def timed_runs(self) -> list[PlannedRun]:
-        """Return the timed runs in order, algorithms in turn: at equal iterations, then at equal evaluations."""
+        """Return the timed runs in order, alternating algorithms: equal iterations, then equal evaluations."""
         runs = []
         for size, count, repeat in product(self.populations, self.iterations, range(1, self.repeats + 1)):
             for name, budget, evaluations in self._budgets_of(size, count):
@@ -74,10 +74,10 @@ class Comparison(Record):
         return runs
 
     def _budgets_of(self, population: int, count: int) -> Iterator[tuple[str, str, int]]:
-        """Yield algorithm, equal effort and evaluations of the runs at `count` iterations.
+        """Yield algorithm, kind of budget and evaluations of the runs at `count` iterations.
 
-        An algorithm with fewer evaluations than another has a second run at equal evaluations, up to a part of an
-        iteration.
+        An algorithm with fewer evaluations than another has a second run at equal evaluations, rounded down to
+        whole iterations.
         """
         cost = {name: each for (name, n), each in self.cost().items() if n == population}
         most = population + count * max(cost.values())
@@ -88,14 +88,14 @@ class Comparison(Record):
                 yield name, EQUAL_EVALUATIONS, population + (most - population) // each * each
 
     def budgets(self, population: int) -> list[int]:
-        """Return the evaluations at which runs are judged: steps of N/5 up to 5 N, then of N, and timed totals."""
+        """Return the evaluations at which runs are judged: every N/5 up to 5 N, every N, and timed budgets."""
         spent = {n for count in self.iterations for _, _, n in self._budgets_of(population, count)}
         fine = {population + k * (population // 5) for k in range(21)}
         coarse = set(range(population, max(spent), population))
         return sorted(budget for budget in fine | coarse | spent if budget <= max(spent))
 
     def studies(self, reference: ReferenceFront | None = None) -> dict[int, Study]:
-        """Return the study over all seeds by population, against a reference front if given."""
+        """Return the study over all seeds of each population, against a reference front if given."""
         return {
             n: Study(
                 problems={"ride": self.problem},

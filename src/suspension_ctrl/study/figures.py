@@ -1,4 +1,4 @@
-"""Figures of a comparison over many seeds: DataFrame and Axes in, nothing is saved here."""
+"""Figures of a comparison over many seeds, drawn from DataFrames; nothing is saved here."""
 
 from collections.abc import Sequence
 from itertools import combinations, product
@@ -29,7 +29,7 @@ STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (1, 1)), (0, (3, 1, 1, 1)))
 def anytime(ax: Axes, quality: pd.DataFrame, over: str = "evaluations") -> None:
     """Draw the median relative hypervolume with its interquartile band, a line per algorithm.
 
-    `quality` holds rows of one population and set, from `lenses.with_seconds`; `over` is evaluations or seconds.
+    `quality` is from `lenses.with_seconds`, of one population and set; `over` is "evaluations" or "seconds".
     """
     value = "relative_hypervolume"
     by_algorithm = quality.groupby("algorithm", sort=False)
@@ -45,7 +45,7 @@ def anytime(ax: Axes, quality: pd.DataFrame, over: str = "evaluations") -> None:
 
 
 def anytime_panels(quality: pd.DataFrame, sets: Sequence[str]) -> Figure:
-    """Draw `anytime` of one population, a row per set, over evaluations and over time."""
+    """Draw `anytime` of one population: a row of panels per set, over evaluations and over time."""
     figure, axes = panels(2 * len(sets), columns=2)
     for ax, (chosen, over) in zip(axes, product(sets, ("evaluations", "seconds")), strict=True):
         anytime(ax, quality[quality.set == chosen], over)
@@ -55,12 +55,12 @@ def anytime_panels(quality: pd.DataFrame, sets: Sequence[str]) -> Figure:
 
 
 def box_panels(runs: pd.DataFrame, values: Sequence[str]) -> Figure:
-    """Draw a box plot per algorithm of each value over the runs; runs without a feasible design are left out."""
+    """Draw box plots of each value by algorithm, without runs that have no feasible design."""
     figure, axes = panels(len(values), columns=2)
     style: dict[str, Any] = {"medianprops": {"color": "black"}, "flierprops": {"markersize": 3}}
     for ax, value in zip(axes, values, strict=True):
         groups = {str(name): part[value] for name, part in runs.groupby("algorithm", sort=False)}
-        finite = [found[np.isfinite(found)] for found in groups.values()]
+        finite = [group[np.isfinite(group)] for group in groups.values()]
         box = ax.boxplot(finite, tick_labels=list(map(escaping.figure, groups)), patch_artist=True, **style)
         for colour, patch in zip(COLOURS, box["boxes"], strict=False):
             patch.set(facecolor=colour, alpha=0.5)
@@ -73,7 +73,7 @@ def box_panels(runs: pd.DataFrame, values: Sequence[str]) -> Figure:
 def attainment_panels(
     first: pd.DataFrame, second: pd.DataFrame, objectives: Sequence[str], names: Sequence[str]
 ) -> Figure:
-    """Draw `attainment_differences` of every two objectives; `names` are those of the algorithms."""
+    """Draw `attainment_differences` of each pair of objectives; `names` are of both algorithms."""
     pairs = list(combinations(objectives, 2))
     figure, axes = panels(len(pairs))
     for ax, pair in zip(axes, pairs, strict=True):
@@ -85,23 +85,23 @@ def attainment_panels(
 def attainment_differences(
     ax: Axes, first: pd.DataFrame, second: pd.DataFrame, objectives: tuple[str, str]
 ) -> Any:
-    """Draw the difference of two algorithms in the share of runs attaining a point of two objectives.
+    """Draw the difference of two algorithms in the share of runs that attain a point of two objectives.
 
-    `first` and `second` hold the feasible designs of final populations with a column ``seed``; common seeds are
-    shown. Returns the coloured patches, for a colour bar.
+    `first` and `second` are feasible designs of final populations with a column ``seed``; only common seeds count.
+    Returns the coloured patches for a colour bar.
 
     V. Grunert da Fonseca, C. M. Fonseca, A. O. Hall, "Inferential performance assessment of stochastic optimisers
     and the attainment function", EMO 2001; computed by moocore.
     """
     seeds = sorted(set(first.seed) & set(second.seed))  # moocore expects as many runs on both sides
     sides = [_fronts(side, seeds, objectives) for side in (first, second)]
-    found = moocore.eafdiff(*sides, rectangles=True)
+    rectangles = moocore.eafdiff(*sides, rectangles=True)
     every = np.concatenate(sides)[:, :2]
     low, high = every.min(axis=0), every.max(axis=0)
-    x0, y0, x1, y1 = (np.clip(found[:, c], low[c % 2], high[c % 2]) for c in range(4))
+    x0, y0, x1, y1 = (np.clip(rectangles[:, c], low[c % 2], high[c % 2]) for c in range(4))
     corners = np.stack([np.stack(pair, axis=-1) for pair in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))], axis=1)
     style: dict[str, Any] = {"cmap": "PuOr", "clim": (-1, 1), "lw": 0, "rasterized": True}
-    patches = PolyCollection(list(corners), array=found[:, 4] / len(seeds), **style)
+    patches = PolyCollection(list(corners), array=rectangles[:, 4] / len(seeds), **style)
     ax.add_collection(patches)
     xlim, ylim = np.transpose([low - 0.02 * (high - low), high + 0.02 * (high - low)])
     ax.set(xlim=xlim, ylim=ylim, xlabel=escaping.figure(objectives[0]), ylabel=escaping.figure(objectives[1]))
@@ -109,7 +109,7 @@ def attainment_differences(
 
 
 def _fronts(populations: pd.DataFrame, seeds: list[int], objectives: tuple[str, str]) -> Real:
-    """Return the non-dominated pairs of objectives of each run, and its number from 1, (n, 3)."""
+    """Return the non-dominated pairs of objectives of each run with its number from 1, (n, 3)."""
     fronts = []
     for run, seed in enumerate(seeds, start=1):
         best = best_of(populations.loc[populations.seed == seed, list(objectives)].to_numpy(dtype=float))

@@ -1,4 +1,4 @@
-"""Findings of a comparison over many seeds: medians, differences, effort to a target, a verdict."""
+"""Results of a comparison over many seeds: medians, differences, effort to a target, verdict."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -13,20 +13,21 @@ SETS = {"final population": POPULATION, "archive cut to N": CUT_ARCHIVE}
 
 
 class Findings(NamedTuple):
-    """Tables of the finished runs, and the verdict on the first two algorithms, a paragraph per set."""
+    """Tables of the finished runs and the verdict on the first two algorithms."""
 
     course: pd.DataFrame  # a row per run, budget and set, from `lenses.with_seconds`
     equal: pd.DataFrame  # rows at equal iterations, evaluations and time, from `lenses.at_equal`
     medians: pd.DataFrame  # a row per configuration, lens, set and algorithm
     differences: pd.DataFrame  # of every two algorithms, from `inference.pairwise`
     reached: pd.DataFrame  # evaluations and seconds to the target, from `lenses.to_reach`
-    verdict: list[str]
+    verdict: list[str]  # a paragraph per set
 
 
 def findings(comparison: Comparison, table: pd.DataFrame, clock: pd.DataFrame, target: float) -> Findings | None:
-    """Return the findings of judged runs, None if all raised; `target` is a share of the hypervolume [-].
+    """Return the findings of judged runs, None if all raised an exception.
 
-    `table` is from `Study.table` of all populations, `clock` from `timing.seconds_by_evaluations`.
+    `table` is from `Study.table` of all populations, `clock` from `timing.seconds_by_evaluations`, `target` a
+    relative hypervolume [-].
     """
     ended = table[table.error.eq("")].drop(columns="error")
     if ended.empty:
@@ -53,7 +54,7 @@ def _verdict(differences: pd.DataFrame, algorithms: Sequence[str]) -> list[str]:
 
 
 def last_rows(table: pd.DataFrame) -> pd.DataFrame:
-    """Return a row per run, its final population or its error, with the columns of the table of timed runs."""
+    """Return a row per run, of its final population or its error, in the columns of the timed runs."""
     ends = table[table.error.ne("") | table.set.eq(POPULATION)]
     last = ends.groupby(["population", "algorithm", "seed"], sort=False).tail(1)
     return last.drop(columns=["set", "members", "budget"]).assign(timing=False)

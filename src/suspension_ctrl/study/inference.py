@@ -15,7 +15,10 @@ SIGNIFICANCE, CONFIDENCE, RESAMPLES = 0.05, 0.95, 9999
 
 
 def quartiles(table: pd.DataFrame, by: Sequence[str], values: Sequence[str]) -> pd.DataFrame:
-    """Return the number of runs (rows) and median, ``<value> q1`` and ``<value> q3`` of each value by group."""
+    """Return by group the number of runs (rows), and the median and quartiles of each value.
+
+    Columns: `by`, runs, and ``<value>``, ``<value> q1``, ``<value> q3`` of each value.
+    """
     groups = table.groupby(list(by), sort=False)
     columns: dict[str, Any] = {"runs": groups.size()}
     for value in values:
@@ -27,7 +30,7 @@ def quartiles(table: pd.DataFrame, by: Sequence[str], values: Sequence[str]) -> 
 
 
 def a12(first: ArrayLike, second: ArrayLike) -> float:
-    """Return the chance that a value of the first sample exceeds one of the second, ties counting half [-].
+    """Return the probability that a value of the first sample exceeds one of the second, ties count half [-].
 
     A. Vargha and H. D. Delaney, "A critique and improvement of the CL common language effect size statistics of
     McGraw and Wong", Journal of Educational and Behavioral Statistics 25(2), 2000.
@@ -47,7 +50,7 @@ def size_in_words(effect: float) -> str:
 
 
 def holm(p_values: ArrayLike) -> Real:
-    """Return p-values (n,) adjusted by Holm for n tests at once."""
+    """Return the p-values (n,) of n simultaneous tests, adjusted by Holm's method."""
     with installed("study"):
         from statsmodels.stats.multitest import multipletests
 
@@ -55,9 +58,10 @@ def holm(p_values: ArrayLike) -> Real:
 
 
 def ratio_of_medians(first: ArrayLike, second: ArrayLike, seed: int = 0) -> tuple[float, float, float]:
-    """Return the ratio of the first sample's median to the second's and its 95 % bootstrap interval.
+    """Return the ratio of the medians of two samples and its 95 % bootstrap interval (low, high).
 
-    NaN if a value of the second is not positive or one of either is infinite; no interval of a single value.
+    The ratio is NaN if a value is infinite or a value of the second sample is not positive; the interval is NaN
+    for samples of one value.
     """
     from scipy import stats
 
@@ -72,7 +76,7 @@ def ratio_of_medians(first: ArrayLike, second: ArrayLike, seed: int = 0) -> tupl
     if min(first.size, second.size) < 2:
         return value, np.nan, np.nan
     settings: dict[str, Any] = {"n_resamples": RESAMPLES, "confidence_level": CONFIDENCE, "rng": seed}
-    # quantiles have no jackknife, which other methods use
+    # the other methods need the jackknife, which does not hold for quantiles
     low, high = stats.bootstrap((first, second), ratio, method="percentile", **settings).confidence_interval
     return value, float(low), float(high)
 
@@ -80,11 +84,11 @@ def ratio_of_medians(first: ArrayLike, second: ArrayLike, seed: int = 0) -> tupl
 def pairwise(
     table: pd.DataFrame, by: Sequence[str], values: Sequence[str], algorithms: Sequence[str]
 ) -> pd.DataFrame:
-    """Compare every two algorithms in each value by group of runs: a row per value, group and pair.
+    """Return a row per value, group of runs and pair of algorithms, with their comparison.
 
     Columns: value, `by`, first, second, both medians, their ratio with its bootstrap interval (ratio, ratio_low,
     ratio_high), p of the two-sided Mann-Whitney test, p_holm adjusted for all tests of the table, a12 of the first
-    over the second and its effect in words.
+    over the second, and effect, its size in words.
     """
     rows: list[dict[str, Any]] = []
     for value, (key, group) in product(values, list(table.groupby(list(by), sort=False))):
@@ -107,9 +111,9 @@ def _compared(first: "pd.Series[float]", second: "pd.Series[float]") -> dict[str
 
 
 def verdict(compared: pd.DataFrame, first: str, second: str, value: str) -> str:
-    """Return a paragraph on two algorithms by lens and configuration, from rows of `pairwise` in one value.
+    """Return a paragraph that compares two algorithms, from the rows of `pairwise` of one value.
 
-    More is better; an algorithm is ahead if p_holm is below 0.05 and the effect not negligible.
+    Larger values are better; an algorithm is ahead if p_holm is below 0.05 and the effect is not negligible.
     """
     pairs = compared[(compared["first"] == first) & (compared["second"] == second)]
     if pairs.empty:

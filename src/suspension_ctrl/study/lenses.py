@@ -1,4 +1,4 @@
-"""A comparison at equal iterations, evaluations or time, and the effort up to a given quality."""
+"""Lenses of a comparison: quality at equal iterations, evaluations or time, and effort to a given quality."""
 
 from collections.abc import Mapping, Sequence
 from itertools import product
@@ -11,7 +11,7 @@ RUN = ["population", "algorithm", "seed", "set"]
 
 
 def with_seconds(quality: pd.DataFrame, clock: pd.DataFrame) -> pd.DataFrame:
-    """Return rows of `Study.table` with seconds interpolated in the `clock` of `timing.seconds_by_evaluations`."""
+    """Return the rows of `Study.table` with seconds interpolated in `clock`, `timing.seconds_by_evaluations`."""
     by = ["algorithm", "population"]
     timed = {key: part.sort_values("evaluations") for key, part in clock.groupby(by)}
     seconds = pd.Series(np.nan, index=quality.index)
@@ -23,11 +23,11 @@ def with_seconds(quality: pd.DataFrame, clock: pd.DataFrame) -> pd.DataFrame:
 def at_equal(
     quality: pd.DataFrame, iterations: Sequence[int], cost: Mapping[tuple[str, int], int]
 ) -> pd.DataFrame:
-    """Return the last row of each run at equal iterations, evaluations and time, by ``lens`` and ``iterations``.
+    """Return the last row of each run within equal iterations, evaluations and time (column ``lens``).
 
-    Equal evaluations are those of the algorithm with the most in that many iterations, equal time is that of the
-    first algorithm. A run that finished early keeps its final state. `quality` is from `with_seconds`, `cost` has
-    the evaluations of an iteration by algorithm and population, the first algorithm first.
+    At a number of iterations, equal evaluations are the most that an algorithm spends in them, equal time is that
+    of the first algorithm. A run that finished early keeps its final state. `quality` is from `with_seconds`;
+    `cost` is the evaluations per iteration by algorithm and population, the first algorithm first.
     """
     (first, _), *_ = cost
     parts = []
@@ -38,7 +38,7 @@ def at_equal(
         limits = {
             ITERATIONS: part.evaluations <= part.algorithm.map(spent),
             EVALUATIONS: part.evaluations <= max(spent.values()),
-            TIME: part.seconds <= timed.seconds.max(),  # none where the first has no run
+            TIME: part.seconds <= timed.seconds.max(),  # no rows if the first algorithm has no run
         }
         for lens, within in limits.items():
             parts.append(part[within].groupby(RUN, sort=False).tail(1).assign(lens=lens, iterations=count))
@@ -46,10 +46,10 @@ def at_equal(
 
 
 def to_reach(quality: pd.DataFrame, target: float) -> pd.DataFrame:
-    """Return runs, runs that reached a relative hypervolume of `target`, and the median effort up to it.
+    """Return a row per population, set and algorithm: runs, runs that reached the target, and median effort.
 
-    A row per population, set and algorithm; the effort of a run without the target is infinite, a median of
-    infinity is NaN.
+    The target is a relative hypervolume. A run that does not reach it counts as infinite effort; an infinite
+    median is NaN.
     """
     reached = quality[quality.relative_hypervolume >= target].groupby(RUN, sort=False).head(1)
     runs = quality[RUN].drop_duplicates().merge(reached[[*RUN, "evaluations", "seconds"]], on=RUN, how="left")

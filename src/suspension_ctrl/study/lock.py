@@ -1,4 +1,4 @@
-"""A lock of a results folder for one process at a time, and the removal of unfinished files."""
+"""Lock of a results folder for one process at a time, and removal of unfinished files."""
 
 import json
 import os
@@ -18,22 +18,22 @@ if TYPE_CHECKING:
     from filelock import BaseFileLock
 
 LOCK, HOLDER = ".lock", ".in-use.json"
-"""Files of a held folder: the lock, and the process that holds it."""
+"""Files of a locked folder: the lock, and a note of the process that holds it."""
 
 OLD = 60.0
-"""Age [s] of an unfinished file that no process writes any more."""
+"""Age [s] from which an unfinished file is abandoned."""
 
 
 def hold(folder: Path) -> "BaseFileLock":
-    """Make a folder and return its lock; the process holds it until the last reference to it is gone.
+    """Make a folder and return its lock, which the process holds until the last reference is deleted.
 
-    The operating system frees the lock of a dead process. BlockingIOError if another process holds the folder.
+    The operating system releases the lock of a dead process. BlockingIOError if another process holds it.
     """
     with installed("study"):
         from filelock import FileLock, Timeout
 
     folder.mkdir(parents=True, exist_ok=True)
-    folder = folder.resolve()  # one lock of a folder in this process, by whatever path
+    folder = folder.resolve()  # one lock in this process for all paths of a folder
     lock = FileLock(folder / LOCK, is_singleton=True, thread_local=False)
     if lock.is_locked:
         return lock
@@ -49,10 +49,10 @@ def hold(folder: Path) -> "BaseFileLock":
 
 
 def _holder(note: Path) -> str:
-    """Return the process that holds a folder in words."""
+    """Return the process that holds a folder, in words."""
     with suppress(OSError, ValueError, KeyError, TypeError):
-        there = json.loads(note.read_text(encoding="utf-8"))
-        return f"process {there['process']} on {there['host']} since {there['since']}"
+        holder = json.loads(note.read_text(encoding="utf-8"))
+        return f"process {holder['process']} on {holder['host']} since {holder['since']}"
     return "another process"
 
 
@@ -62,7 +62,7 @@ def _leave(note: Path) -> None:
 
 
 def _clean(folder: Path) -> None:
-    """Remove old unfinished files in all of a folder."""
+    """Remove abandoned files in a folder and its subfolders."""
     for path in folder.rglob(f"{tables.UNFINISHED}*"):
         with suppress(OSError):
             if time.time() - path.lstat().st_mtime > OLD:
@@ -70,7 +70,7 @@ def _clean(folder: Path) -> None:
 
 
 def set_aside(path: Path) -> None:
-    """Rename a file or folder, if any, to ``*.spoilt``, or the first free of ``*.spoilt1``, ``*.spoilt2``, ..."""
+    """Rename a file or folder, if any, to ``*.spoilt``, ``*.spoilt1``, ... (the first free name)."""
     if path.is_symlink() or path.exists():
         names = (path.with_name(f"{path.name}.spoilt{number or ''}") for number in count())
         path.rename(next(name for name in names if not name.exists()))

@@ -1,4 +1,4 @@
-"""Conditions of a timing: one thread, and a record of processor, versions and threads."""
+"""Conditions of timed runs: one thread, and a record of processor, versions and threads."""
 
 import os
 import platform
@@ -22,7 +22,7 @@ def provenance() -> dict[str, str]:
 
 @contextmanager
 def single_thread() -> Iterator[None]:
-    """Hold the thread pools of BLAS and numba at one thread, so that timings compare algorithms."""
+    """Limit the thread pools of BLAS and numba to one thread, so that timings compare algorithms."""
     import numba
 
     with installed("study"):
@@ -38,7 +38,7 @@ def single_thread() -> Iterator[None]:
 
 
 def describe(arguments: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the record of a timing: date, processor, versions, threads in force and arguments."""
+    """Return a record of the conditions: date, processor, versions, numbers of threads and arguments."""
     import numba
 
     with installed("study"):
@@ -59,7 +59,7 @@ def describe(arguments: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def processor_name() -> str:
-    """Return the name of the processor, from /proc where there is one."""
+    """Return the name of the processor, from /proc if it exists."""
     cpuinfo = Path("/proc/cpuinfo")
     text = cpuinfo.read_text(encoding="utf-8", errors="replace") if cpuinfo.exists() else ""
     names = [line.split(":", 1)[1].strip() for line in text.splitlines() if line.startswith("model name")]

@@ -19,7 +19,7 @@ _SHOWN = 60  # characters of a value in a message
 
 
 def described(value: object) -> Any:
-    """Return settings as JSON: records by their fields, long arrays by a digest, functions by their name."""
+    """Return settings as JSON: fields of records, digests of long arrays, names of functions."""
     if is_dataclass(value) and not isinstance(value, type):
         inner = {one.name: described(getattr(value, one.name)) for one in fields(value)}
         return {"type": type(value).__name__, **inner}
@@ -37,7 +37,10 @@ def described(value: object) -> Any:
 
 
 def settle(path: Path, plan: Mapping[str, Any], *, started: bool) -> None:
-    """Write a plan, or compare it with the file; ValueError if they differ, or it is spoilt and runs `started`."""
+    """Write a plan to a file, or compare it with the plan there; ValueError if they differ.
+
+    A spoilt file is written anew, unless runs have `started`.
+    """
     wanted = json.loads(json.dumps(described(plan)))
     try:
         kept = read(path)
@@ -48,15 +51,15 @@ def settle(path: Path, plan: Mapping[str, Any], *, started: bool) -> None:
         tables.write_json(path, wanted)
         return
     if different := list(_differences(kept, wanted)):
-        (key, there, here), *others = different
+        (key, old, new), *others = different
         more = [key for key, *_ in others[:4]] + ([f"{len(others) - 4} more"] if len(others) > 4 else [])
         also = f" (also another {', '.join(more)})" if others else ""
-        there, here = _around_difference(repr(there), repr(here))
-        raise ValueError(f"{key} must be {there} as in {str(path)!r} to go on there, got {here}{also}")
+        old, new = _around_difference(repr(old), repr(new))
+        raise ValueError(f"{key} must be {old} as in {str(path)!r} to go on there, got {new}{also}")
 
 
 def read(path: Path) -> dict[str, Any]:
-    """Return the object in a JSON file; ValueError if it is absent, spoilt or has a number that is not finite."""
+    """Return the object in a JSON file; ValueError if the file is missing or spoilt, or a number is not finite."""
     if not (path.is_file() and path.stat().st_size <= _MOST):
         raise ValueError(f"{path}: must be a regular file of up to {_MOST} bytes")
     try:
@@ -72,20 +75,20 @@ def _refused(constant: str) -> None:
     raise ValueError(f"must be finite, got {constant}")
 
 
-def _differences(there: Any, here: Any, key: str = "") -> Iterator[tuple[str, Any, Any]]:
-    """Yield the path of each key with another value, and both values."""
-    if isinstance(there, list) and isinstance(here, list) and len(there) == len(here):
-        there, here = (dict(enumerate(value)) for value in (there, here))
-    if not (isinstance(there, dict) and isinstance(here, dict)):
-        if there != here:
-            yield key, there, here
+def _differences(old: Any, new: Any, key: str = "") -> Iterator[tuple[str, Any, Any]]:
+    """Yield dotted key, old and new value of each difference."""
+    if isinstance(old, list) and isinstance(new, list) and len(old) == len(new):
+        old, new = (dict(enumerate(value)) for value in (old, new))
+    if not (isinstance(old, dict) and isinstance(new, dict)):
+        if old != new:
+            yield key, old, new
         return
-    for name in here | there:
-        yield from _differences(there.get(name), here.get(name), f"{key}.{name}".lstrip("."))
+    for name in new | old:
+        yield from _differences(old.get(name), new.get(name), f"{key}.{name}".lstrip("."))
 
 
 def _around_difference(*texts: str) -> list[str]:
-    """Return long texts cut to where they begin to differ."""
+    """Return the texts, long ones cut to the place of the first difference."""
     same = next((i for i, pair in enumerate(zip(*texts, strict=False)) if len(set(pair)) > 1), 0)
     start = max(0, same - _SHOWN // 2)
     cut = [text[start : start + _SHOWN] if len(text) > _SHOWN else text for text in texts]

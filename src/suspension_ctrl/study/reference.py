@@ -18,35 +18,35 @@ from .store import StoredRun
 
 TOLERANCE = 1e-4
 FIRST, MOST = 100, 20_000_000
-"""Values per variable of the coarsest grid, and designs of the finest."""
-_CHUNK = 500_000  # designs at a time
+"""Points per variable of the coarsest grid, and most designs of the finest."""
+_CHUNK = 500_000  # designs in one evaluation
 
 
 class Refined(NamedTuple):
-    """A reference front with its grid."""
+    """A reference front with the grid and the convergence of its hypervolume."""
 
     front: ReferenceFront
     points: int  # per variable
-    change: float  # of the hypervolume from half as many points, relative
-    second: float  # from a second grid, of sqrt(2) fewer points: only corners are common to both
+    change: float  # of the hypervolume to that of half as many points, relative
+    second: float  # to that of a second grid with 1/sqrt(2) as many points: only corners coincide
 
     @classmethod
     def of(cls, run: StoredRun) -> Self:
-        """Return the front that `stored` gave."""
+        """Return the front from the tables of `stored`."""
         numbers = run.course.iloc[0]
         ideal, nadir = run.course[["ideal", "nadir"]].to_numpy().T
         front = ReferenceFront(run.final.to_numpy(), ideal, nadir, numbers.volume)
         return cls(front, int(numbers.points), numbers.change, numbers.second)
 
     def stored(self) -> StoredRun:
-        """Return the tables of the front: its corners and numbers, a row per objective, and its points."""
+        """Return the tables of the front: corners and numbers, a row per objective; and its points."""
         front, points, change, second = self
         corners = pd.DataFrame({"ideal": front.ideal, "nadir": front.nadir})
         numbers = {"volume": front.volume, "points": points, "change": change, "second": second}
         return StoredRun(corners.assign(**numbers), pd.DataFrame(front.objectives))
 
     def describe(self, problem: Minimisable) -> str:
-        """Return the grid of a problem and its convergence in words."""
+        """Return the grid and its convergence in words."""
         points = " x ".join(str(axis.size) for axis in Coding(problem).grid_axes(self.points))
         return (
             f"the non-dominated designs of a {points} grid (hypervolume {self.front.volume:.4f}, which half as "
@@ -55,9 +55,10 @@ class Refined(NamedTuple):
 
 
 def refined(problem: Minimisable, tolerance: float = TOLERANCE, most: int = MOST) -> Refined:
-    """Return the converged front of a grid of at most `most` designs, for problems of few variables.
+    """Return the front of a grid refined until it converges, for problems of few variables.
 
-    Half as many points and a second grid change its hypervolume by up to `tolerance`.
+    It has converged if half as many points, and a second grid, change its hypervolume by at most `tolerance`;
+    ValueError if a grid of `most` designs does not.
     """
     checks.positive("tolerance", tolerance)
     points, before, coding = FIRST, None, Coding(problem)
@@ -90,14 +91,14 @@ def grid_front(problem: Minimisable, points: int) -> Real:
     for start in range(0, total, _CHUNK):
         places = np.unravel_index(np.arange(start, min(start + _CHUNK, total)), shape)
         codes = np.stack([axis[place] for axis, place in zip(axes, places, strict=True)], axis=-1)
-        found = problem.evaluate(coding.decode(codes))
-        front = best_of(np.concatenate([front, best_of(feasible_objectives(found, m))]))
+        values = problem.evaluate(coding.decode(codes))
+        front = best_of(np.concatenate([front, best_of(feasible_objectives(values, m))]))
     return front
 
 
-def best_known(found: Sequence[Real]) -> ReferenceFront:
-    """Return the front of the best of several sets of feasible objectives (n, m)."""
-    best = best_of(np.concatenate(found))
+def best_known(sets: Sequence[Real]) -> ReferenceFront:
+    """Return the front of the union of sets of feasible objectives (n, m)."""
+    best = best_of(np.concatenate(sets))
     if len(best) == 0:
         raise ValueError("constraints must leave a feasible design, got none in any run")
     if not np.ptp(best, axis=0).all():
@@ -107,14 +108,14 @@ def best_known(found: Sequence[Real]) -> ReferenceFront:
 
 
 def summary(front: ReferenceFront) -> dict[str, Any]:
-    """Return size, corners, volume and a digest of a front, to tell it from another."""
+    """Return size, corners, volume and digest of a front, which identify it in a plan."""
     digest = _digest(front.objectives.tobytes() + np.float64(front.volume).tobytes())
     corners = {"ideal": front.ideal.tolist(), "nadir": front.nadir.tolist()}
     return {"points": len(front.objectives), **corners, "volume": front.volume, "digest": digest}
 
 
 def fingerprint(problem: Minimisable) -> str:
-    """Return a digest of the values of 64 designs: a parameter or a line of code that changes them changes it."""
+    """Return a digest of the values of 64 designs; a change of a parameter or of the code changes it."""
     rng, coding = np.random.default_rng(0), Coding(problem)
     codes = coding.lower + (coding.upper - coding.lower) * rng.random((64, coding.lower.size))
     return _digest(problem.evaluate(coding.decode(codes)).tobytes())

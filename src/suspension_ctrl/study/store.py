@@ -1,4 +1,4 @@
-"""Finished runs on disk, each whole or absent and checked when it is read: a stopped comparison resumes."""
+"""Finished runs in files, written atomically and checked when read, from which a comparison resumes."""
 
 import warnings
 from collections.abc import Iterator, Mapping, MutableMapping
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 
 VIOLATION = "violation"
-"""Column of a final population's total violations, where the problem has constraints."""
+"""Column of the violation in a final population, if the problem has constraints."""
 
 _PARTS = ("final", "runs")  # folders of the tables of a run
-_RECORDS = "records"  # folder of their numbers of rows and digests, each written last
+_RECORDS = "records"  # folder of numbers of rows and digests: the last file of a run to be written
 
 
 class SpoiltRunWarning(UserWarning):
-    """A stored run is cut, changed or incomplete, and is made again."""
+    """A stored run is damaged or incomplete, and is made again."""
 
 
 class NotStoredError(OSError):
@@ -44,7 +44,7 @@ class StoredRun(NamedTuple):
 
 @contextmanager
 def keeping(folder: Path) -> Iterator[None]:
-    """Add to an OSError of writing results that finished runs are kept, and the way to go on."""
+    """Extend an OSError by a hint that finished runs are kept, and how to resume."""
     try:
         yield
     except (NotStoredError, BlockingIOError):
@@ -56,11 +56,11 @@ def keeping(folder: Path) -> Iterator[None]:
 
 
 class FolderStore(MutableMapping[str, StoredRun]):
-    """Finished runs by name, two CSV files each, in a folder of one plan and one process at a time.
+    """Mapping of finished runs by name, two CSV files each, in a folder with one plan, locked for this process.
 
-    A run is stored once its file in ``records`` exists, the last one written: numbers of rows and digests of its
-    tables. A run with other files is named in a `SpoiltRunWarning` as the folder is opened, absent, and kept as
-    ``*.spoilt``. ValueError for a folder with runs of another plan, BlockingIOError if another process holds it.
+    A run is stored as soon as its file in ``records`` exists, which holds numbers of rows and digests of its
+    tables. A run whose files do not match is renamed to ``*.spoilt`` with a `SpoiltRunWarning` when the folder is
+    opened. ValueError for a folder with another plan, BlockingIOError if another process holds it.
     """
 
     def __init__(self, folder: Path, plan: Mapping[str, Any]) -> None:
@@ -103,9 +103,9 @@ class FolderStore(MutableMapping[str, StoredRun]):
         return self._folder / part / f"{name}.{'json' if part == _RECORDS else 'csv'}"
 
     def _set_spoilt_aside(self) -> None:
-        """Name the spoilt runs and set their files aside."""
-        tables_there = (path for part in _PARTS for path in sorted((self._folder / part).glob("[!.]*.csv")))
-        for name in dict.fromkeys([*self, *(path.stem for path in tables_there)]):
+        """Warn about each spoilt run and rename its files."""
+        stored = (path for part in _PARTS for path in sorted((self._folder / part).glob("[!.]*.csv")))
+        for name in dict.fromkeys([*self, *(path.stem for path in stored)]):
             record = self._path(_RECORDS, name)
             try:
                 if not record.exists():
@@ -123,7 +123,7 @@ class _SpoiltError(ValueError):
 
 
 def _read_record(path: Path) -> dict[str, Any]:
-    """Return rows and digest of each table of a run."""
+    """Return number of rows and digest of each table of a run."""
     try:
         record = plans.read(path)
         return {part: {"rows": int(record[part]["rows"]), "sha256": record[part]["sha256"]} for part in _PARTS}

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from distributed import Client
 
 POPULATION, ARCHIVE, CUT_ARCHIVE = "population", "archive", "archive of N"
-"""Sets judged, of feasible designs: the population, all non-dominated evaluated, and N of those, spread evenly."""
+"""Judged sets of feasible designs: the population; all non-dominated evaluated designs; and N of these, spread."""
 
 INDICATORS = ("relative_hypervolume", "igd_plus", "epsilon", "spread")
 
@@ -41,16 +41,16 @@ def span(numbers: Sequence[int]) -> str:
 class PlannedRun(NamedTuple):
     """One run of a study or of a timed comparison."""
 
-    name: str  # fit for a file
+    name: str  # a file name
     optimiser: Optimiser
     seed: int
     evaluations: int  # at most
-    key: dict[str, Any]  # columns that identify it in a table, algorithm and population among them
+    key: dict[str, Any]  # columns that identify it in a table, such as algorithm and population
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Study(Record):
-    """Searches of every algorithm on every problem from every seed, judged at every budget.
+    """Searches by several algorithms, on several problems, from several seeds, judged at several budgets.
 
     Parameters
     ----------
@@ -59,11 +59,11 @@ class Study(Record):
     algorithms : mapping of str to Optimiser
         By name, e.g. ``{"nsga2": Nsga2(population=100)}``.
     seeds : sequence of int
-        Each algorithm is run once from each.
+        Each algorithm runs once from each seed.
     budgets : sequence of int
-        Evaluations at which a run is judged, by its state after the last iteration within the budget.
+        Evaluations at which a run is judged: its state after the last iteration within the budget.
     references : mapping of str to ReferenceFront, optional
-        By name of a problem; if absent, of the first seed's runs of all algorithms, made once more for it.
+        By name of a problem. The default is the front of all runs from the first seed, which are repeated for it.
 
     Raises
     ------
@@ -73,7 +73,7 @@ class Study(Record):
 
     Examples
     --------
-    Two searches with as many evaluations, from three seeds each. The first seed's searches give the reference
+    Two searches of equal evaluations from three seeds each; the searches from the first seed give the reference
     front:
 
     >>> import suspension_ctrl as sc
@@ -118,17 +118,17 @@ class Study(Record):
             checks.one_of("references", name, list(self.problems))
 
     def runs(self) -> list[PlannedRun]:
-        """Return the runs, algorithms taking turns within a seed."""
-        found, most = [], max(self.budgets)
+        """Return the runs: problem by problem, seed by seed, algorithm by algorithm."""
+        runs, most = [], max(self.budgets)
         for problem, seed, (name, optimiser) in product(self.problems, self.seeds, self.algorithms.items()):
             size = optimiser.population
             key = {"problem": problem, "algorithm": name, "population": size, "seed": seed}
             file = file_name(f"{problem}_{name}_n{size}_s{seed}")
-            found.append(PlannedRun(file, optimiser, seed, most, key))
-        return found
+            runs.append(PlannedRun(file, optimiser, seed, most, key))
+        return runs
 
     def run(self, client: "Client | None" = None) -> pd.DataFrame:
-        """Make all runs, here or on the workers of a Dask client, and return `table`."""
+        """Make all runs, on the workers of a Dask client if given, and return their `table`."""
         store: dict[str, StoredRun] = {}
         errors = {run.name: error for run, error in self.carry_out(store, client) if error}
         return self.table(store, errors)
@@ -136,9 +136,9 @@ class Study(Record):
     def carry_out(
         self, store: MutableMapping[str, StoredRun], client: "Client | None" = None
     ) -> Iterator[tuple[PlannedRun, str]]:
-        """Make the runs absent from `store`, store each when done, and yield it with its error or ``""``.
+        """Make the runs that are not in `store`, store each one at its end, and yield it with its error or ``""``.
 
-        On a client the runs come in the order in which they end, with the same results.
+        With a client, runs are yielded in the order of their ends; the results are the same.
         """
         missing = {run.name: run for run in self.runs() if run.name not in store}
         problems = dict.fromkeys(run.key["problem"] for run in missing.values())
@@ -161,19 +161,19 @@ class Study(Record):
             yield missing[name], error
 
     def reference(self, problem: str) -> ReferenceFront:
-        """Return the reference front of a problem, of the first seed's runs if none is given."""
+        """Return the reference front of a problem: the given one, or that of the runs from the first seed."""
         if problem in self.references:
             return self.references[problem]
         most, seed = max(self.budgets), self.seeds[0]
-        seen = [trace(self.problems[problem], each, [most], seed) for each in self.algorithms.values()]
-        return best_known([one.objectives[one.feasible] for one in seen])
+        traces = [trace(self.problems[problem], each, [most], seed) for each in self.algorithms.values()]
+        return best_known([one.objectives[one.feasible] for one in traces])
 
     def table(self, store: Mapping[str, StoredRun], errors: Mapping[str, str] | None = None) -> pd.DataFrame:
-        """Return one row per run, budget and set; a run that raised has one row, with its error.
+        """Return a row per run, budget and set; a run that raised an exception has one row with its error.
 
         Columns: problem, algorithm, population, seed, budget, evaluations, set (`POPULATION`, `ARCHIVE` or
         `CUT_ARCHIVE`), members of the set, relative_hypervolume, igd_plus, epsilon, spread, seconds (of the whole
-        run on a shared machine), error.
+        run, untimed), error.
         """
         parts = []
         for run in self.runs():
@@ -196,12 +196,12 @@ class Study(Record):
 def judged_run(
     problem: Minimisable, optimiser: Optimiser, budgets: Sequence[int], seed: int, reference: ReferenceFront
 ) -> StoredRun:
-    """Make one run and judge it at each budget, here or on a worker."""
+    """Return the tables of one run, judged at each budget."""
     start = perf_counter()
-    seen = trace(problem, optimiser, budgets, seed)
+    traced = trace(problem, optimiser, budgets, seed)
     seconds = perf_counter() - start
-    judged = (_judged(seen, budget, optimiser.population, reference) for budget in sorted(set(budgets)))
-    last = seen.states[max(budgets)]
+    judged = (_judged(traced, budget, optimiser.population, reference) for budget in sorted(set(budgets)))
+    last = traced.states[max(budgets)]
     kept = evenly_spread(last.objectives, optimiser.population)
     final = pd.DataFrame(last.objectives[kept], columns=list(problem.objectives))
     if problem.constraints:
@@ -209,13 +209,13 @@ def judged_run(
     return StoredRun(pd.DataFrame(chain.from_iterable(judged)).assign(seconds=seconds), final)
 
 
-def _judged(seen: Trace, budget: int, population: int, reference: ReferenceFront) -> Iterator[dict[str, Any]]:
-    """Yield a row per set of the state at a budget."""
-    state = seen.states[budget]
-    asked, spent = state.evaluations, seen.spent[budget]
-    archive = best_of(seen.objectives[:spent][seen.feasible[:spent]])
+def _judged(traced: Trace, budget: int, population: int, reference: ReferenceFront) -> Iterator[dict[str, Any]]:
+    """Yield a row per set at a budget."""
+    state, spent = traced.states[budget], traced.spent[budget]
+    archive = best_of(traced.objectives[:spent][traced.feasible[:spent]])
     best = best_of(state.objectives[state.feasible])
-    cut, best = (found[evenly_spread(found, population)] for found in (archive, best))
+    cut, best = (front[evenly_spread(front, population)] for front in (archive, best))
     for name, objectives in ((POPULATION, best), (ARCHIVE, archive), (CUT_ARCHIVE, cut)):
         indicators = {indicator: getattr(reference, indicator)(objectives) for indicator in INDICATORS}
-        yield {"budget": budget, "evaluations": asked, "set": name, "members": len(objectives), **indicators}
+        row = {"budget": budget, "evaluations": state.evaluations, "set": name, "members": len(objectives)}
+        yield row | indicators

@@ -1,4 +1,4 @@
-"""The timed runs of a comparison, made one at a time, as a tidy table."""
+"""Timed runs of a comparison, made one at a time, and their tables."""
 
 import warnings
 from collections.abc import Iterator, Mapping, MutableMapping
@@ -18,22 +18,22 @@ from .study import PlannedRun
 
 
 def warm_up(comparison: Comparison) -> None:
-    """Make a short run of each algorithm at each population: compilation and tables are outside of timed runs."""
+    """Make a short run of each algorithm at each population, so that no timed run compiles or fills caches."""
     for algorithm, population in comparison.cost():
-        # DEAP's sort has nothing to compile and takes quadratic time.
+        # DEAP's sort has nothing to compile, and its time is quadratic.
         size = min(population, 50) if algorithm == "nsga2-standard-sort" else population
         short = optimiser(algorithm, size)
         if isinstance(short, MoeadDra):
             short = replace(short, utility_period=1)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", InfeasibleWarning)  # one iteration need not find a feasible design
+            warnings.simplefilter("ignore", InfeasibleWarning)  # usual after one iteration
             minimise(comparison.problem, short, iterations=1, seed=0)
 
 
 def carry_out(comparison: Comparison, store: MutableMapping[str, StoredRun]) -> Iterator[PlannedRun]:
-    """Warm up, make the timed runs absent from `store` one after the other, and yield each once it is stored.
+    """Warm up, make the timed runs that are not in `store` one after the other, and yield each stored one.
 
-    A larger final population is stored as an evenly spread subset of the size of the start.
+    Of a final population larger than that of the start an evenly spread subset is stored.
     """
     warm_up(comparison)
     for planned in comparison.timed_runs():

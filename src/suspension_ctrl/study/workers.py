@@ -1,4 +1,4 @@
-"""Processes of this machine or of others, by Dask."""
+"""Worker processes on this machine or on others, by Dask."""
 
 import ast
 import inspect
@@ -25,16 +25,16 @@ if TYPE_CHECKING:
     from distributed import Client
 
 _SETTINGS = {
-    "distributed.deploy.lost-worker-timeout": "1 day",  # on a busy machine a worker takes long to come back
-    "distributed.scheduler.allowed-failures": 0,  # `calls` repeats what was on a worker that died
+    "distributed.deploy.lost-worker-timeout": "1 day",  # on a busy machine the restart of a worker is slow
+    "distributed.scheduler.allowed-failures": 0,  # `calls` repeats the calls of dead workers
 }
 
 
 def local_cluster(jobs: int, dashboard: str | None = None) -> AbstractContextManager["Client"]:
-    """Start `jobs` processes of one thread each on this machine, reachable from it alone.
+    """Return a context with a client of `jobs` processes of one thread on this machine, local connections only.
 
     Dask's dashboard is served at an address such as ``127.0.0.1:8787`` if given. A script must call this under
-    ``if __name__ == "__main__":`` as the processes import it; one that does not ends with a line that says so.
+    ``if __name__ == "__main__":``, as the processes import the script; otherwise the script ends with an error.
     """
     checks.at_least("jobs", jobs, 1)
     if line := _unguarded_line():
@@ -46,7 +46,7 @@ def local_cluster(jobs: int, dashboard: str | None = None) -> AbstractContextMan
 def _local_cluster(jobs: int, dashboard: str | None) -> Iterator["Client"]:
     with installed("study"):
         import dask
-        import distributed  # noqa: F401  # its defaults come with it: they would leave with the settings below
+        import distributed  # noqa: F401  # before the settings, which would discard its defaults at their end
 
     with ExitStack() as stack:
         stack.enter_context(dask.config.set(_SETTINGS))
@@ -54,56 +54,56 @@ def _local_cluster(jobs: int, dashboard: str | None) -> Iterator["Client"]:
         with _interrupts_blocked():
             starting = helper.submit(_started, jobs, dashboard)
         try:
-            made, client = starting.result()
+            started, client = starting.result()
         except RuntimeError as error:
             raise ChildProcessError(f"processes must start, got: {error.__cause__ or error}") from error
         except KeyboardInterrupt:
-            made, client = starting.result()  # never half started
-            _kill(made)
-            made.close()
+            started, client = starting.result()  # never half started
+            _kill(started)
+            started.close()
             raise
-        stack.enter_context(made)
-        stack.push(lambda kind, *_: _kill(made) if kind else None)
+        stack.enter_context(started)
+        stack.push(lambda kind, *_: _kill(started) if kind else None)
         yield stack.enter_context(client)
 
 
 def _started(jobs: int, dashboard: str | None) -> tuple[Any, "Client"]:
-    """Start processes and a client of them."""
+    """Return a started cluster and its client."""
     from distributed import Client, LocalCluster  # over a second: only where it is used
 
-    # Dask's server of metrics starts in any case; without an address it listens to the network.
+    # Dask always starts a server of metrics; without an address it would listen to the network.
     scheduler = {"dashboard": dashboard is not None, "dashboard_address": dashboard or "127.0.0.1:0"}
     settings: dict[str, Any] = {"n_workers": jobs, "threads_per_worker": 1, "memory_limit": 0, "host": "127.0.0.1"}
     settings |= {"scheduler_kwargs": scheduler, "dashboard_address": None, "worker_dashboard_address": None}
     _silence()
-    made = LocalCluster(**settings, silence_logs="CRITICAL")
-    return made, Client(made, set_as_default=False)
+    started = LocalCluster(**settings, silence_logs="CRITICAL")
+    return started, Client(started, set_as_default=False)
 
 
 def _silence() -> None:
-    """Keep Dask's loggers from telling of lost processes and connections: errors do."""
+    """Silence the loggers of Dask: lost processes and connections are reported by errors."""
     for name in ("distributed", *logging.root.manager.loggerDict):
         if name.startswith("distributed"):
             logging.getLogger(name).setLevel(logging.CRITICAL)
 
 
-def _kill(made: Any) -> None:
-    """Kill the processes of a cluster that is given up: in the midst of a run they take seconds to stop."""
+def _kill(started: Any) -> None:
+    """Kill the processes of a cluster, which would take seconds to stop in the middle of a run."""
     import psutil  # of distributed
 
-    for nanny in made.workers.values():
+    for nanny in started.workers.values():
         nanny.auto_restart = False
-        with suppress(psutil.Error, TypeError):  # TypeError: not started
+        with suppress(psutil.Error, TypeError):  # TypeError: no process yet
             psutil.Process(nanny.pid).kill()
 
 
 @contextmanager
 def _interrupts_blocked() -> Iterator[None]:
-    """Block Ctrl-C for the threads and, through them, processes started here: it reaches this process alone."""
+    """Block Ctrl-C for threads started in the block and for their processes: only this process receives it."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return
-    ensure_running()  # of multiprocessing; started later, it lets interrupts through
+    ensure_running()  # the tracker of multiprocessing, which would unblock interrupts at a later start
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
@@ -112,7 +112,7 @@ def _interrupts_blocked() -> Iterator[None]:
 
 
 def _unguarded_line() -> str:
-    """Return file and line of a script that runs now outside of a main guard, ``""`` if there is none."""
+    """Return line and file if the running script is outside of a main guard, ``""`` otherwise."""
     frame: Any = inspect.currentframe()
     while frame and not (frame.f_code.co_name == "<module>" and frame.f_globals.get("__name__") == "__main__"):
         frame = frame.f_back
@@ -129,10 +129,10 @@ def _unguarded_line() -> str:
 
 
 def scheduler_at(address: str, timeout: float = 10.0) -> AbstractContextManager["Client"]:
-    """Connect to a running scheduler that has a worker, within `timeout` [s], and this machine's versions.
+    """Return a context with a client of a running scheduler; ValueError without a worker after `timeout` [s].
 
-    Its address is ``tcp://host:8786``, or ``tls://host:8786`` with the certificates of Dask's configuration
-    (``distributed.comm.tls``).
+    The address is ``tcp://host:8786``, or ``tls://host:8786`` with the certificates of Dask's configuration
+    (``distributed.comm.tls``). Workers must have the versions of this process.
     """
     if not address.startswith(("tcp://", "tls://")):
         raise ValueError(f"scheduler must be tcp://host:port or tls://host:port, got {address!r}")
@@ -147,7 +147,7 @@ def _connected(address: str, timeout: float) -> Iterator["Client"]:
     _silence()
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of versions: they are compared below
+            warnings.simplefilter("ignore")  # about versions, which are checked below
             client = Client(address, timeout=timeout, set_as_default=False)
     except (OSError, TypeError, ValueError) as error:  # TypeError: tls:// without certificates
         raise ValueError(f"scheduler must be one that answers, got {address!r}: {error}") from error
@@ -161,12 +161,12 @@ def _connected(address: str, timeout: float) -> Iterator["Client"]:
 
 
 def _check_versions(client: "Client") -> None:
-    """Raise ValueError where a worker has other versions than this process of what determines a result."""
-    found: Any = client.get_versions(packages=PACKAGES)
-    here = found["client"]["packages"]
-    for address, there in found["workers"].items():
+    """Raise ValueError if a worker has a package that determines results in another version."""
+    versions: Any = client.get_versions(packages=PACKAGES)
+    own = versions["client"]["packages"]
+    for address, worker in versions["workers"].items():
         for name in ("python", *PACKAGES):
-            wanted, got = here[name], there["packages"].get(name)
+            wanted, got = own[name], worker["packages"].get(name)
             if got != wanted:
                 raise ValueError(
                     f"scheduler must have workers with {name} {wanted} as here, got {got} at {address}"
@@ -174,7 +174,7 @@ def _check_versions(client: "Client") -> None:
 
 
 def cluster(jobs: int | None = None, scheduler: str | None = None) -> AbstractContextManager["Client | None"]:
-    """Return a context with a client of `jobs` processes or of a scheduler, or with None for work done here."""
+    """Return a context with a client of `jobs` processes or of a scheduler; with None if neither is given."""
     if jobs is not None and scheduler is not None:
         raise ValueError(f"jobs must stand without scheduler, got {jobs} and {scheduler!r}")
     if jobs is not None:
@@ -183,9 +183,9 @@ def cluster(jobs: int | None = None, scheduler: str | None = None) -> AbstractCo
 
 
 def distributed(problem: Minimisable, client: "Client", chunk: int = 16) -> Problem:
-    """Return a slow problem evaluated on a cluster, `chunk` designs at a time, without its kernel.
+    """Return a slow problem that is evaluated on a cluster, `chunk` designs per call, without its kernel.
 
-    MOEA/D-DRA should then make its children in batches (``update="batch"``).
+    MOEA/D-DRA should then evaluate its children in batches (``update="batch"``).
     """
     checks.at_least("chunk", chunk, 1)
 

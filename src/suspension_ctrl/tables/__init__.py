@@ -1,4 +1,4 @@
-"""CSV files: columns of numbers by name, read strictly; files are written atomically."""
+"""Tables in files: strict reading of CSV columns by name; atomic writing of CSV, JSON, texts and figures."""
 
 import csv
 import errno
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 UNFINISHED = ".unfinished-"
-"""Beginning of the name of a file that is being written."""
+"""Prefix of the name of a temporary file."""
 
 _MEGABYTES = 100  # of a file
 _DEVICES = r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)"  # reserved names of Windows, with any ending
@@ -31,9 +31,9 @@ _DEVICES = r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)"  # reserved names of Windows, 
 def read_table(
     path: str | PathLike[str], columns: Sequence[str] | None = None, rows: int = 2
 ) -> tuple[list[str], Real]:
-    """Return names of columns (c,), none without a header, and finite values (n, c) of `rows` or more.
+    """Return the names of columns (c,), empty without a header, and finite values (n, c), n >= `rows`.
 
-    With `columns`, these are returned and the others may hold texts. A ValueError names the file.
+    Only the given `columns` are returned; the others may hold texts. A ValueError names the file.
     """
     with naming(path):
         checks.regular(Path(path), _MEGABYTES)
@@ -51,7 +51,7 @@ def read_table(
 
 
 def file_name(text: str) -> str:
-    """Return the text as a file's name: letters, digits and ``._+-`` as they are, ``_`` for all else."""
+    """Return the text as a file name: letters, digits and ``._+-`` unchanged, ``_`` for other characters."""
     name = re.sub(r"[^\w.+-]", "_", text).strip(".") or "_"
     return f"_{name}" if re.match(_DEVICES, name, re.IGNORECASE) else name
 
@@ -61,8 +61,8 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> None:
     temporary = path.with_name(f"{UNFINISHED}{uuid4().hex}{path.suffix}")
     try:
         write(temporary)
-        with temporary.open("rb+") as written:
-            os.fsync(written.fileno())  # the content is on the disk before the name is
+        with temporary.open("rb+") as file:
+            os.fsync(file.fileno())  # the content reaches the disk before the name
         os.replace(temporary, path)
         sync_folder(path.parent)
     except OSError as error:
@@ -73,20 +73,20 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> None:
 
 
 def sync_folder(folder: Path) -> None:
-    """Flush the entries of a folder to the disk, where the system can."""
+    """Flush the entries of a folder to the disk, if the system can."""
     if os.name == "posix":
         number = os.open(folder, os.O_RDONLY)
         try:
-            with suppress(OSError):  # some network file systems refuse it
+            with suppress(OSError):  # not on some network file systems
                 os.fsync(number)
         finally:
             os.close(number)
 
 
 def write_csv(path: Path, frame: "pd.DataFrame") -> None:
-    """Write a table without its index, no text of it a formula."""
-    harmless = escaping.frame(frame, escaping.csv)
-    write_whole(path, lambda temporary: harmless.to_csv(temporary, index=False))
+    """Write a table without its index; texts are escaped against formulas in spreadsheets."""
+    escaped = escaping.frame(frame, escaping.csv)
+    write_whole(path, lambda temporary: escaped.to_csv(temporary, index=False))
 
 
 def write_bytes(path: Path, content: bytes) -> None:
@@ -105,7 +105,7 @@ def write_json(path: Path, content: Mapping[str, Any]) -> None:
 
 
 def write_table(stem: Path, frame: "pd.DataFrame") -> None:
-    """Write a table as CSV in full, and as Markdown and LaTeX (booktabs) with six digits."""
+    """Write a table as CSV with all digits, and as Markdown and LaTeX (booktabs) with six."""
     write_csv(stem.with_suffix(".csv"), frame)
     markdown, latex = (_shown(frame, medium) for medium in (escaping.markdown, escaping.latex))
     write_text(stem.with_suffix(".md"), markdown.to_markdown(index=False, disable_numparse=True) + "\n")

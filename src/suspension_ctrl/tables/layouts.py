@@ -1,7 +1,7 @@
 """Layout of a CSV file, detected from its first lines: header, separator, decimal sign and comment sign.
 
-Cells are separated by tabs, semicolons, commas or blanks; a decimal comma goes with all but commas. Lines that
-start with ``#`` or ``%`` are comments.
+Cells are separated by tabs, semicolons, commas or blanks; a decimal comma is allowed unless commas separate.
+Lines that start with ``#`` or ``%`` are comments.
 """
 
 import csv
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     import pandas as pd
 
 LARGEST = 1e9
-"""Of numbers in a table: beyond roads and vehicles, and its square is finite."""
+"""Largest number in a table: beyond roads and vehicles, and its square is finite."""
 HEAD = 65536
-"""Characters of the first lines, and most of a line."""
+"""Characters of the first lines together, and of any line at most."""
 _ROWS = 100_000  # at a time
 _SIGNS = {".": str.maketrans("_", " "), ",": str.maketrans(",._", ".  ")}  # float() takes 1_0 for 10
 
@@ -31,7 +31,7 @@ class Layout(NamedTuple):
 
     names: list[str]  # of the columns, none without a header
     width: int  # number of columns
-    row: list[str]  # the first; with a separator at its end, one cell more
+    row: list[str]  # cells of the first row, with an empty one after a separator at its end
     header: int  # lines before it
     separator: str  # " " for any blanks
     decimal: str
@@ -39,7 +39,7 @@ class Layout(NamedTuple):
 
     @classmethod
     def of(cls, lines: Sequence[str]) -> Self:
-        """Detect the layout from the first lines of a file; csv.Error or ValueError if there is none."""
+        """Detect the layout from the first lines of a file; csv.Error or ValueError without success."""
         if max(map(len, lines), default=0) > HEAD:
             raise ValueError(f"the file must have lines of {HEAD} characters at most, got a longer one")
         comment = next((line[0] for line in lines if line.startswith(("#", "%"))), "#")
@@ -56,7 +56,7 @@ class Layout(NamedTuple):
         return cls(names, width, cells, first + after, separator, "," if comma else ".", comment)
 
     def places(self, columns: Sequence[str] | None) -> list[int]:
-        """Return the indices of the columns, by default of all; ValueError if one is absent."""
+        """Return the indices of the columns, by default of all; ValueError if one is missing."""
         for name in columns or ():
             if name not in self.names:
                 raise ValueError(f"columns must include {name!r}, got {checks.shown(self.names)}")
@@ -77,7 +77,7 @@ class Layout(NamedTuple):
         try:
             for part in pd.read_csv(file, **options):
                 numbers, start = self._numbers(part, wanted), len(values)
-                # in place: no copy of a large table
+                # in place: without a copy of a large table
                 values.resize((start + len(part), len(wanted)), refcheck=False)
                 values[start:] = numbers
         except (ValueError, OverflowError):
@@ -90,20 +90,20 @@ class Layout(NamedTuple):
         if not values.size:
             return values
         beyond = any((part[i] != "").any() for i in part.columns[self.width :])
-        # of a column of True and False pandas makes 1 and 0
+        # pandas converts a column of True and False to 1 and 0
         named = any(isnan(_number(self.row[i], self.decimal)) for i in wanted)
         if beyond or named or not (values.min() >= -LARGEST and values.max() <= LARGEST):
             raise ValueError
         return values
 
     def _begin(self, file: TextIO) -> None:
-        """Go to the first row."""
+        """Move to the first row."""
         file.seek(0)
         for _ in range(self.header):
             file.readline()
 
     def _mistake(self, file: TextIO, wanted: Sequence[int], good: int) -> str:
-        """Return the error about the first wrong row after a number of good ones."""
+        """Return the message about the first wrong row after `good` correct ones."""
         self._begin(file)
         for number, row in enumerate(self._rows(file, good), start=good + 1):
             cells = _without_last(row) if len(row) > self.width else row
@@ -138,7 +138,7 @@ def _without_last(cells: list[str]) -> list[str]:
 
 
 def _separator(line: str) -> str | None:
-    """Return the separator of a line of numbers, two at least; None for another line."""
+    """Return the separator of a line of two or more numbers; None for another line."""
     for one in "\t;, ":
         signs = "." if one == "," else ".,"
         cells = _without_last(_cells(line, one)) if one in line.strip() else [""]
@@ -148,7 +148,7 @@ def _separator(line: str) -> str | None:
 
 
 def _number(cell: str, decimal: str) -> float:
-    """Return a number with a decimal sign, NaN if it is none."""
+    """Return the number in a cell, NaN if there is none."""
     try:
         return float(cell.translate(_SIGNS[decimal]))
     except ValueError:
