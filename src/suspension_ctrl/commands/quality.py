@@ -29,11 +29,8 @@ DECIMALS = {"evals": 0, "HV / ref.": 4, "IGD+": 5, "epsilon": 4, "spread": 3, "t
 def write(request: "Request", results: Findings, store: Mapping[str, StoredRun]) -> None:
     """Write tables, verdict and figures."""
     write_csv(request.campaign.folder / "quality.csv", results.course.drop(columns="seconds"))
-    for name, table in (
-        ("equal", results.medians),
-        ("differences", results.differences),
-        ("to_reach", results.reached),
-    ):
+    tables = {"equal": results.medians, "differences": results.differences, "to_reach": results.reached}
+    for name, table in tables.items():
         write_table(request.campaign.folder / name, table.rename(columns=_header))
     write_text(request.campaign.folder / "verdict.md", "\n\n".join(map(escaping.markdown, results.verdict)) + "\n")
     with terminal.waiting("drawing"):
