@@ -29,9 +29,9 @@ def run(problem) -> sc.Run:
 
 def test_the_ride_of_one_car_needs_no_search_box(problem):
     table = sc.ride(CAR, SETTING, ROAD, speed=20.0)
-    assert list(table.index) == ["ACC", "SWS", "DTL", "body_acceleration", "suspension_travel", "tyre_load"]
+    assert list(table.index[:6]) == ["ACC", "SWS", "DTL", "body_acceleration", "suspension_travel", "tyre_load"]
     np.testing.assert_allclose(table.value[:3], problem.evaluate([[22e3, 1500.0]])[0], rtol=1e-12)
-    assert list(table.unit) == ["m/s^2", "m", "N"] * 2
+    assert list(table.unit[:6]) == ["m/s^2", "m", "N"] * 2
 
 
 def test_every_vehicle_is_closed_alike():
@@ -136,8 +136,8 @@ def test_a_measured_plant_takes_python_controls_own_response():
     expected = sc.ride(half.vehicle, half.setting, road, speed=20.0, band=(0.5, 20.0))
     for system, tolerance in ((rig, 1e-3), (plant, 1e-12)):
         measured = sc.Plant(system, contacts=contacts, struts=("front", "rear"))
-        found = sc.ride(measured, half.setting, road, speed=20.0, band=(0.5, 20.0)).reindex(expected.index)
-        same = [name for name in expected.index if not name.startswith("pitch")]
+        found = sc.ride(measured, half.setting, road, speed=20.0, band=(0.5, 20.0))
+        same = [name for name in found.index if not name.startswith("pitch")]
         np.testing.assert_allclose(found.value[same], expected.value[same], rtol=tolerance)
 
 

@@ -26,6 +26,10 @@ _QUANTITY = re.compile(
     r"\s*([+-]?(?:\d{1,20}\.?\d{0,20}|\.\d{1,20})(?:[eE][+-]?\d{1,3})?)([^\d.].{0,29})?", re.ASCII
 )
 _TERM = re.compile(r"([A-Za-z%]+)\^?(-?\d?)", re.ASCII)
+_SIGNALS = {
+    "displacement": "m", "velocity": "m/s", "acceleration": "m/s^2", "jerk": "m/s^3", "travel": "m",
+    "travel_rate": "m/s", "deflection": "m", "deflection_rate": "m/s", "load": "N", "force": "N",
+}  # fmt: skip
 _BASE = ("kg", "m", "s", "rad", "cycle")
 _UNITS = {  # in other units; g is standard gravity as in deg/g, not gram
     "t": "1000 kg", "lb": "0.45359237 kg", "km": "1000 m", "cm": "0.01 m", "mm": "0.001 m", "in": "0.0254 m",
@@ -213,11 +217,13 @@ def key_of(name: str, unit: str) -> str:
 
 def signal_unit(signal: str) -> str:
     """Return the unit of a response or a deflection by the name of its signal, ``""`` if unknown."""
-    if signal in ("pitch_acceleration", "roll_acceleration"):
-        return "rad/s^2"
-    if signal.endswith("acceleration") or signal.startswith("acceleration_at"):
+    if signal.startswith("acceleration_at"):
         return "m/s^2"
-    return {"travel": "m", "deflection": "m", "displacement": "m", "load": "N"}.get(signal.rsplit("_", 1)[-1], "")
+    what, _, kind = signal.rpartition("_")
+    if kind == "rate":
+        kind = f"{what.rpartition('_')[2]}_rate"
+    unit = _SIGNALS.get(kind, "")
+    return unit.replace("m", "rad") if what in ("pitch", "roll") else unit
 
 
 def column_headers(names: Sequence[str], units: Mapping[str, str]) -> list[str]:

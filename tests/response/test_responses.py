@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from garage import DRIVER, FULL, HALF, QUARTER, ROAD, mean_squares, struts_of
-from suspension_ctrl import Plant, PowerLawRoad, QuarterCar, RideProblem, ride, weighting
+from suspension_ctrl import Iso8608Road, Plant, PowerLawRoad, QuarterCar, RideProblem, ride, weighting
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.response import responses
 from suspension_ctrl.response.quadrature import frequency_nodes
@@ -42,7 +42,7 @@ def test_the_ride_of_a_vehicle_is_the_value_of_a_problem_at_its_setting(vehicle)
     table = ride(vehicle, struts_of(vehicle), ROAD, 20.0, band=(0.1, 20.0))
     found = problem.evaluate([[setting[name] for name in free]])[0]
     np.testing.assert_allclose(table.value.iloc[:3], found, rtol=1e-12)
-    assert table.index.tolist() == ["ACC", "SWS", "DTL", *vehicle.responses]
+    assert table.index.tolist() == ["ACC", "SWS", "DTL", *vehicle.meanings]
     assert table.unit.iloc[:3].tolist() == ["m/s^2", "m", "N"]
     assert not table.note.any()
 
@@ -52,10 +52,27 @@ def test_the_ride_has_the_root_mean_square_of_every_response():
     vehicle = DRIVER.on(FULL)
     options = {"weighting": None, "band": (0.1, 20.0), "measures": ["ACC driver"]}
     table = ride(vehicle, struts_of(vehicle), ROAD, 20.0, **options)
-    terms = [(name, None) for name in vehicle.responses]
+    terms = [(name, None) for name in vehicle.meanings]
     expected = np.sqrt(mean_squares(vehicle, struts_of(vehicle), terms, (0.1, 20.0), 256))
-    np.testing.assert_allclose(table.value.loc[list(vehicle.responses)], expected, rtol=1e-9)
+    np.testing.assert_allclose(table.value.loc[list(vehicle.meanings)], expected, rtol=1e-9)
     assert table.value["ACC driver"] == table.value["driver_acceleration"]
+
+
+def test_the_ride_of_a_car_is_that_of_others():
+    """Values of another program to four or five digits: passive car of github samarthgupta128/PS2, 2000 N s/m."""
+    car = QuarterCar(body_mass=290.0, wheel_mass=59.0, tyre_stiffness=190e3)
+    value = ride(car, (16e3, 2000.0), Iso8608Road("C"), 20.0, band=(0.1, 20.0)).value
+    expected = {
+        "body_displacement": 24.508e-3, "body_velocity": 92.33e-3, "body_acceleration": 1.58698,
+        "body_jerk": 77.90, "wheel_displacement": 23.059e-3, "wheel_acceleration": 11.040,
+        "suspension_travel": 9.388e-3, "suspension_travel_rate": 217.5e-3, "strut_force": 460.22,
+        "tyre_deflection": 4.1871e-3, "tyre_load": 795.55,
+    }  # fmt: skip
+    for name, one in expected.items():
+        digits = len(f"{one:.6g}".replace(".", "").strip("0"))
+        assert value[name] == pytest.approx(one, rel=0.6 * 10.0 ** (1 - digits)), name
+    assert value["strut_force"] == pytest.approx(290.0 * value["body_acceleration"], rel=1e-9)  # Newton
+    assert value["tyre_load"] == pytest.approx(190e3 * value["tyre_deflection"], rel=1e-9)
 
 
 def test_the_ride_takes_spring_and_damper_of_a_quarter_car():
@@ -80,11 +97,14 @@ def test_a_road_of_one_wheel_is_any_object_with_a_spectrum():
 
 
 def test_a_diverging_integral_is_none_and_gives_its_reason():
-    """All responses fall as f^2 towards 0 Hz, so their spectra fall or rise as f^(4 - p)."""
-    assert not ride(QUARTER, DESIGN, Spectrum(4.5), 20.0).note.any()
-    table = ride(QUARTER, DESIGN, Spectrum(5.2), 20.0)
-    assert table.value.isna().all()
-    assert (table.note == "diverges towards 0 Hz: begin the band above").all()
+    """Of a response that falls as f^k the spectrum falls or rises as f^(2 k - p), on roads of p from 0.5 to 5."""
+    rises = {"displacement": 0, "velocity": 1, "rate": 3, "jerk": 3}
+    for exponent in (0.5, 1.2, 2.5, 3.2, 4.5, 5.2):
+        table = ride(QUARTER, DESIGN, Spectrum(exponent), 20.0)
+        power = [2 * rises.get(name.rpartition("_")[2], 2) - exponent for name in table.index]
+        assert table.value.isna().tolist() == [one <= -1 for one in power]
+        assert set(table.note) <= {"", "diverges towards 0 Hz: begin the band above"}
+        assert (table.note != "").tolist() == table.value.isna().tolist()
     assert ride(QUARTER, DESIGN, Spectrum(5.2), 20.0, band=(0.1, 20.0)).value.notna().all()
 
 

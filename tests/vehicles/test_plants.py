@@ -114,9 +114,10 @@ def test_a_derived_rate_jumps_with_its_input():
 def test_signals_are_those_of_the_vehicle(car):
     plant = measured(car, LINES)
     assert plant.responses == car.responses
-    assert {name: meaning.kind for name, meaning in plant.meanings.items()} == {
-        name: meaning.kind for name, meaning in car.meanings.items()
-    }
+    assert all(plant.meanings[name].kind == car.meanings[name].kind for name in plant.meanings)
+    unknown = {name for name in car.meanings if name.endswith(("displacement", "velocity", "tyre_deflection"))}
+    accelerations = {name for name in car.meanings if name.endswith("wheel_acceleration")}
+    assert car.meanings.keys() - plant.meanings.keys() == unknown | accelerations
     assert (plant.struts, plant.tyres) == (car.struts, car.tyres)
     np.testing.assert_array_equal(plant.contact_points, car.contact_points)
     here, there = plant.plant(car.responses), car.plant(car.responses)

@@ -29,10 +29,14 @@ class Ports(NamedTuple):
     ) -> "Ports":
         """Take it at ascending `f` (n,) [Hz] around struts with `values`, closed in state space: no drift."""
         q = len(vehicle.struts)
-        distinct = list(dict.fromkeys(responses))
+        integrals = vehicle.without_jerk(responses)
+        distinct = list(dict.fromkeys(integrals))
         plant = around(vehicle.plant(distinct), gains_by_order(vehicle.parameters, values or {}, q))
-        rows = [*map(distinct.index, responses), *range(len(distinct), len(distinct) + q)]
-        return cls(paths(plant, f)[:, rows], len(responses), len(vehicle.contact_points))
+        rows = [*map(distinct.index, integrals), *range(len(distinct), len(distinct) + q)]
+        h = paths(plant, f)[:, rows]
+        jerks = [i for i, (name, one) in enumerate(zip(responses, integrals, strict=True)) if name != one]
+        h[:, jerks] *= 2j * np.pi * f[:, None, None]
+        return cls(h, len(responses), len(vehicle.contact_points))
 
     def around(self, stiffness: Complex) -> "Ports":
         """Return the ports around struts of this dynamic stiffness D (n, q, q): h + h_2 (1 - D h_22)^-1 D h_1."""

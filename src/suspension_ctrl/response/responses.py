@@ -61,13 +61,27 @@ def ride(
     >>> road = sc.PowerLawRoad(roughness=5e-6, exponent=2.5)
     >>> table = sc.ride(file.vehicle, file.setting, road, speed=20.0)
     >>> print(table[["value", "unit"]].round(3).to_string(index_names=False))
-                          value   unit
-    ACC                   2.260  m/s^2
-    SWS                   0.029      m
-    DTL                1365.255      N
-    body_acceleration     2.991  m/s^2
-    suspension_travel     0.029      m
-    tyre_load          1365.255      N
+                               value   unit
+    ACC                        2.260  m/s^2
+    SWS                        0.029      m
+    DTL                     1365.255      N
+    body_acceleration          2.991  m/s^2
+    suspension_travel          0.029      m
+    tyre_load               1365.255      N
+    wheel_displacement           NaN      m
+    wheel_velocity             0.464    m/s
+    wheel_acceleration        23.632  m/s^2
+    body_displacement            NaN      m
+    body_velocity              0.325    m/s
+    body_jerk                118.457  m/s^3
+    suspension_travel_rate     0.473    m/s
+    strut_force              949.774      N
+    tyre_deflection            0.007      m
+
+    From 0 Hz on the displacement on a road diverges:
+
+    >>> table["note"]["body_displacement"]
+    'diverges towards 0 Hz: begin the band above'
 
     Least discomfort asks for a softer damper than least tyre load:
 
@@ -87,7 +101,7 @@ def ride(
     known = checked(weighting)
     judged = [measure_of(one) for one in measures]
     labels = {one.label for one in judged}
-    judged += [RootSumSquare([Term(name)]) for name in vehicle.responses if name not in labels]
+    judged += [RootSumSquare([Term(name)]) for name in vehicle.meanings if name not in labels]
     in_case = [one.in_case(case, known) for one in judged]
     setting = vehicle.coefficients(setting)
     signed = [Score((found,), False, one.sign) for found, one in zip(in_case, judged, strict=True)]

@@ -62,7 +62,11 @@ class Link(NamedTuple):
 
 
 class Response(NamedTuple):
-    """The ``acceleration`` of an end, ``travel`` of a strut or ``load`` of a tyre; ``signal``: of unknown kind."""
+    """A kind of response at an end, a strut or a tyre; a ``signal`` is of unknown kind.
+
+    Of an end ``displacement``, ``velocity``, ``acceleration`` and ``jerk``; of a strut ``travel``, ``travel_rate``
+    and ``strut_force``; of a tyre ``load`` and ``tyre_deflection``.
+    """
 
     kind: str
     where: End
@@ -129,6 +133,20 @@ class Assembly(Record):
     def coordinates(self) -> tuple[str, ...]:
         """Names of the coordinates."""
         return (*self.masses, *self.inertias)
+
+    @cached_property
+    def meanings(self) -> Mapping[str, Response]:
+        """Meaning of every response by name: `responses`, then others of coordinates, struts and tyres."""
+        wheels, further = [tyre.upper for tyre in self.tyres], dict[str, Response]()
+        for end in (*self.masses, *(name for name in ("pitch", "roll") if name in self.inertias)):
+            kinds = ("displacement", "velocity", "acceleration", *(("jerk",) if end not in wheels else ()))
+            further |= {f"{end}_{kind}": Response(kind, end) for kind in kinds}
+        for strut in self.struts:
+            further[joined(strut.name, "suspension_travel_rate")] = Response("travel_rate", strut.name)
+            further[joined(strut.name, "strut_force")] = Response("strut_force", strut.name)
+        for tyre in self.tyres:
+            further[joined(tyre.name, "tyre_deflection")] = Response("tyre_deflection", tyre.name)
+        return FrozenMapping({**self.responses, **further, **self.responses})
 
     @cached_property
     def mass_matrix(self) -> Real:
@@ -212,14 +230,24 @@ class Assembly(Record):
         return -inverse @ np.hstack([e.T @ tension, p.T]), np.pad(tension, ((0, 0), (0, len(p))))
 
     def _row(self, name: ResponseName, motion: Real, tension: Real) -> Real:
-        """Return a response (c,) by the columns of `_motion`; ValueError if the vehicle does not have it."""
+        """Return a response (c,) by the columns of `_motion`; ValueError if the plant does not have it."""
         if point := _point_of(name):
             return np.asarray(self.shape(point) @ motion)
-        checks.one_of("response", name, self.responses)
-        kind, where = self.responses[str(name)]
-        if kind == "acceleration":
-            return np.asarray(self.shape(where) @ motion)
+        checks.one_of("response", name, self.meanings)
+        kind, where = self.meanings[str(name)]
+        if kind == "jerk":
+            raise ValueError(f"response must be one of a plant, of closed(responses=[...]) a jerk too, got {name}")
+        n, columns = len(motion), np.eye(motion.shape[1])
+        displacement, velocity, roads = columns[:n], columns[n : 2 * n], columns[2 * n : 2 * n + len(self.roads)]
+        if kind in ("displacement", "velocity", "acceleration"):
+            moved = {"displacement": displacement, "velocity": velocity, "acceleration": motion}[kind]
+            return np.asarray(self.shape(where) @ moved)
+        links = self.struts if kind in ("travel", "travel_rate", "strut_force") else self.tyres
+        index = [link.name for link in links].index(str(where))
         if kind == "load":
-            return tension[[tyre.name for tyre in self.tyres].index(str(where))]
-        strut = self.struts[[strut.name for strut in self.struts].index(str(where))]
-        return np.pad(self.elongations([strut])[0][0], (0, motion.shape[1] - len(motion)))
+            return tension[index]
+        if kind == "strut_force":
+            return columns[index - len(self.struts)]
+        by_coordinate, by_road = self.elongations(links)
+        moved = velocity if kind == "travel_rate" else displacement
+        return np.asarray(by_coordinate[index] @ moved + by_road[index] @ roads)

@@ -146,6 +146,39 @@ def around(plant: System, gains: Real) -> System:
     return control.ss(*matrices, states=plant.state_labels, **names)
 
 
+def with_rates(system: System, rates: Mapping[str, str]) -> System:
+    """Return the system with further outputs, rates by name of others; ValueError if an input acts on one."""
+    labels = system.output_labels
+    row = [labels.index(name) for name in rates.values()]
+    names = {"inputs": system.input_labels, "outputs": [*labels, *rates]}
+    if not isinstance(system, control.StateSpace):
+        h = system.frdata
+        return MeasuredResponse(np.concatenate([h, 1j * system.omega * h[row]]), system.omega, **names)
+    a, b, c, d = system.A, system.B, system.C, system.D
+    for rate, direct in zip(rates, d[row], strict=True):
+        if direct.any():
+            given = system.input_labels[int(np.flatnonzero(direct)[0])]
+            needed = f"the output {rate!r} where an input acts on {rates[rate]}"
+            raise ValueError(f"system must have {needed}, got {given}")
+    c, d = np.vstack([c, c[row] @ a]), np.vstack([d, c[row] @ b])
+    return control.ss(a, b, c, d, states=system.state_labels, **names)
+
+
+def with_copies(system: System, copies: Mapping[str, str], tensions: Mapping[str, str]) -> System:
+    """Return the system with further outputs, copies by name of outputs and of `tensions` among the inputs."""
+    labels, inputs = system.output_labels, system.input_labels
+    row, fed = [labels.index(name) for name in copies.values()], np.eye(len(inputs))
+    fed = fed[[inputs.index(name) for name in tensions.values()]]
+    names = {"inputs": inputs, "outputs": [*labels, *copies, *tensions]}
+    if not isinstance(system, control.StateSpace):
+        h = system.frdata
+        through = np.repeat(fed[:, :, None], system.omega.size, axis=2)
+        return MeasuredResponse(np.concatenate([h, h[row], through]), system.omega, **names)
+    c, d = system.C, system.D
+    c = np.vstack([c, c[row], np.zeros((len(fed), c.shape[1]))])
+    return control.ss(system.A, system.B, c, np.vstack([d, d[row], fed]), states=system.state_labels, **names)
+
+
 def selected(system: System, outputs: Sequence[str], inputs: Sequence[str], name: str) -> System:
     """Return the system with these outputs and inputs; an input that it does not have has no effect."""
     row, known = [system.output_labels.index(output) for output in outputs], system.input_labels

@@ -15,7 +15,7 @@ from ..documents import naming
 from ..quantities import FrozenMapping, Record, unit
 from ..tables import read_table
 from .assembly import Position, Response, ResponseName, StrutParameter, check_strut_names, joined, label
-from .feedback import System, numbers_of, selected, system_of
+from .feedback import System, numbers_of, selected, system_of, with_copies, with_rates
 from .networks import placed
 from .plant_tables import frequency_responses
 from .struts import Damper, Spring, parallel
@@ -24,8 +24,12 @@ from .vehicle import Vehicle
 _LEAST = 4  # lines of a cubic spline
 _CLOSEST = 1e-6  # Hz, least distance of lines: its powers in a spline are finite
 _POINT = re.compile(r"acceleration_at_(-?\d{1,6})_(-?\d{1,6})_mm", re.ASCII)
-_OUTPUT = re.compile(r"(?:(\w+)_)?(acceleration|tyre_load|suspension_travel)", re.ASCII)
-_KINDS = {"acceleration": "acceleration", "tyre_load": "load", "suspension_travel": "travel"}
+_KINDS = {
+    "displacement": "displacement", "velocity": "velocity", "acceleration": "acceleration",
+    "tyre_load": "load", "tyre_deflection": "tyre_deflection", "suspension_travel": "travel",
+    "suspension_travel_rate": "travel_rate", "strut_force": "strut_force",
+}  # fmt: skip
+_OUTPUT = re.compile(rf"(?:(\w+)_)?({'|'.join(_KINDS)})", re.ASCII)
 _ONE_WHEEL = FrozenMapping({"": (0.0, 0.0)})
 
 
@@ -120,7 +124,19 @@ class Plant(Record, Vehicle):
     @property
     def meanings(self) -> Mapping[str, Response]:
         """Meaning of each response, by name."""
-        return {name: _meaning(name) for name in self.system.output_labels[: -2 * len(self.struts)]}
+        known = {name: _meaning(name) for name in self.system.output_labels[: -2 * len(self.struts)]}
+        jerks = {
+            name.replace("acceleration", "jerk"): one
+            for name, one in known.items()
+            if name.endswith("acceleration")
+        }
+        return {**known, **{name: Response("jerk", one.where) for name, one in jerks.items() if name not in known}}
+
+    @property
+    def responses(self) -> tuple[str, ...]:
+        """Names of the responses of `plant` and `closed`: those of the system, but rates of travels and forces."""
+        known = self.meanings.items()
+        return tuple(name for name, one in known if one.kind not in ("travel_rate", "strut_force", "jerk"))
 
     @property
     def parameters(self) -> tuple[StrutParameter, ...]:
@@ -135,7 +151,7 @@ class Plant(Record, Vehicle):
         checks.listed("responses", responses)
         names = [label(response) for response in responses]
         for name in names:
-            checks.one_of("response", name, self.responses)
+            checks.one_of("response", name, self.system.output_labels[: -2 * len(self.struts)])
         ports = self.system.output_labels[-2 * len(self.struts) :]
         return selected(self.system, [*names, *ports], self.system.input_labels, "plant")
 
@@ -197,31 +213,19 @@ def _ported(system: System, wheels: Sequence[str], struts: Sequence[str]) -> Sys
     deflections = [joined(strut, "deflection") for strut in struts]
     ports = [*deflections, *(f"{deflection}_rate" for deflection in deflections)]
     travels = [joined(strut, "suspension_travel") for strut in struts]
-    responses = dict.fromkeys([*(name for name in system.output_labels if name not in ports), *travels])
-    ported = selected(_extended(system, deflections, travels), [*responses, *ports], inputs, "plant")
+    own, port = system.output_labels, dict(zip(travels, deflections, strict=True))
+    derived = {f"{name}_rate": name for name in deflections}
+    copies = {**port, **{f"{travel}_rate": f"{name}_rate" for travel, name in port.items()}}
+    forces = {f"{tension}_force": tension for tension in inputs[-len(struts) :]}
+    derived, copies, forces = (
+        {name: of for name, of in further.items() if name not in own} for further in (derived, copies, forces)
+    )
+    whole = with_copies(with_rates(system, derived), copies, forces)
+    outputs = dict.fromkeys([*(name for name in own if name not in ports), *travels, *copies, *forces])
+    ported = selected(whole, [*outputs, *ports], inputs, "plant")
     for array in numbers_of(ported):
         array.flags.writeable = False
     return ported
-
-
-def _extended(system: System, deflections: Sequence[str], travels: Sequence[str]) -> System:
-    """Return the system with the travels and the rates of deflections that it lacks as further outputs."""
-    labels = system.output_labels
-    more = {travel: name for travel, name in zip(travels, deflections, strict=True) if travel not in labels}
-    rates = {f"{name}_rate": name for name in deflections if f"{name}_rate" not in labels}
-    same, row = ([labels.index(name) for name in names.values()] for names in (more, rates))
-    names = {"inputs": system.input_labels, "outputs": [*labels, *more, *rates]}
-    if not isinstance(system, control.StateSpace):
-        h = system.frdata
-        return control.frd(np.concatenate([h, h[same], 1j * system.omega * h[row]]), system.omega, **names)
-    a, b, c, d = system.A, system.B, system.C, system.D
-    for rate, direct in zip(rates, d[row], strict=True):
-        if direct.any():
-            given = system.input_labels[int(np.flatnonzero(direct)[0])]
-            needed = f"the output {rate!r} where an input acts on {rates[rate]}"
-            raise ValueError(f"system must have {needed}, got {given}")
-    c, d = np.vstack([c, c[same], c[row] @ a]), np.vstack([d, d[same], c[row] @ b])
-    return control.ss(a, b, c, d, states=system.state_labels, **names)
 
 
 def _meaning(name: str) -> Response:

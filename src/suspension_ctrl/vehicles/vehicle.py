@@ -13,8 +13,8 @@ import numpy as np
 
 from .. import checks
 from ..quantities import Real, frozen_array
-from .assembly import Assembly, Network, Position, Response, ResponseName, StrutParameter
-from .feedback import Dynamics, System, gains_by_order, selected
+from .assembly import Assembly, Network, Position, Response, ResponseName, StrutParameter, label
+from .feedback import Dynamics, System, gains_by_order, selected, with_rates
 from .handling import Mechanics
 from .modes import modes_of
 
@@ -62,7 +62,7 @@ class Vehicle(ABC):
         Parameters
         ----------
         responses : sequence of str or ("acceleration", x, y), optional
-            The first outputs; all named responses if not given.
+            The first outputs, of `meanings` any but a jerk; `responses` if not given.
 
         Returns
         -------
@@ -78,9 +78,9 @@ class Vehicle(ABC):
         """
 
     @property
+    @abstractmethod
     def responses(self) -> tuple[str, ...]:
-        """Names of the responses."""
-        return tuple(self.meanings)
+        """Names of the responses that `plant` and `closed` have if not told others; `meanings` has all."""
 
     @property
     def tyres(self) -> tuple[str, ...]:
@@ -104,7 +104,7 @@ class Vehicle(ABC):
             ``{"front": (10e3, 2000.0), ...}``, of a quarter car the pair alone; each > 0, an anti-roll bar >= 0.
             Keywords are a setting too: ``closed(front=(10e3, 2000.0), rear=(13e3, 2000.0))``.
         responses : sequence of str or ("acceleration", x, y), optional
-            The outputs; all named responses if not given.
+            The outputs, any of `meanings`; `responses` if not given.
 
         Returns
         -------
@@ -117,9 +117,19 @@ class Vehicle(ABC):
             If a coefficient is unknown, missing or out of range; about responses as `plant`.
         """
         q, values = len(self.struts), self.coefficients(setting, **struts)
+        names = self.responses if responses is None else responses
+        integrals = self.without_jerk(names)
         dynamics = Dynamics.of(self.networks, values, gains_by_order(self.parameters, values, q))
-        closed = dynamics.around(self.plant(responses))
-        return selected(closed, closed.output_labels[: -2 * q], closed.input_labels[:-q], "vehicle")
+        closed = dynamics.around(self.plant(list(dict.fromkeys(integrals))))
+        closed = selected(closed, closed.output_labels[: -2 * q], closed.input_labels[:-q], "vehicle")
+        rates = {str(name): str(one) for name, one in zip(names, integrals, strict=True) if name != one}
+        return selected(with_rates(closed, rates), [*map(label, names)], closed.input_labels, "vehicle")
+
+    def without_jerk(self, responses: Sequence[ResponseName]) -> list[ResponseName]:
+        """Return the responses with the acceleration in place of each jerk."""
+        checks.listed("responses", responses)
+        jerks = {name for name, meaning in self.meanings.items() if meaning.kind == "jerk"}
+        return [str(one).replace("jerk", "acceleration") if one in jerks else one for one in responses]
 
     def coefficients(self, setting: Setting | None = None, /, **struts: Any) -> dict[str, float]:
         """Return every coefficient by its name, defaults included; arguments and errors as of `closed`."""
@@ -159,7 +169,12 @@ class AssembledVehicle(Vehicle):
     @property
     def meanings(self) -> Mapping[str, Response]:
         """Meaning of each response, by name; accelerations ``("acceleration", x, y)`` are known beside these."""
-        return self.assembly.responses
+        return self.assembly.meanings
+
+    @property
+    def responses(self) -> tuple[str, ...]:
+        """Names of the responses of `plant` and `closed`: accelerations, travels and tyre loads."""
+        return tuple(self.assembly.responses)
 
     @property
     def contacts(self) -> Mapping[str, Position]:

@@ -65,7 +65,7 @@ class ACC(PlacedMeasure, word="ACC", unit="m/s^2"):
         """Return the acceleration at the place."""
         if not isinstance(self.where, str):
             return ("acceleration", *self.where)
-        known = vehicle.meanings.items()
+        known = ((name, vehicle.meanings[name]) for name in vehicle.responses)
         vertical = [r for r, m in known if m.kind == "acceleration" and m.where not in ("pitch", "roll")]
         if (name := f"{self.where or 'body'}_acceleration") not in vertical:
             places = ", ".join(r.removesuffix("_acceleration") for r in vertical)
