@@ -353,7 +353,7 @@ def test_points_of_the_body_and_other_outputs():
     [
         ({"speed": 0.0}, "speed must be finite and > 0 m/s, got 0.0"),
         ({"profile": ROAD.profile(2.5, STEP, 1)}, "profile must be longer by a step than the wheelbase of 2.7 m"),
-        ({"profile": ROAD}, "profile must be a Profile, such as road.profile"),
+        ({"profile": ROAD}, "profile must be a Profile or an event"),
         (
             {"profile": ROAD.profile(64.0, STEP, 1, (0.75, -0.75))},
             r"profile must have a track at y = 0 m, as by road.profile\(..., tracks=\(0, ...\)\), got tracks at ",

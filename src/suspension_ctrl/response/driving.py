@@ -1,5 +1,6 @@
-"""A vehicle driven over a profile: its responses in time, exact for a road that is straight between its points."""
+"""A vehicle driven over a profile or an event: its responses in time, exact for a road of straight pieces."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import control
@@ -8,27 +9,44 @@ from control import StateSpace
 from numpy.typing import ArrayLike
 
 from .. import checks
-from ..quantities import Real, column_headers, signal_unit
+from ..quantities import Complex, Real, column_headers, signal_unit
+from ..roads.events import Event
 from ..roads.profiles import Profile
+from ..roads.rigs import Rig
+from ..vehicles.assembly import ResponseName
 from ..vehicles.vehicle import Setting, Vehicle
 
 if TYPE_CHECKING:
     import pandas as pd
 
 _POINTS = 4  # of the profile in a wave of the fastest mode, at least: it meets that by 0.81, sinc^2 of 1/4
+_STEPS = 200  # in the shortest wave of an event or mode: straight pieces then attenuate it by 8e-5
+_SETTLED = 1e-3  # share of the slowest mode that is left at the end of an event
+_LONGEST = 60.0  # s, after an event
 _SAME_TRACK = 1e-3  # m
 _ONE = ((0.0, 0.0),)  # contact point of one wheel
 
 
 @overload
 def simulate(
-    closed: Vehicle, setting: Setting, profile: Profile, speed: float, *, periodic: bool = ...
+    closed: Vehicle,
+    setting: Setting,
+    profile: Profile | Event,
+    speed: float = ...,
+    *,
+    periodic: bool = ...,
+    responses: Sequence[ResponseName] | None = ...,
 ) -> "pd.DataFrame": ...
 
 
 @overload
 def simulate(
-    closed: StateSpace, profile: Profile, speed: float, contact_points: ArrayLike = ..., *, periodic: bool = ...
+    closed: StateSpace,
+    profile: Profile | Event,
+    speed: float = ...,
+    contact_points: ArrayLike = ...,
+    *,
+    periodic: bool = ...,
 ) -> "pd.DataFrame": ...
 
 
@@ -46,11 +64,12 @@ def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
         The vehicle; or ``vehicle.closed(...)``, from roads [m] and, if tyres are damped, rates [m/s].
     setting : mapping or (float, float)
         Of a vehicle the coefficients of its struts, as for ``vehicle.closed``.
-    profile : Profile
+    profile : Profile or Event
         The road, with a track under every wheel. With less than four points in a wave of the model's fastest mode
-        at this speed it is refined by straight interpolation.
+        at this speed it is refined by straight interpolation. Or an event such as `SpeedBump`, from the moment
+        when the foremost wheel meets it until the vehicle has settled; of steady waves one period.
     speed : float
-        Vehicle speed V [m/s].
+        Vehicle speed V [m/s]; not of a test rig.
     contact_points : (r, 2) array_like
         Of a model the points where the roads touch, x forward and y to the left [m]; by default one wheel on the
         track at y = 0. A vehicle knows its own.
@@ -64,8 +83,9 @@ def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
     Returns
     -------
     DataFrame
-        A row for each step of the profile: ``time [s]``, ``distance [m]`` of the origin along the road, and
-        every response with its unit, ``body_acceleration [m/s^2]``. On a kink of the road the load of a damped
+        A row for each step of the profile: ``time [s]``, ``distance [m]`` of the origin along the road (of an
+        obstacle from its beginning, on a test rig none), and every response with its unit,
+        ``body_acceleration [m/s^2]``. On a kink of the road the load of a damped
         tyre jumps and is given as the mean of both sides.
 
     Raises
@@ -78,12 +98,9 @@ def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
     --------
     A step of 50 mm at 10 m/s compresses the strut, which then swings out and comes to rest:
 
-    >>> import numpy as np
     >>> import suspension_ctrl as sc
-    >>> distance = np.arange(0.0, 60.0, 0.1)  # m
-    >>> step = sc.Profile(distance, np.where(distance < 10.0, 0.0, 0.05)[:, None])
     >>> car = sc.QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3)
-    >>> history = sc.simulate(car, {"spring": 22e3, "damper": 1500.0}, step, speed=10.0)
+    >>> history = sc.simulate(car, {"spring": 22e3, "damper": 1500.0}, sc.Step(height=0.05), speed=10.0)
     >>> list(history.columns)
     ['time [s]', 'distance [m]', 'body_acceleration [m/s^2]', 'suspension_travel [m]', 'tyre_load [N]']
     >>> travel = 1e3 * history["suspension_travel [m]"]
@@ -95,30 +112,46 @@ def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
 
 
 def _drive_vehicle(
-    vehicle: Vehicle, setting: Setting, profile: Profile, speed: float, *, periodic: bool = False
+    vehicle: Vehicle,
+    setting: Setting,
+    profile: Profile | Event,
+    speed: float = 0.0,
+    *,
+    periodic: bool = False,
+    responses: Sequence[ResponseName] | None = None,
 ) -> "pd.DataFrame":
-    return _drive(vehicle.closed(setting), profile, speed, vehicle.contact_points, periodic=periodic)
+    closed = vehicle.closed(setting, responses=responses)
+    return _drive(closed, profile, speed, vehicle.contact_points, periodic=periodic)
 
 
 def _drive(
-    closed: StateSpace, profile: Profile, speed: float, contact_points: ArrayLike = _ONE, *, periodic: bool = False
+    closed: StateSpace,
+    profile: Profile | Event,
+    speed: float = 0.0,
+    contact_points: ArrayLike = _ONE,
+    *,
+    periodic: bool = False,
 ) -> "pd.DataFrame":
     import pandas as pd
 
-    checks.positive("speed", speed, "m/s")
-    if not isinstance(profile, Profile):
-        raise ValueError(f"profile must be a Profile, such as road.profile(...), got {checks.shown(profile)}")
+    if not isinstance(profile, Profile | Event):
+        raise ValueError(f"profile must be a Profile or an event, got {checks.shown(profile)}")
     model = _Model.of(closed)
     points = _checked_points(contact_points, model.roads)
-    profile = _refined(profile, _coarsest(closed, speed), periodic)
-    wheels = _Wheels.on(profile, points, periodic)
-    dt = profile.step / speed
+    if isinstance(profile, Event):
+        periodic = profile.steady
+        wheels, dt = _Wheels.during(profile, points, speed, closed.poles())
+    else:
+        checks.positive("speed", speed, "m/s")
+        profile = _refined(profile, _coarsest(closed, speed), periodic)
+        wheels, dt = _Wheels.on(profile, points, periodic), profile.step / speed
     states = _states(model, wheels, dt, periodic)
     responses = states @ model.c.T + wheels.elevation() @ model.d.T + wheels.rise() / dt @ model.e.T
     columns = column_headers(closed.output_labels, {name: signal_unit(name) for name in closed.output_labels})
     table, steps = pd.DataFrame(responses, columns=columns), np.arange(len(states))
     table.insert(0, "time [s]", dt * steps)
-    table.insert(1, "distance [m]", wheels.start + profile.step * steps)
+    if not isinstance(profile, Rig):
+        table.insert(1, "distance [m]", wheels.start + speed * dt * steps)
     return table
 
 
@@ -169,6 +202,21 @@ class _Wheels(NamedTuple):
         tracks = [_track(profile, y) for y in contacts[:, 1].tolist()]
         heights = profile.height[index, np.array(tracks)[:, None]]
         return cls(heights, ahead - first, float(profile.distance[0] - (0.0 if periodic else x.min())))
+
+    @classmethod
+    def during(cls, event: Event, contacts: Real, speed: float, poles: Complex) -> tuple["_Wheels", float]:
+        """Return the wheels during an event until the modes of a model have settled, and the time step [s]."""
+        end = float(event.knots(contacts, speed)[-1])
+        if not event.steady:
+            slowest = float(-poles.real.max(initial=-np.inf))
+            end += min(_LONGEST, -np.log(_SETTLED) / slowest) if slowest > 0 else _LONGEST
+        fastest = float(np.abs(poles[poles.imag != 0]).max(initial=0.0)) / (2 * np.pi)
+        steps = int(np.ceil(end * max(fastest, 1 / event.finest(speed)) * _STEPS))
+        dt = end / steps
+        time = dt * np.arange(-1, steps + 2, dtype=float)
+        height = event.elevation(time, contacts, speed)
+        windows = np.lib.stride_tricks.sliding_window_view(height, 4, axis=0)
+        return cls(windows, np.zeros(len(contacts)), -float(contacts[:, 0].max())), dt
 
     def elevation(self) -> Real:
         """Return the road's elevation (k, r) [m]."""

@@ -1,0 +1,93 @@
+"""Driving over events beside profiles of the same shape, frequency responses, Runge and Kutta, other programs."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import suspension_ctrl as sc
+from garage import DRIVER, FULL, HALF, QUARTER, struts_of
+
+BUMP = sc.SpeedBump(height=0.05, length=2.0)
+
+
+def test_a_car_over_a_raised_cosine_is_that_of_other_programs():
+    """250 kg, 20 kg, 20 kN/m, 900 N s/m, tyre 140 kN/m, 50 mm by 2 m at 10 m/s: values of a coursework to 1e-4.
+
+    github jubjamie/Half-Car-Model-Dynamics @5962518a; accelerations to 0.001 m/s^2, travels to 0.01 mm.
+    """
+    car = sc.QuarterCar(body_mass=250.0, wheel_mass=20.0, tyre_stiffness=140e3)
+    history = sc.simulate(car, (20e3, 900.0), BUMP, 10.0)
+    acceleration, travel = history["body_acceleration [m/s^2]"], 1e3 * history["suspension_travel [m]"]
+    assert [acceleration.max(), acceleration.min()] == pytest.approx([4.685, -4.323], abs=1e-3)
+    assert [travel.min(), travel.max()] == pytest.approx([-38.68, 31.93], abs=0.01)
+
+
+@pytest.mark.parametrize("car", [QUARTER, replace(QUARTER, tyre_damping=150.0), DRIVER.on(HALF), FULL])
+def test_an_event_is_a_profile_of_its_shape(car):
+    """With 1 mm between points of the profile to 1e-3 of the largest response."""
+    distance, tracks = np.arange(-5.0, 12.0, 1e-3), tuple(np.unique(car.contact_points[:, 1]).tolist())
+    height = np.tile(BUMP.height_at(distance)[:, None], len(tracks))
+    setting = struts_of(car)
+    found = sc.simulate(car, setting, BUMP, 10.0)
+    expected = sc.simulate(car, setting, sc.Profile(distance, height, tracks), 10.0)
+    at = found["distance [m]"].to_numpy()
+    inside = (at > -0.2) & (at < expected["distance [m]"].iloc[-1])
+    for name in found.columns[2:]:
+        other = np.interp(at[inside], expected["distance [m]"], expected[name])
+        np.testing.assert_allclose(found[name][inside], other, rtol=0, atol=1e-3 * np.abs(other).max())
+
+
+def test_a_steady_sine_is_the_frequency_response():
+    frequency, speed, length = 1.7, 11.9, 7.0
+    closed = FULL.closed(struts_of(FULL))
+    x = FULL.contact_points[:, 0]
+    late = np.exp(-2j * np.pi * frequency * (x.max() - x) / speed)
+    at_road = {
+        sc.Sine(height=0.01, length=length): late,
+        sc.RigSine(motion="roll", amplitude=0.01, frequency=frequency): np.sign(FULL.contact_points[:, 1]),
+    }
+    for event, by_wheel in at_road.items():
+        history = sc.simulate(FULL, struts_of(FULL), event, speed).drop(columns=["distance [m]"], errors="ignore")
+        if isinstance(event, sc.RigSine):  # tracks differ between the axles
+            by_wheel = by_wheel * np.abs(FULL.contact_points[:, 1]) / np.abs(FULL.contact_points[:, 1]).max()
+        amplitude = 0.01 * np.abs(closed(2j * np.pi * frequency) @ by_wheel)
+        for column, one in zip(history.columns[1:], amplitude, strict=True):
+            assert np.ptp(history[column]) / 2 == pytest.approx(one, rel=3e-4, abs=1e-4 * amplitude.max()), column
+
+
+def test_a_sweep_on_the_rig_is_that_of_runge_and_kutta():
+    sweep = sc.RigChirp(motion="pitch", amplitude=0.004, lowest=0.5, highest=15.0, waves=15.5)
+    history = sc.simulate(HALF, struts_of(HALF), sweep)
+    assert "distance [m]" not in history
+    closed, time = HALF.closed(struts_of(HALF)), history["time [s]"].to_numpy()
+
+    def rate(t, x):
+        return closed.A @ x + closed.B @ sweep.elevation(np.array([t]), HALF.contact_points, 0.0)[0]
+
+    states = solve_ivp(rate, (0, time[-1]), np.zeros(closed.nstates), t_eval=time, rtol=1e-9, atol=1e-12).y
+    expected = closed.C @ states + closed.D @ sweep.elevation(time, HALF.contact_points, 0.0).T
+    for column, one in zip(history.columns[1:], expected, strict=True):
+        np.testing.assert_allclose(history[column], one, rtol=0, atol=3e-4 * np.abs(one).max())
+
+
+def test_a_vehicle_settles_at_the_level_of_a_step():
+    names = ["body_displacement", "suspension_travel", "body_jerk"]
+    history = sc.simulate(QUARTER, (22e3, 1500.0), sc.Step(height=0.04), 10.0, responses=names)
+    assert list(history.columns[2:]) == ["body_displacement [m]", "suspension_travel [m]", "body_jerk [m/s^3]"]
+    last = history.iloc[-1]
+    assert last["body_displacement [m]"] == pytest.approx(0.04, rel=2e-3)
+    assert abs(last["suspension_travel [m]"]) < 2e-3 * history["suspension_travel [m]"].abs().max()
+
+
+def test_jerk_in_time_is_the_rate_of_the_acceleration():
+    names = ["body_acceleration", "body_jerk"]
+    history = sc.simulate(QUARTER, (22e3, 1500.0), BUMP, 8.0, responses=names)
+    time, acceleration, jerk = (history[name].to_numpy() for name in history.columns[[0, 2, 3]])
+    np.testing.assert_allclose(np.gradient(acceleration, time), jerk, rtol=0, atol=3e-3 * np.abs(jerk).max())
+
+
+def test_an_obstacle_needs_a_speed():
+    with pytest.raises(ValueError, match=r"^speed .*got 0"):
+        sc.simulate(QUARTER, (22e3, 1500.0), BUMP)
