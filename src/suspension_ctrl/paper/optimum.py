@@ -47,15 +47,15 @@ def least_within_limit(
     first, last = len(least), len(least) + len(travels)
     scale = smooth.evaluate(starts[:1])[0, :first].max()
 
-    def scores(point: Real) -> Real:
+    def values_at(point: Real) -> Real:
         return smooth.evaluate([lower + np.clip(point[:-1], 0, 1) * width])[0]
 
     def spare_travel(point: Real) -> Real:
-        return 1 - scores(point)[first:last] / limit
+        return 1 - values_at(point)[first:last] / limit
 
     def room(point: Real) -> Real:
         """Return the distance (c,) from the slack variable, the last value of a point, and from other limits."""
-        values = scores(point)
+        values = values_at(point)
         return np.concatenate([point[-1] - values[:first] / scale, -values[last:]])
 
     def held(end: Real) -> bool:
