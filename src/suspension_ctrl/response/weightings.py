@@ -25,7 +25,7 @@ class TabulatedWeighting:
 
     @property
     def breakpoints(self) -> tuple[float, ...]:
-        """Frequencies at which the factor has a kink [Hz]: the bands inside the table."""
+        """Frequencies at which the slope of the factor changes [Hz]: bands of the table, except both ends."""
         return tuple(np.exp(self._table()[0][1:-1]).tolist())
 
     def factor(self, f: ArrayLike) -> Real:
@@ -150,7 +150,7 @@ def _filter(name: str) -> control.TransferFunction:
 
 @lru_cache
 def _parameters() -> dict[str, dict[str, float]]:
-    """Rows of the standard's table by name: gain, quality factors, frequencies [Hz]; NaN for an empty cell."""
+    """Return the parameters of the standard by weighting: gain, quality factors, frequencies [Hz], NaN if none."""
     return {
         row["weighting"]: {key: float(row[key] or "nan") for key in row if key not in ("weighting", "use")}
         for row in datafiles.rows("standards/iso8041_parameters.csv")
@@ -158,7 +158,7 @@ def _parameters() -> dict[str, dict[str, float]]:
 
 
 def _band_limits(p: dict[str, float]) -> control.TransferFunction:
-    """Two-pole Butterworth high pass at f1 and low pass at f2."""
+    """Return the band limits: a two-pole Butterworth high pass at f1 and low pass at f2."""
     w1, q = 2 * math.pi * p["f1_hz"], 1 / math.sqrt(2)
     high_pass = control.tf([1 / w1**2, 0, 0], _quadratic(p["f1_hz"], q))
     low_pass = control.tf([1], _quadratic(p["f2_hz"], q))
@@ -166,7 +166,7 @@ def _band_limits(p: dict[str, float]) -> control.TransferFunction:
 
 
 def _transition(p: dict[str, float]) -> control.TransferFunction:
-    """Weight on acceleration below f3, on velocity above f4; either or both may be infinite."""
+    """Return the acceleration-velocity transition: 1 at low frequency, as 1/f above f4 (1/f^2 without f3)."""
     if math.isinf(p["f4_hz"]):
         return control.tf([1], [1])
     lead = [1] if math.isinf(p["f3_hz"]) else [1 / (2 * math.pi * p["f3_hz"]), 1]
@@ -174,7 +174,7 @@ def _transition(p: dict[str, float]) -> control.TransferFunction:
 
 
 def _upward_step(p: dict[str, float]) -> control.TransferFunction:
-    """Step from (f5/f6)^2 at low to one at high frequency; absent where both are infinite."""
+    """Return the upward step: from (f5/f6)^2 at low frequency to 1 at high; 1 if both are infinite."""
     if math.isinf(p["f5_hz"]):
         return control.tf([1], [1])
     step = (p["f5_hz"] / p["f6_hz"]) ** 2

@@ -33,7 +33,7 @@ class Obstacle(Event):
     @property
     @abstractmethod
     def places(self) -> tuple[float, ...]:
-        """Distances [m] from 0 on between which the elevation is smooth."""
+        """Distances [m] of the ends and kinks of the elevation, from 0 on."""
 
     @property
     @abstractmethod
@@ -74,7 +74,7 @@ class Shape(Obstacle):
     @property
     @abstractmethod
     def corners(self) -> tuple[float, ...]:
-        """Distances [m] from 0 on between which the shape is smooth."""
+        """Distances [m] of the ends and kinks of the shape, from 0 on."""
 
     @abstractmethod
     def point_height(self, distance: Real) -> Real:
@@ -91,7 +91,7 @@ class Shape(Obstacle):
 
     @property
     def places(self) -> tuple[float, ...]:
-        """Distances [m] from 0 on between which the elevation is smooth."""
+        """Distances [m] of the ends and kinks of the elevation, from 0 on."""
         return tuple(sorted({corner + end for corner in self.corners for end in (0.0, self.contact_length)}))
 
     @property
@@ -127,7 +127,7 @@ class SpeedBump(Shape):
 
     @property
     def corners(self) -> tuple[float, ...]:
-        """Distances [m] between which the shape is smooth."""
+        """Distances [m] of the ends and kinks of the shape."""
         return 0.0, self.length
 
     def point_height(self, distance: Real) -> Real:
@@ -173,9 +173,9 @@ class TrapezoidalBump(Polygon):
     Parameters
     ----------
     height, length : float
-        Height, and length of the whole [m].
+        Height and total length [m].
     ramp : float
-        Length of each flank, at most half of the whole [m].
+        Length of each flank, at most half of the total length [m].
     contact_length, side
         As of `SpeedBump`.
 
@@ -198,7 +198,7 @@ class TrapezoidalBump(Polygon):
 
     @property
     def corners(self) -> tuple[float, ...]:
-        """Distances [m] between which the shape is smooth."""
+        """Distances [m] of the ends and kinks of the shape."""
         return 0.0, self.ramp, self.length - self.ramp, self.length
 
     @property
@@ -230,7 +230,7 @@ class Ramp(Polygon):
 
     @property
     def corners(self) -> tuple[float, ...]:
-        """Distances [m] between which the shape is smooth."""
+        """Distances [m] of the ends and kinks of the shape."""
         return 0.0, self.length
 
     @property
@@ -253,7 +253,7 @@ class _Rectangle(Shape):
 
     @property
     def corners(self) -> tuple[float, ...]:
-        """Distances [m] between which the shape is smooth."""
+        """Distances [m] of the ends and kinks of the shape."""
         return 0.0, self.length
 
     def point_height(self, distance: Real) -> Real:
@@ -362,7 +362,7 @@ class Step(Shape):
 
     @property
     def corners(self) -> tuple[float, ...]:
-        """Distances [m] between which the shape is smooth."""
+        """Distances [m] of the ends and kinks of the shape."""
         return (0.0,)
 
     def point_height(self, distance: Real) -> Real:

@@ -105,7 +105,7 @@ class TwoSlopeRoad(Road):
         return at_corner * self._shape(f / speed) / speed
 
     def _shape(self, n: Real) -> Real:
-        """Spectrum over wavenumbers [cycle/m], one at the corner."""
+        """Return the spectrum at wavenumbers (n,) [cycle/m], divided by its value at the corner."""
         ratio = n / self.corner
         return ratio ** -np.where(ratio < 1, self.lower_exponent, self.upper_exponent)
 

@@ -13,7 +13,7 @@ doubles if more than a fifth of the mutants survived, and halves otherwise.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import ceil
 from typing import ClassVar
 
@@ -21,8 +21,7 @@ import numpy as np
 from deap.base import Toolbox
 from numpy.typing import NDArray
 
-from .. import checks
-from ..quantities import Integer, Real
+from ..quantities import Integer, Real, unit
 from .constraints import any_feasible, constrained, ideal_with, violations
 from .evaluation import SearchProblem
 from .kinds import box
@@ -35,7 +34,7 @@ _SUCCESS = 0.2
 """Share of surviving mutants above which the step grows (I. Rechenberg, "Evolutionsstrategie", 1973)."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Gamultiobj(Generational):
     """Settings of the controlled NSGA-II: `population` evaluations at the start and in each iteration.
 
@@ -47,11 +46,6 @@ class Gamultiobj(Generational):
         Share of children made by crossover; the others are mutants.
     pareto_fraction : float
         Largest share of the survivors from the first front, as long as there are other fronts.
-
-    Raises
-    ------
-    ValueError
-        If a setting is out of range.
 
     Examples
     --------
@@ -65,16 +59,10 @@ class Gamultiobj(Generational):
     True
     """
 
-    population: int
-    crossover_fraction: float = 0.8
-    pareto_fraction: float = 0.35
+    crossover_fraction: float = field(default=0.8, metadata=unit("", 0, 1))
+    pareto_fraction: float = field(default=0.35, metadata=unit("", 0, 1))
 
     phases: ClassVar[tuple[str, ...]] = ("sample", "evaluate", "tournament", "mate", "mutate", "select")
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "population", checks.at_least("population", self.population, 4))
-        checks.within("crossover_fraction", self.crossover_fraction, 0, 1)
-        checks.within("pareto_fraction", self.pareto_fraction, 0, 1)
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
         """Return the toolbox of the algorithm for a problem."""
@@ -91,7 +79,7 @@ class Gamultiobj(Generational):
     def search(
         self, problem: SearchProblem, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
     ) -> Iterator[State]:
-        """Yield the state after the start and each iteration, without end; continue after a given `state`."""
+        """Yield the states of the search, see `Optimiser.search`."""
         size, m = self.population, len(problem.objectives)
         crossed = round(self.crossover_fraction * size)
         state = state or problem.before_the_start()

@@ -1,7 +1,7 @@
 """MOEA/D-DRA (Zhang, Liu and Li 2009) as a DEAP toolbox over arrays."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 import numpy as np
@@ -9,12 +9,12 @@ from deap.base import Toolbox
 
 from .. import checks
 from ..compiled import call_compiled
-from ..quantities import Real
+from ..quantities import Real, unit
 from . import decomposition, operators
 from .constraints import constrained, ideal_with
 from .evaluation import SearchProblem
 from .kinds import box
-from .population import State
+from .population import Settings, State
 from .problem import Minimisable
 from .selection import select_survivors
 from .sweep import Decomposed, sweep_batch, sweep_sequential
@@ -22,8 +22,8 @@ from .sweep import Decomposed, sweep_batch, sweep_sequential
 _SWEEPS = {"sequential": sweep_sequential, "batch": sweep_batch}
 
 
-@dataclass(frozen=True, kw_only=True)
-class MoeadDra:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class MoeadDra(Settings):
     """Settings of MOEA/D-DRA: `population` evaluations at the start, a fifth of that in each iteration.
 
     Parameters
@@ -63,11 +63,6 @@ class MoeadDra:
         "sequential", the definition: each child is made of the population after the replacements before it.
         "batch": all children of an iteration are made of the population at its start and evaluated in one call.
 
-    Raises
-    ------
-    ValueError
-        If a setting is out of range.
-
     Examples
     --------
     An iteration evaluates a fifth of the population. As each objective is divided by its span, tyre loads in
@@ -83,17 +78,16 @@ class MoeadDra:
     [1000.0, 5000.0]
     """
 
-    population: int
-    neighbourhood: float | None = None
-    neighbour_probability: float = 0.9
-    replacement_limit: float | None = None
-    scale_factor: float = 0.5
-    repair_reach: float = 1.0
-    mutation_probability: float | None = None
-    mutation_eta: float = 20.0
-    tournament: int = 10
-    utility_period: int = 50
-    utility_threshold: float = 0.001
+    neighbourhood: float | None = field(default=None, metadata=unit("", 0, 1))
+    neighbour_probability: float = field(default=0.9, metadata=unit("", 0, 1))
+    replacement_limit: float | None = field(default=None, metadata=unit("", 0, 1))
+    scale_factor: float = field(default=0.5, metadata=unit(""))
+    repair_reach: float = field(default=1.0, metadata=unit("", 0, 1))
+    mutation_probability: float | None = field(default=None, metadata=unit("", 0, 1))
+    mutation_eta: float = field(default=20.0, metadata=unit(""))
+    tournament: int = field(default=10, metadata={"least": 1})
+    utility_period: int = field(default=50, metadata={"least": 1})
+    utility_threshold: float = field(default=0.001, metadata=unit(""))
     normalise: bool = True
     objective_scales: tuple[float, ...] | None = None
     update: str = "sequential"
@@ -101,20 +95,12 @@ class MoeadDra:
     phases: ClassVar[tuple[str, ...]] = ("sample", "evaluate", "choose_subproblems", "sweep", "update_utility")
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "population", checks.at_least("population", self.population, 4))
-        for name in ("scale_factor", "mutation_eta", "utility_threshold"):
-            checks.positive(name, getattr(self, name))
-        checks.within("repair_reach", self.repair_reach, 0, 1)
-        for name in ("neighbourhood", "neighbour_probability", "replacement_limit", "mutation_probability"):
-            if getattr(self, name) is not None:
-                checks.within(name, getattr(self, name), 0, 1)
-        for name in ("tournament", "utility_period"):
-            object.__setattr__(self, name, checks.at_least(name, getattr(self, name), 1))
+        super().__post_init__()
         checks.one_of("normalise", self.normalise, (True, False))
         if self.objective_scales is not None:
             for scale in np.ravel(self.objective_scales):
                 checks.positive("objective_scales", scale)
-            object.__setattr__(self, "objective_scales", tuple(np.ravel(self.objective_scales).tolist()))
+            self._keep(objective_scales=tuple(np.ravel(self.objective_scales).tolist()))
             if self.normalise:
                 raise ValueError(f"objective_scales must be None with normalise, got {self.objective_scales!r}")
         checks.one_of("update", self.update, _SWEEPS)
@@ -161,10 +147,7 @@ class MoeadDra:
     def search(
         self, problem: SearchProblem, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
     ) -> Iterator[State]:
-        """Yield the state after the start and each iteration, without end; continue after a given `state`.
-
-        Figure 4 of the paper.
-        """
+        """Yield the states of the search in Figure 4 of the paper, see `Optimiser.search`."""
         size, m = self.population, len(problem.objectives)
         vectors = decomposition.weight_vectors(size, m)
         corners = vectors.argmax(axis=0)  # the unit vectors, wherever they stand

@@ -1,13 +1,14 @@
 """NSGA-II (Deb et al. 2002) as a DEAP toolbox over arrays."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 import numpy as np
 from deap.base import Toolbox
 
 from .. import checks
+from ..quantities import unit
 from .constraints import any_feasible, constrained, ideal_with
 from .deap_adapter import select_with_deap
 from .evaluation import SearchProblem
@@ -24,7 +25,7 @@ _SELECTIONS = {
 }
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Nsga2(Generational):
     """Settings of NSGA-II: `population` evaluations at the start and in each iteration.
 
@@ -44,11 +45,6 @@ class Nsga2(Generational):
         Survivor selection on arrays, or DEAP's ``selNSGA2`` with its sorting of order m n^2 or its faster one.
         "array" and "deap-standard" keep the same survivors except for ties.
 
-    Raises
-    ------
-    ValueError
-        If a setting is out of range.
-
     Examples
     --------
     An iteration evaluates a whole population; the survivors cover the front from soft to firm:
@@ -63,22 +59,16 @@ class Nsga2(Generational):
     [1000.0, 5000.0]
     """
 
-    population: int
-    crossover_probability: float = 0.9
-    crossover_eta: float = 20.0
-    mutation_probability: float | None = None
-    mutation_eta: float = 20.0
+    crossover_probability: float = field(default=0.9, metadata=unit("", 0, 1))
+    crossover_eta: float = field(default=20.0, metadata=unit(""))
+    mutation_probability: float | None = field(default=None, metadata=unit("", 0, 1))
+    mutation_eta: float = field(default=20.0, metadata=unit(""))
     selection: str = "array"
 
     phases: ClassVar[tuple[str, ...]] = ("sample", "evaluate", "tournament", "mate", "mutate", "select")
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "population", checks.at_least("population", self.population, 4))
-        checks.within("crossover_probability", self.crossover_probability, 0, 1)
-        checks.positive("crossover_eta", self.crossover_eta)
-        if self.mutation_probability is not None:
-            checks.within("mutation_probability", self.mutation_probability, 0, 1)
-        checks.positive("mutation_eta", self.mutation_eta)
+        super().__post_init__()
         checks.one_of("selection", self.selection, _SELECTIONS)
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
@@ -100,10 +90,7 @@ class Nsga2(Generational):
     def search(
         self, problem: SearchProblem, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
     ) -> Iterator[State]:
-        """Yield the state after the start and each iteration, without end; continue after a given `state`.
-
-        Figure 3 of the paper.
-        """
+        """Yield the states of the search in Figure 3 of the paper, see `Optimiser.search`."""
         size, m = self.population, len(problem.objectives)
         state = state or problem.before_the_start()
         designs, values, ideal, evaluations = state.arrays()

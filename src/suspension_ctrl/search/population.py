@@ -1,14 +1,15 @@
 """Populations: designs with objectives and constraints, the base class of states, runs and traces."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..quantities import Bool, FrozenMapping, Real, Record, frozen_array
+from .. import checks
+from ..quantities import Bool, Checked, FrozenMapping, Real, Record, frozen_array
 from .constraints import violations
 from .indicators import non_dominated
 
@@ -88,10 +89,21 @@ def _with_unit(header: str, value: float) -> str:
     return f"{name} {value:.5g} {unit.removesuffix(']')}".rstrip()
 
 
-class Generational:
-    """Settings of an algorithm that evaluates a whole population in each iteration."""
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Settings(Checked):
+    """Settings of an optimiser; whole numbers are at least the ``least`` of their fields."""
 
-    population: int
+    population: int = field(metadata={"least": 4})
+
+    def __post_init__(self) -> None:
+        for one in (one for one in self._fields() if "least" in one.metadata):
+            self._keep(**{one.name: checks.at_least(one.name, getattr(self, one.name), one.metadata["least"])})
+        super().__post_init__()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Generational(Settings):
+    """Settings of an algorithm that evaluates a whole population in each iteration."""
 
     def evaluations_per_iteration(self, _objectives: int, /) -> int:
         """Return the number of evaluations in an iteration."""

@@ -41,7 +41,7 @@ def sobol_points(rng: np.random.Generator, size: int, variables: int) -> Iterato
 _POINTS: dict[str, Callable[..., Iterator[Real]]] = {"random": random_points, "sobol": sobol_points}
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Sampling(Generational):
     """Settings of a sample: `population` evaluations at the start and in each iteration.
 
@@ -55,11 +55,6 @@ class Sampling(Generational):
     points : {"random", "sobol"}
         Independent points, or a scrambled Sobol sequence.
 
-    Raises
-    ------
-    ValueError
-        If a setting is out of range.
-
     Examples
     --------
     The baseline of any search: the non-dominated designs of a Sobol sequence of 1100 points.
@@ -72,13 +67,12 @@ class Sampling(Generational):
     (1100, True)
     """
 
-    population: int
     points: str = "sobol"
 
     phases: ClassVar[tuple[str, ...]] = ("evaluate", "filter")
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "population", checks.at_least("population", self.population, 4))
+        super().__post_init__()
         checks.one_of("points", self.points, _POINTS)
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
@@ -92,7 +86,7 @@ class Sampling(Generational):
     def search(
         self, problem: SearchProblem, toolbox: Toolbox, rng: np.random.Generator, state: State | None = None
     ) -> Iterator[State]:
-        """Yield the state after the start and each iteration, without end; continue after a given `state`."""
+        """Yield the states of the search, see `Optimiser.search`."""
         m, size = len(problem.objectives), self.population
         if state is not None:
             seeds: Any = rng.bit_generator.seed_seq

@@ -6,14 +6,12 @@ from contextlib import contextmanager
 from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
+
+import pandas as pd
 
 from .. import escaping, tables
 from . import lock, plans
-
-if TYPE_CHECKING:
-    import pandas as pd
-
 
 VIOLATION = "violation"
 """Column of the violation in a final population, if the problem has constraints."""
@@ -33,11 +31,11 @@ class NotStoredError(OSError):
 class StoredRun(NamedTuple):
     """The tables of a finished run."""
 
-    course: "pd.DataFrame"  # a row per iteration, or per budget and set judged
-    final: "pd.DataFrame"  # a row per design of its final population; `VIOLATION` where there are constraints
+    course: pd.DataFrame  # a row per iteration, or per budget and set judged
+    final: pd.DataFrame  # a row per design of its final population; `VIOLATION` where there are constraints
 
     @property
-    def feasible(self) -> "pd.DataFrame":
+    def feasible(self) -> pd.DataFrame:
         """Rows of the final population that meet all constraints."""
         return self.final[self.final[VIOLATION] == 0] if VIOLATION in self.final else self.final
 
@@ -131,10 +129,8 @@ def _read_record(path: Path) -> dict[str, Any]:
         raise _SpoiltError(path, "must hold numbers of rows and digests as they were stored") from None
 
 
-def _read_part(path: Path, record: Mapping[str, Any]) -> "pd.DataFrame":
+def _read_part(path: Path, record: Mapping[str, Any]) -> pd.DataFrame:
     """Return a table of a run, checked against its record."""
-    import pandas as pd
-
     if not path.is_file():  # a folder, a pipe
         raise _SpoiltError(path, "must be a regular file")
     try:

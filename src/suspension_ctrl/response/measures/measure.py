@@ -1,4 +1,4 @@
-"""Measures in general, and those of a user's own."""
+"""Base class of all measures, with their texts, and measures defined by a user's function."""
 
 import inspect
 import re

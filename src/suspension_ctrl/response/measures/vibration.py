@@ -58,7 +58,7 @@ class ACC(PlacedMeasure, word="ACC", unit="m/s^2"):
     """
 
     def in_case(self, case: LoadCase, weighting: Weighting | None, /) -> CaseMeasure:
-        """Return the measure in a load case; ValueError if the vehicle lacks the place."""
+        """Return the measure in a load case; ValueError if the vehicle has no such place."""
         return CaseMeasure((Term(self.response(case.vehicle), weighting),))
 
     def response(self, vehicle: Vehicle) -> ResponseName:
@@ -80,7 +80,7 @@ class WheelMeasure(PlacedMeasure):
     kind: ClassVar[str]
 
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
-        """Return the measure in a load case; ValueError if the vehicle lacks the place."""
+        """Return the measure in a load case; ValueError if the vehicle has no such place."""
         return CaseMeasure(tuple(map(Term, self.responses(case.vehicle))), largest=True)
 
     def responses(self, vehicle: Vehicle) -> list[str]:
@@ -159,7 +159,7 @@ class DLC(DTL, word="DLC", unit="-"):
     """
 
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
-        """Return the measure in a load case; ValueError if the vehicle lacks masses or the place."""
+        """Return the measure in a load case; ValueError if the vehicle has no masses or no such place."""
         responses = self.responses(assembled(case.vehicle))
         return CaseMeasure(tuple(Term(name, relative=True) for name in responses), largest=True)
 
@@ -200,7 +200,7 @@ class RootSumSquare(Measure, word=""):
         return cls([_term(part.strip()) for part in _PLUS.split(rest)], **options)
 
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
-        """Return the measure in a load case; ValueError unless the vehicle has its responses."""
+        """Return the measure in a load case; ValueError for a response that the vehicle does not have."""
         for term in self.terms:
             if isinstance(term.response, str):
                 checks.one_of("response", term.response, case.vehicle.meanings)
