@@ -23,6 +23,9 @@ OPTIMISERS = {kind.__name__: kind for kind in (Nsga2, MoeadDra, Gamultiobj, Samp
 LARGEST = 2000.0
 """Maximum size of a file [MB]."""
 
+_ARRAYS = ("designs", "objectives", "constraints")
+_NUMBERS = ("evaluations", "seed", "failures", "repeats")
+
 
 def save(run: Run, path: Path) -> None:
     """Write a run to a file atomically."""
@@ -34,12 +37,13 @@ def save(run: Run, path: Path) -> None:
         raise ValueError(f"optimiser must be one of {', '.join(OPTIMISERS)} to be saved, got {kind}")
     text = {
         "optimiser": [kind, asdict(optimiser)],
-        "generator": dict(generator), "headers": run.headers, "columns": run.log.columns,
-        "seed": run.seed, "failures": run.failures, "repeats": run.repeats, "evaluations": state.evaluations,
-    }  # fmt: skip
+        "generator": dict(generator),
+        "headers": run.headers,
+        "columns": run.log.columns,
+        **{name: getattr(run, name) for name in _NUMBERS},
+    }
     arrays = {f"memory_{name}": value for name, value in state.memory.items()}
-    names = ("designs", "objectives", "constraints")
-    arrays |= {name: getattr(run, name) for name in names} | {f"state_{n}": getattr(state, n) for n in names}
+    arrays |= {name: getattr(run, name) for name in _ARRAYS} | {f"state_{n}": getattr(state, n) for n in _ARRAYS}
     arrays |= {"ideal": state.ideal, "rows": np.array(run.log.rows), "text": np.array(json.dumps(text))}
     tables.write_whole(path, lambda temporary: _write(temporary, arrays))
 
@@ -59,22 +63,21 @@ def load(path: Path) -> Run:
         kind, settings = text["optimiser"]
         optimiser = OPTIMISERS[kind](**settings)
         memory = {name.removeprefix("memory_"): x for name, x in arrays.items() if name.startswith("memory_")}
-        state = State(
-            designs=arrays["state_designs"], objectives=arrays["state_objectives"],
-            constraints=arrays["state_constraints"], ideal=arrays["ideal"], evaluations=text["evaluations"],
-            memory=FrozenMapping(memory),
-        )  # fmt: skip
+        own = {name: arrays[f"state_{name}"] for name in _ARRAYS}
+        state = State(**own, ideal=arrays["ideal"], evaluations=text["evaluations"], memory=FrozenMapping(memory))
         columns = tuple(text["columns"])
         rows = tuple((int(i), int(n), *rest) for i, n, *rest in arrays["rows"].tolist())
         last = dict(zip(columns, rows[-1], strict=True))
         np.random.default_rng(0).bit_generator.state = text["generator"]
         return Run(
-            designs=arrays["designs"], objectives=arrays["objectives"], constraints=arrays["constraints"],
-            headers=tuple(text["headers"]), evaluations=text["evaluations"], seconds=last["seconds"],
-            cpu_seconds=last["cpu_seconds"], seed=text["seed"], log=Log(columns, rows), failures=text["failures"],
-            repeats=text["repeats"],
+            **{name: arrays[name] for name in _ARRAYS},
+            **{name: text[name] for name in _NUMBERS},
+            headers=tuple(text["headers"]),
+            seconds=last["seconds"],
+            cpu_seconds=last["cpu_seconds"],
+            log=Log(columns, rows),
             checkpoint=Checkpoint(optimiser, state, text["generator"]),
-        )  # fmt: skip
+        )
     except (BadZipFile, EOFError, LookupError, OSError, TypeError, ValueError) as error:
         if isinstance(error, FileNotFoundError):
             raise

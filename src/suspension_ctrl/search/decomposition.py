@@ -145,15 +145,15 @@ class ReplaceWorse(NamedTuple):
         count = 0
         constrained = child_values.size > ideal.size
         for p in partners:
-            mine, theirs = violation, violation_of(values[p], ideal.size) if constrained else 0.0
-            if mine == 0.0 and theirs == 0.0:
+            new, old = violation, violation_of(values[p], ideal.size) if constrained else 0.0
+            if new == 0.0 and old == 0.0:
                 for j in range(ideal.size):  # `tchebycheff` of both
                     g = weights[p, j] * abs(child_values[j] - ideal[j])
-                    mine = g if g > mine else mine
+                    new = g if g > new else new
                     g = weights[p, j] * abs(values[p, j] - ideal[j])
-                    theirs = g if g > theirs else theirs
+                    old = g if g > old else old
             worse[count] = p
-            count += mine < theirs
+            count += new < old
         for left in range(count, max(count - self.limit, 0), -1):
             drawn = draw_below(rng, left)
             p = worse[drawn]

@@ -48,9 +48,9 @@ def minimise(
     optimiser : Nsga2, MoeadDra, Gamultiobj or Sampling
         The algorithm with its settings.
     iterations, evaluations : int
-        One of them: iterations after the start, or evaluations for the start and whole iterations.
+        Budget, one of them: iterations after the start, or evaluations in all, rounded down to whole iterations.
     seconds : float
-        Wall-clock time [s] after which no iteration begins; alone, or beside a number as a second limit.
+        Wall-clock time [s] after which no iteration begins; alone, or as a second limit beside the other budget.
     seed : int, optional
         Seed of every random draw; by default a new one, returned in `Run.seed`.
     toolbox : deap.base.Toolbox, optional
@@ -61,12 +61,12 @@ def minimise(
     callback : callable, optional
         Function of the run so far, called after each iteration; the search ends if it returns True.
     failures : {"worst", "error"}
-        A design with a value that is not finite counts as worst, or ends the search.
+        A design with a value that is not finite counts as worst, or ends the search with an error.
 
     Returns
     -------
     Run
-        Same seed, same machine, same versions: identical arrays.
+        The same seed gives identical arrays on the same machine with the same versions.
 
     Raises
     ------

@@ -93,9 +93,12 @@ class Gamultiobj(Generational):
                 parents = designs[toolbox.tournament(rng, rank, crowding, 2 * crossed + size - crossed)]
                 pairs, alone = parents[: 2 * crossed], parents[2 * crossed :]
                 children = np.concatenate([toolbox.mate(rng, pairs), toolbox.mutate(rng, alone, step)])
-            born = problem.values(toolbox.evaluate, children)
-            ideal, evaluations = ideal_with(ideal, born, any_feasible(values, m)), evaluations + len(children)
-            designs, values = np.concatenate([designs, children]), np.concatenate([values, born])
+            new_values = problem.values(toolbox.evaluate, children)
+            ideal, evaluations = (
+                ideal_with(ideal, new_values, any_feasible(values, m)),
+                evaluations + len(children),
+            )
+            designs, values = np.concatenate([designs, children]), np.concatenate([values, new_values])
             pool = contenders(values, m, size)
             kept, rank, crowding = toolbox.select(constrained(values[pool], m), size)
             step = 1.0 if step is None else self._next_step(step, pool[kept])

@@ -24,7 +24,7 @@ class Decode(NamedTuple):
     """Decoder of codes into designs."""
 
     form: Integer  # (d,) HELD, REAL, LOGARITHM, WHOLE or LISTED
-    lower: Real  # (d,) least and greatest value, of a catalogue their places in `catalogue`
+    lower: Real  # (d,) least and greatest value, or their places in `catalogue`
     upper: Real
     catalogue: Real  # (k,) values of all catalogues, one after the other
 

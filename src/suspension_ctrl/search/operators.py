@@ -151,7 +151,7 @@ class MutateDesign(NamedTuple):
 
     @compilable()
     def __call__(self, rng: np.random.Generator, design: Real) -> Real:
-        """Return a design (d,) changed in place."""
+        """Return the design (d,), mutated in place."""
         for v in range(design.size):
             if rng.random() < self.probability:
                 design[v] = mutated_value(design[v], rng.random(), self.lower[v], self.upper[v], self.eta)
