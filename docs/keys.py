@@ -9,6 +9,8 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from numpy.typing import ArrayLike
+
 from suspension_ctrl.quantities import Real
 from suspension_ctrl.response.files import CaseDocument
 from suspension_ctrl.response.files import Document as ProblemDocument
@@ -20,6 +22,8 @@ from suspension_ctrl.vehicles.files import KINDS as VEHICLES
 from suspension_ctrl.vehicles.files import Document as VehicleDocument
 from suspension_ctrl.vehicles.handling import RollGeometry
 from suspension_ctrl.vehicles.mounted import FlexibleBody, Payload, Seat, Shape
+from suspension_ctrl.vehicles.strut_files import KINDS as ELEMENTS
+from suspension_ctrl.vehicles.strut_files import element_keys
 
 PAGE = Path(__file__).with_name("files.md")
 HEAD = """# Files
@@ -74,10 +78,39 @@ In the tables `struts`, `bounds` and `kinds` a coefficient of a strut is a key w
 `rear_antiroll_N_m_per_rad` as well, and of each seat `<name>.spring_N_per_m` and `<name>.damper_N_s_per_m`.
 `struts` holds numbers and `bounds` arrays of the lowest and the highest value. Only a search needs bounds.
 """
+LAYOUTS = """### `[strut]`, `[front_strut]`, `[rear_strut]`
+A strut is elements between its two ends. Its `layout` joins them by name: `|` in parallel, `-` in series (before
+`|`), parentheses, and an installation ratio of a group, `0.8*(...)`. An element has a table with its `kind` and
+values; `spring`, `damper`, `inerter`, `rubber`, `bump_stop`, `rebound_stop` and `friction` are of the kind that
+their name says and need none. Rates and deflections are positive in extension (rebound), forces in tension.
+
+```toml
+[front_strut]
+layout = "spring | (damper - mount) | bump_stop"
+
+[front_strut.damper]
+kind = "table-damper"
+velocity_m_per_s = [-1.0, -0.1, 0.0, 0.1, 1.0]
+force_N = [-900, -400, 0, 600, 1500]
+
+[front_strut.mount]
+kind = "spring"
+value = "250 N/mm"
+
+[front_strut.bump_stop]
+gap = "24 mm"
+stiffness = "200 N/mm"
+```
+
+In place of the columns of a table stands `file = "damper.csv"`: a CSV file, beside the vehicle's file or below,
+with units in its header, `velocity [mm/s],force [kN]`. A coefficient without a value here has one in `[struts]`,
+and any may vary in `[bounds]`: `front.mount_N_per_m`, `front.damper.scale`, `front.bump_stop.gap_m`.
+"""
 FORMS = {
     float: "number", float | None: "number", int | None: "whole number", bool: "true or false", str: "text",
     tuple[str, ...]: "array of texts", tuple[float, float]: "array of 2 numbers",
-    tuple[float, ...]: "array of numbers", Real: "array of numbers", str | Mapping[str, Any]: "text or table",
+    tuple[float, ...]: "array of numbers", str | Mapping[str, Any]: "text or table",
+    **dict.fromkeys([Real, ArrayLike, ArrayLike | None], "array of numbers"),
 }  # fmt: skip
 
 
@@ -94,13 +127,15 @@ class Row(NamedTuple):
 def rows(record: Any) -> Iterator[Row]:
     """Yield the keys of a dataclass, meanings from its docstring."""
     meanings = dict(parameters(record))
-    for key in keys_of(record).values():
+    for key in element_keys(record).values() if record in ELEMENTS.values() else keys_of(record).values():
         default = "" if key.required or key.default in (None, "", (), {}) else _shown(key)
         yield Row(key.key, form(key), key.unit, "required" if key.required else default, meanings[key.name])
 
 
 def form(key: Key) -> str:
     """Return the kind of a value in words."""
+    if key.own:
+        return "table"
     if key.form in FORMS:
         return FORMS[key.form]
     return "array of tables" if key.rows or "tuple" in str(key.form) else "table"
@@ -116,6 +151,8 @@ def parameters(record: Any) -> Iterator[tuple[str, str]]:
 
 def _shown(key: Key) -> str:
     default = key.default
+    if key.own:
+        return f'`layout = "{key.own.write(default)["layout"]}"`'.replace("|", r"\|")
     if key.kinds:
         return f'`kind = "{next(kind for kind, record in key.kinds.items() if isinstance(default, record))}"`'
     if isinstance(default, tuple):
@@ -141,7 +178,12 @@ def page() -> str:
     parts += [table(f'`kind = "{kind}"`', record) for kind, record in VEHICLES.items()]
     parts += [table("Beside them, of every vehicle", VehicleDocument), table("`[[seats]]`", Seat)]
     parts += [table("`[flexible_body]`", FlexibleBody), table("`[[flexible_body.shapes]]`", Shape)]
-    parts += [table("`[roll_geometry]`", RollGeometry), "### `[struts]`, `[bounds]`" + STRUTS, "## Roads\n"]
+    parts += [table("`[roll_geometry]`", RollGeometry), LAYOUTS]
+    kinds = {
+        record: f'An element, `kind = "{kind}"`' for kind, record in ELEMENTS.items() if kind != "rebound-stop"
+    }
+    parts += [table(f"{title}", record) for record, title in kinds.items()]
+    parts += ["### `[struts]`, `[bounds]`" + STRUTS, "## Roads\n"]
     parts += [table(f'`kind = "{kind}"`', record) for kind, record in ROADS.items()]
     parts.append(table('`kind = "measured"` of a CSV file, with `coherence` as above', MeasuredFile))
     parts += [table(f'`[coherence]`, `kind = "{kind}"`', record) for kind, record in COHERENCES.items()]

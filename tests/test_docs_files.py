@@ -19,6 +19,7 @@ def test_every_unit_of_a_key_can_be_typed(checkout):
     """A text of one such unit is the number one, or the key has no unit to type."""
     made = runpy.run_path(str(checkout / "docs/keys.py"))
     records = [*made["VEHICLES"].values(), *made["ROADS"].values(), *made["COHERENCES"].values()]
+    records += [*made["ELEMENTS"].values()]
     records += [made[name] for name in ("Seat", "RollGeometry", "Payload", "CaseDocument", "ProblemDocument")]
     units = {key.unit for record in records for key in made["keys_of"](record).values() if key.unit}
     assert len(units) >= 8
@@ -29,7 +30,7 @@ def test_every_unit_of_a_key_can_be_typed(checkout):
 def test_the_pages_vehicle_is_read_and_its_mistakes_are_said(checkout, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     page = (checkout / "docs/files.md").read_text(encoding="utf-8")
-    (text,), (said,) = (re.findall(rf"```{kind}\n(.*?)```", page, re.DOTALL) for kind in ("toml", "text"))
+    (text, _), (said,) = (re.findall(rf"```{kind}\n(.*?)```", page, re.DOTALL) for kind in ("toml", "text"))
     (tmp_path / "van.toml").write_text(text)
     file = load_vehicle("van.toml")
     assert (file.vehicle.body_mass, file.vehicle.cg_to_front, file.setting["front.spring"]) == (1100.0, 1.3, 28e3)
@@ -44,3 +45,15 @@ def test_the_pages_vehicle_is_read_and_its_mistakes_are_said(checkout, tmp_path,
     with pytest.raises(ValueError, match="van") as error:
         load_vehicle("van.toml")
     assert f"{error.value}\n" == said
+
+
+def test_the_pages_strut_is_that_of_a_vehicle(checkout, tmp_path):
+    page = (checkout / "docs/files.md").read_text(encoding="utf-8")
+    van, strut = re.findall(r"```toml\n(.*?)```", page, re.DOTALL)
+    linear = [line for line in van.splitlines() if not line.startswith("front.damper")]
+    (tmp_path / "van.toml").write_text("\n".join([*linear, strut]))
+    file = load_vehicle(tmp_path / "van.toml")
+    setting = file.vehicle.coefficients(file.setting)
+    assert setting["front.damper.scale"] == 1.0
+    assert setting["front.mount"] == 250e3
+    assert setting["front.bump_stop.gap"] == 0.024

@@ -4,7 +4,17 @@ import re
 
 import pytest
 
-from suspension_ctrl.documents import FileError, Mistakes, Table, document, keyed, line_numbers, lines_of, naming
+from suspension_ctrl.documents import (
+    FileError,
+    Folder,
+    Mistakes,
+    Table,
+    document,
+    keyed,
+    line_numbers,
+    lines_of,
+    naming,
+)
 
 
 def test_an_error_of_a_document_names_the_file_the_line_and_the_key(tmp_path):
@@ -13,7 +23,7 @@ def test_an_error_of_a_document_names_the_file_the_line_and_the_key(tmp_path):
     with pytest.raises(FileError, match=rf"^{re.escape(str(path))}:3: a.b must be 1$"), document(path):
         raise ValueError("a.b must be 1")
     with document(path) as table:
-        assert table == Table("", {"x": 1, "a": {"b": 2}})
+        assert table == Table("", {"x": 1, "a": {"b": 2}}, Folder(tmp_path))
 
 
 def test_several_mistakes_are_one_error_of_a_line_each(tmp_path):

@@ -77,10 +77,10 @@ def test_there_are_forty_of_all_kinds_of_files():
     [
         ("vehicle", (3, 12, 14, 17, 19)),
         ("vehicle", (8, 14, 18, 20, 21)),
-        ("road", (25, 26, 27, 28, 30)),
-        ("problem", (33, 34, 36, 38, 39)),
-        ("problem", (35, 37, 39, 40, 43)),
-        ("problem", (33, 37, 39, 41, 42)),
+        ("road", (49, 50, 51, 52, 54)),
+        ("problem", (57, 58, 60, 62, 63)),
+        ("problem", (59, 61, 63, 64, 67)),
+        ("problem", (57, 61, 63, 65, 66)),
     ],
 )
 def test_five_mistakes_at_once_are_five_lines(tmp_path, kind, places):
@@ -99,6 +99,8 @@ def test_a_seat_that_cannot_be_read_hides_no_other_mistake(tmp_path):
     assert [line.partition(": ")[2].partition(" must")[0] for line in said(tmp_path, "vehicle", text)] == [
         "seats[1].name",
         "seats[1].mass_kg",
+        "seats[1].spring_N_per_m",
+        "seats[1].damper_N_s_per_m",
         "struts.front.spring_N_per_m",
         "bounds.front.spring_N_per_m",
     ]

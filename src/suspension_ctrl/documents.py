@@ -5,6 +5,7 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from os import PathLike
+from os.path import realpath
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -77,23 +78,49 @@ def keyed(prefix: str, names: Mapping[str, str]) -> Iterator[None]:
         raise ValueError(key + space + rest) from None
 
 
+class Folder(NamedTuple):
+    """The folder of a file that names others."""
+
+    path: Path = Path()
+    allow_outside: bool = False
+
+    def file(self, name: str) -> Path:
+        """Return the path of a file; ValueError if it is outside and must not."""
+        path = self.path / name
+        if not (self.allow_outside or Path(realpath(path)).is_relative_to(realpath(self.path))):
+            needed = "beside this file or below it, unless outside is allowed"
+            raise ValueError(f"file must be {needed}, got {checks.shown(name)}")
+        return path
+
+    def named(self, text: str) -> str:
+        """Return a path as seen from here; a name without an ending stays as it is."""
+        return str(self.path / text) if Path(text).suffix else text
+
+
 class Table(NamedTuple):
     """A table of a file."""
 
     name: str  # prefix of its keys in errors: "struts.front."
     content: Mapping[str, Any]
+    folder: Folder = Folder()
 
     def flat(self) -> "Table":
-        """Return the table with the values of inner tables under dotted keys."""
+        """Return the table with the values of inner tables, at any depth, under dotted keys."""
         flat: dict[str, object] = {}
         for key, value in self.content.items():
-            nested = isinstance(value, dict) and value
+            nested = Table("", value).flat().content if isinstance(value, dict) else {}
             flat |= {f"{key}.{inner}": one for inner, one in nested.items()} if nested else {key: value}
-        return Table(self.name, flat)
+        return self._replace(content=flat)
+
+    def inner(self, key: str, value: object) -> "Table":
+        """Return the table under a key; ValueError if the value is none."""
+        if not isinstance(value, dict):
+            raise ValueError(f"{self.name}{key} must be a table, got {checks.shown(value)}")
+        return Table(f"{self.name}{key}.", value, self.folder)
 
 
 @contextmanager
-def document(path: Path) -> Iterator[Table]:
+def document(path: Path, allow_outside: bool = False) -> Iterator[Table]:
     """Yield the table of a TOML file in UTF-8; errors of the block name the file and the lines of keys."""
     numbers: dict[str, int] = {}
     with naming(path, numbers):
@@ -108,7 +135,7 @@ def document(path: Path) -> Iterator[Table]:
             got = "another encoding" if encoded else _QUOTED.sub(r"\1 ", str(error))
             raise ValueError(f"the file must be TOML in UTF-8, got {got}") from None
         numbers |= line_numbers(text)
-        yield Table("", content)
+        yield Table("", content, Folder(path.parent, allow_outside))
 
 
 def line_numbers(text: str) -> dict[str, int]:

@@ -71,6 +71,35 @@ spring_N_per_m = [1e4, 4e4]
 [bounds.driver]
 damper_N_s_per_m = [100, 1000]
 """
+STRUTS = """
+kind = "half-car"
+body_mass_kg = 700
+pitch_inertia_kg_m2 = 1200
+front_wheel_mass_kg = 40
+rear_wheel_mass_kg = 45
+front_tyre_stiffness_N_per_m = 2e5
+rear_tyre_stiffness_N_per_m = 2.1e5
+cg_to_front_m = 1.2
+cg_to_rear_m = 1.5
+[front_strut]
+layout = "spring | 0.9*(damper - mount) | inerter"
+[front_strut.mount]
+kind = "spring"
+value_N_per_m = 2e5
+[rear_strut]
+layout = "spring - inerter"
+[rear_strut.spring]
+installation_ratio = 0.8
+[struts.front]
+spring_N_per_m = 2e4
+damper_N_s_per_m = 1e3
+inerter_kg = 10
+[struts.rear]
+spring_N_per_m = 2.2e4
+inerter_kg = 15
+[bounds.front]
+mount_N_per_m = [1e5, 4e5]
+"""
 
 
 def written(folder: Path, text: str | bytes) -> Path:
@@ -254,7 +283,10 @@ def test_keys_end_in_their_units(unit, key):
         (changed(QUARTER, '"quarter-car"', "[1]"), r"kind must be one of .* got \[1\]"),
         (changed(QUARTER, '"b"', '" "'), "source must be a text, got ' '"),
         (changed(QUARTER, '"a"', "3"), "name must be a text, got 3"),
-        (changed(QUARTER, "[struts]", "[strut]"), r"strut must be a known key, got \{.*: did you mean struts\?$"),
+        (
+            changed(QUARTER, "[struts]", "[strutts]"),
+            r"strutts must be a known key, got \{.*: did you mean struts\?$",
+        ),
         (changed(QUARTER, "[struts]", "[[struts]]"), r"struts must be a table, got \[\{"),
         (QUARTER + "x = \ny = 1", r"the file must be TOML in UTF-8, got Invalid value \(at line 11, column 5\)"),
         (QUARTER.encode() + b"\xff", "the file must be TOML in UTF-8, got another encoding"),
@@ -365,7 +397,7 @@ def test_a_file_that_is_not_there(tmp_path):
 @st.composite
 def mutated(draw: st.DrawFn) -> str:
     """A good file with a few of its values, at any depth, exchanged, left out or put under another key."""
-    content = tomllib.loads(draw(st.sampled_from([QUARTER, HALF])))
+    content = tomllib.loads(draw(st.sampled_from([QUARTER, HALF, STRUTS])))
     for _ in range(draw(st.integers(1, 3))):
         place: object = content
         while True:
@@ -410,7 +442,7 @@ def test_whatever_the_text_of_a_file_it_is_read_or_refused(tmp_path_factory, tex
 
 
 def test_good_files_are_mutated_from(tmp_path):
-    for text in (QUARTER, HALF):
+    for text in (QUARTER, HALF, STRUTS):
         content = tomllib.loads(text)
         again = "\n".join(f"{spelt(key)} = {spelt(value)}" for key, value in content.items())
         assert load_vehicle(str(written(tmp_path, again))) == load_vehicle(str(written(tmp_path, text)))

@@ -14,7 +14,7 @@ from .. import checks
 from ..documents import Mistakes, Table, document, keyed
 from ..quantities import unit
 from ..roads.files import KINDS as ROADS
-from ..roads.files import Folder, load_road, read_road
+from ..roads.files import load_road, read_road
 from ..roads.spectra import Iso8608Road
 from ..schema.keys import BAD, bad, keys_of
 from ..schema.reading import read
@@ -141,8 +141,8 @@ def load_problem(path: str | PathLike[str], *, allow_outside: bool = False) -> R
     >>> dict(problem.bounds)
     {'spring': (1000.0, 30000.0), 'damper': (1000.0, 5000.0)}
     """
-    with document(Path(path)) as table:
-        return _problem(table, Folder(Path(path).parent, allow_outside))
+    with document(Path(path), allow_outside) as table:
+        return _problem(table)
 
 
 def save_problem(path: str | PathLike[str], problem: RideProblem) -> None:
@@ -176,8 +176,7 @@ def save_problem(path: str | PathLike[str], problem: RideProblem) -> None:
         struts=coefficient_table(vehicle, problem.struts),
         cases=tuple(map(_case_document, problem.cases)),
     )
-    folder = Folder(Path(path).parent, False)
-    write_text(Path(path), toml(content(file), problem, lambda table: _problem(table, folder)))
+    write_text(Path(path), toml(content(file), problem, _problem))
 
 
 def _case_document(case: LoadCase) -> CaseDocument:
@@ -190,7 +189,7 @@ def _case_document(case: LoadCase) -> CaseDocument:
     )
 
 
-def _problem(table: Table, folder: Folder) -> RideProblem:
+def _problem(table: Table) -> RideProblem:
     mistakes = Mistakes()
     values = read(table, keys_of(Document), mistakes)
     if values["cases"] == ():
@@ -198,7 +197,7 @@ def _problem(table: Table, folder: Folder) -> RideProblem:
     if not values["cases"] or BAD in (values["cases"], values.get("seats")):
         mistakes.settle()
     seats, documents = numbered("seats", values), enumerate(values["cases"], start=1)
-    given = [_case(one, f"cases[{i}]", seats, folder, mistakes) for i, one in documents]
+    given = [_case(one, table.inner(f"cases[{i}]", {}), seats, mistakes) for i, one in documents]
     apart = ("title", "seats", "cases")
     values = {name: value for name, value in values.items() if name not in apart and not bad(value)}
     cases = [case for _, case in filter(None, given) if case]
@@ -211,36 +210,36 @@ def _problem(table: Table, folder: Folder) -> RideProblem:
 
 
 def _case(
-    one: CaseDocument, name: str, seats: Mapping[str, Part], folder: Folder, mistakes: Mistakes
+    one: CaseDocument, table: Table, seats: Mapping[str, Part], mistakes: Mistakes
 ) -> tuple[VehicleFile, LoadCase | None] | None:
     """Return the vehicle of a case, None if it cannot be read, and the case, None if a part does not fit."""
     if bad(one):
         return None
-    file = _vehicle(one.vehicle, f"{name}.vehicle", folder, mistakes)
+    file = _vehicle(one.vehicle, table, mistakes)
     vehicle = BAD if bad(file) else mounted(file.vehicle, seats, "", mistakes)
-    vehicle = mounted(vehicle, numbered("payload", vars(one)), f"{name}.", mistakes)
-    road = _road(one.road, f"{name}.road", folder, mistakes)
+    vehicle = mounted(vehicle, numbered("payload", vars(one)), table.name, mistakes)
+    road = _road(one.road, table, mistakes)
     if bad(vehicle):
         return None if bad(file) else (file, None)
     geometry = one.roll_geometry or file.roll_geometry
     return file, LoadCase(vehicle=vehicle, road=road, speed=one.speed, share=one.share, roll_geometry=geometry)
 
 
-def _vehicle(given: str | Mapping[str, Any], name: str, folder: Folder, mistakes: Mistakes) -> VehicleFile:
-    """Return the vehicle of a case, `BAD` if there is none."""
+def _vehicle(given: str | Mapping[str, Any], table: Table, mistakes: Mistakes) -> VehicleFile:
+    """Return the vehicle of the case in a table, `BAD` if there is none."""
     if isinstance(given, str):
-        with mistakes.noted(f"{name}: "):
-            return load_vehicle(folder.named(given))
+        with mistakes.noted(f"{table.name}vehicle: "):
+            return load_vehicle(table.folder.named(given), allow_outside=table.folder.allow_outside)
         return BAD
-    return read_vehicle(Table(f"{name}.", given), mistakes)
+    return read_vehicle(table.inner("vehicle", given), mistakes)
 
 
-def _road(given: str | Mapping[str, Any], name: str, folder: Folder, mistakes: Mistakes) -> Any:
-    """Return the road of a case; in place of a wrong one class C, so that measures are checked as well."""
-    with mistakes.noted(f"{name}: " if isinstance(given, str) else ""):
+def _road(given: str | Mapping[str, Any], table: Table, mistakes: Mistakes) -> Any:
+    """Return the road of the case in a table; for a wrong one class C, so that measures are checked as well."""
+    with mistakes.noted(f"{table.name}road: " if isinstance(given, str) else ""):
         if isinstance(given, str):
-            return load_road(folder.named(given), allow_outside=folder.allow_outside)
-        return read_road(Table(f"{name}.", given), folder)
+            return load_road(table.folder.named(given), allow_outside=table.folder.allow_outside)
+        return read_road(table.inner("road", given))
     return Iso8608Road("C")
 
 

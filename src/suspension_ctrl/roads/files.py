@@ -7,12 +7,10 @@ with them, in the folder of this file or below unless others are allowed.
 import re
 from dataclasses import dataclass, field
 from os import PathLike
-from os.path import realpath
 from pathlib import Path
-from typing import NamedTuple
 
 from .. import checks
-from ..documents import Mistakes, Table, document, keyed
+from ..documents import Folder, Mistakes, Table, document, keyed
 from ..quantities import unit
 from ..schema.keys import KIND, keys_of
 from ..schema.reading import fields_named, kind_of, read
@@ -110,8 +108,8 @@ def load_road(source: str | PathLike[str], *, allow_outside: bool = False) -> Ro
     if path.suffix != ".toml":
         known = "a class of ISO 8608 such as C, C-lower or C-upper, or the path of a .csv or .toml file"
         raise ValueError(f"road must be {known}, got {checks.shown(str(source))}")
-    with document(path) as table:
-        return read_road(table, Folder(path.parent, allow_outside))
+    with document(path, allow_outside) as table:
+        return read_road(table)
 
 
 def save_road(path: str | PathLike[str], road: Road) -> None:
@@ -124,31 +122,11 @@ def save_road(path: str | PathLike[str], road: Road) -> None:
     >>> sc.load_road("country.toml")
     Iso8608Road(coherence=Exponential(decay=3), road_class='D')
     """
-    folder = Folder(Path(path).parent, False)
-    write_text(Path(path), toml(content(road, KINDS), road, lambda table: read_road(table, folder)))
+    write_text(Path(path), toml(content(road, KINDS), road, read_road))
 
 
-class Folder(NamedTuple):
-    """The folder of a file that names others."""
-
-    path: Path
-    allow_outside: bool
-
-    def file(self, name: str) -> Path:
-        """Return the path of a file; ValueError if it is outside and must not."""
-        path = self.path / name
-        if not (self.allow_outside or Path(realpath(path)).is_relative_to(realpath(self.path))):
-            needed = "beside this file or below it, unless outside is allowed"
-            raise ValueError(f"file must be {needed}, got {checks.shown(name)}")
-        return path
-
-    def named(self, text: str) -> str:
-        """Return a path as seen from here; a name without an ending stays as it is."""
-        return str(self.path / text) if Path(text).suffix else text
-
-
-def read_road(table: Table, folder: Folder) -> Road:
-    """Return the road in a table; files that it names are seen from the folder."""
+def read_road(table: Table) -> Road:
+    """Return the road in a table."""
     mistakes = Mistakes()
     kind = kind_of(KINDS, table, mistakes)
     mistakes.settle()
@@ -161,9 +139,9 @@ def read_road(table: Table, folder: Folder) -> Road:
     with fields_named(record, table.name):
         del values["kind"]
         if isinstance(tabulated := values.get("coherence"), TabulatedFile):
-            values["coherence"] = _read_tabulated(tabulated, f"{table.name}coherence.", folder)
+            values["coherence"] = _read_tabulated(tabulated, f"{table.name}coherence.", table.folder)
         if from_csv:
-            return MeasuredRoad.from_csv(folder.file(values.pop("file")), **values)
+            return MeasuredRoad.from_csv(table.folder.file(values.pop("file")), **values)
         return kind(**values)
 
 

@@ -3,13 +3,15 @@
 A field ``body_mass`` in kg has the key ``body_mass_kg`` of a number, or ``body_mass`` of a text, ``"1.2 t"``. In
 a key ``^`` is left out of the unit and ``/`` is ``per``: ``pitch_inertia_kg_m2``, ``spring_N_per_m``. The type of
 the field says how the value is written: a number, a text, an array, a table (a dataclass) or an array of tables (a
-tuple of them); with ``kinds`` in its metadata, the key ``kind`` of the table names the dataclass.
+tuple of them); with ``kinds`` in its metadata, the key ``kind`` of the table names the dataclass. A field with a
+`Form` in its metadata is read and written by that.
 """
 
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, Field, fields
 from typing import Any, NamedTuple
 
+from ..documents import Mistakes, Table
 from ..quantities import check_limits, default_of, key_of
 
 BAD: Any = object()
@@ -21,6 +23,13 @@ _MOST = 100  # equations of motion of more parts take gigabytes
 def bad(*values: object) -> bool:
     """Whether one of the values is `BAD`, or a tuple that contains it."""
     return any(value is BAD or (isinstance(value, tuple) and bad(*value)) for value in values)
+
+
+class Form(NamedTuple):
+    """How a value is read from a table, `BAD` after a mistake, and written."""
+
+    read: Callable[[Table, Mistakes], Any]
+    write: Callable[[Any], dict[str, Any]]
 
 
 class Key(NamedTuple):
@@ -35,10 +44,12 @@ class Key(NamedTuple):
     kinds: Mapping[str, type] | None = None  # dataclasses by the key ``kind`` of the table
     rows: Any = None  # dataclass of a key and a value: a mapping is an array of such tables
     most: int = _MOST  # numbers or tables in an array
+    own: Form | None = None
+    instead: str = ""  # a key without which this one is required
 
     @property
     def required(self) -> bool:
-        """Whether a table must have the key."""
+        """Whether every table must have the key."""
         return self.default is MISSING
 
     @property
@@ -74,4 +85,6 @@ def _key(one: Field[Any]) -> Key:
         kinds=one.metadata.get("kinds"),
         rows=one.metadata.get("rows"),
         most=one.metadata.get("most", _MOST),
+        own=one.metadata.get("form"),
+        instead=one.metadata.get("instead", ""),
     )

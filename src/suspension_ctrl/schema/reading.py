@@ -6,6 +6,8 @@ from contextlib import AbstractContextManager
 from dataclasses import is_dataclass
 from typing import Any, TypeVar, get_args
 
+from numpy.typing import ArrayLike
+
 from .. import checks, escaping
 from ..documents import Mistakes, Table, keyed
 from ..quantities import Real, quantity
@@ -38,9 +40,10 @@ def read(table: Table, keys: Mapping[str, Key], mistakes: Mistakes, others: bool
         elif one:
             values[one.name] = one.stand_in
             with mistakes.noted():
-                values[one.name] = _value(one, table.name + key, value, mistakes, typed=key != one.key)
+                values[one.name] = _value(one, table, key, value, mistakes)
     for one in keys.values():
-        if one.required and one.name not in values:
+        required = one.required or (one.instead and one.instead not in table.content)
+        if required and one.name not in values:
             values[one.name] = one.stand_in
             if one.key not in misspelt:
                 mistakes.note(f"{table.name}{one.key} must be given, got none")
@@ -87,34 +90,33 @@ def kind_of(kinds: Mapping[str, type[T]], table: Table, mistakes: Mistakes) -> t
     return BAD
 
 
-def _value(one: Key, key: str, value: Any, mistakes: Mistakes, typed: bool) -> Any:
-    """Return the value of a key, `typed` with its unit; note mistakes of inner tables, raise any other."""
+def _value(one: Key, table: Table, key: str, value: Any, mistakes: Mistakes) -> Any:
+    """Return the value of a key, with its unit if the key has none; note mistakes of inner tables, raise other."""
+    if one.own:
+        return one.own.read(table.inner(key, value), mistakes)
     if one.kinds:
-        table = _table(key, value)
-        record: Any = kind_of(one.kinds, table, mistakes)
-        return BAD if bad(record) else read_record(record, table, mistakes, KIND)
+        inner = table.inner(key, value)
+        record: Any = kind_of(one.kinds, inner, mistakes)
+        return BAD if bad(record) else read_record(record, inner, mistakes, KIND)
     if one.rows:
-        return _mapping(_tables(one.rows, one.most, key, value, mistakes), key)
+        return _mapping(_tables(one.rows, one.most, table, key, value, mistakes), table.name + key)
     records: list[Any] = [part for part in (one.form, *get_args(one.form)) if is_dataclass(part)]
     if not records:
-        return _without_table(one, key, value, typed)
+        return _without_table(one, table.name + key, value, typed=key != one.key)
     if ... in get_args(one.form):
-        return _tables(records[0], one.most, key, value, mistakes)
-    return read_record(records[0], _table(key, value), mistakes)
+        return _tables(records[0], one.most, table, key, value, mistakes)
+    return read_record(records[0], table.inner(key, value), mistakes)
 
 
-def _table(key: str, value: Any) -> Table:
-    return Table(f"{key}.", _fitting(Mapping[str, Any], key, value))
-
-
-def _tables(record: type[T], most: int, key: str, value: Any, mistakes: Mistakes) -> tuple[T, ...]:
+def _tables(record: type[T], most: int, table: Table, key: str, value: Any, mistakes: Mistakes) -> tuple[T, ...]:
     """Return the dataclasses in an array of tables, `BAD` for a table with a mistake."""
     if not (isinstance(value, list) and len(value) <= most):
-        raise ValueError(f"{key} must be an array of up to {most} tables, got {checks.shown(value)}")
+        needed = f"an array of up to {most} tables"
+        raise ValueError(f"{table.name}{key} must be {needed}, got {checks.shown(value)}")
     records = [BAD] * len(value)
     for i, part in enumerate(value):
         with mistakes.noted():
-            records[i] = read_record(record, _table(f"{key}[{i + 1}]", part), mistakes)
+            records[i] = read_record(record, table.inner(f"{key}[{i + 1}]", part), mistakes)
     return tuple(records)
 
 
@@ -165,8 +167,8 @@ def _pair(one: Key, key: str, value: Any, typed: bool) -> tuple[float, float]:
 
 
 _NUMERIC: dict[Any, Callable[[Key, str, Any, bool], Any]] = {
-    float: _number, float | None: _number, int | None: _whole,
-    tuple[float, float]: _pair, tuple[float, ...]: _numbers, Real: _numbers,
+    float: _number, float | None: _number, int | None: _whole, tuple[float, float]: _pair,
+    tuple[float, ...]: _numbers, Real: _numbers, ArrayLike: _numbers, ArrayLike | None: _numbers,
 }  # fmt: skip
 _OTHERS: dict[Any, tuple[str, Callable[[Any], bool]]] = {
     bool: ("true or false", lambda value: isinstance(value, bool)),

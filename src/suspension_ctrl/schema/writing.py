@@ -27,7 +27,7 @@ def content(record: Any, kinds: Mapping[str, type] | None = None) -> dict[str, A
         value = getattr(record, one.name)
         if not same(value, one.default):
             rows = value if one.rows is None else [one.rows(*row) for row in value.items()]
-            table[one.key] = _plain(rows, one.kinds)
+            table[one.key] = one.own.write(value) if one.own else _plain(rows, one.kinds)
     return table
 
 

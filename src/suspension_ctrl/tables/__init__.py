@@ -12,9 +12,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from uuid import uuid4
 
+import numpy as np
+
 from .. import checks, escaping
 from ..documents import naming
-from ..quantities import Real
+from ..quantities import Real, quantity
 from .layouts import HEAD, Layout
 
 if TYPE_CHECKING:
@@ -48,6 +50,28 @@ def read_table(
         if len(values) < rows:
             raise ValueError(f"rows of numbers must be {rows} or more, got {len(values)}")
         return [layout.names[i] for i in wanted if layout.names], values
+
+
+def read_columns(path: str | PathLike[str], units: Mapping[str, str], most: int) -> dict[str, Real]:
+    """Return columns (n,) by name in `units`, converted from the units in the header: ``velocity [mm/s]``.
+
+    A ValueError names the file; `most` rows are allowed.
+    """
+    names, values = read_table(path)
+    with naming(path):
+        if len(values) > most:
+            raise ValueError(f"rows of numbers must be {most} or less, got {len(values)}")
+        found = {text.partition("[")[0].strip(): i for i, text in enumerate(names)}
+        columns: dict[str, Real] = {}
+        for name, unit in units.items():
+            header = names[found[name]] if name in found else ""
+            given = re.fullmatch(r"[^[]+\[\s*([^]\s][^]]*)\]", header)
+            if not given:
+                needed = f"with its unit in the header, as in '{name} [{unit}]'"
+                raise ValueError(f"columns must include {name} {needed}, got {checks.shown(header or names)}")
+            numbers = values[:, found[name]].tolist()
+            columns[name] = np.array([quantity(name, f"{number!r} {given[1]}", unit) for number in numbers])
+    return columns
 
 
 def file_name(text: str) -> str:

@@ -9,6 +9,7 @@ from ..quantities import Checked, unit
 from .assembly import Assembly, Link, Position, Response, StrutParameter
 from .feedback import System
 from .networks import placed
+from .strut_files import STRUT
 from .struts import Damper, Spring, Strut, parallel
 from .vehicle import AssembledVehicle, anti_roll_bar
 
@@ -50,7 +51,7 @@ class QuarterCar(Checked, AssembledVehicle):
     wheel_mass: float = field(metadata=unit("kg"))
     tyre_stiffness: float = field(metadata=unit("N/m"))
     tyre_damping: float = field(default=0.0, metadata=unit("N s/m"))
-    strut: Strut = field(default=SPRING_AND_DAMPER, metadata={"key": None})
+    strut: Strut = field(default=SPRING_AND_DAMPER, metadata=STRUT)
 
     @cached_property
     def assembly(self) -> Assembly:
@@ -89,8 +90,8 @@ class _TwoAxleCar(Checked, AssembledVehicle):
     cg_to_rear: float = field(metadata=unit("m"))
     front_tyre_damping: float = field(default=0.0, metadata=unit("N s/m"))
     rear_tyre_damping: float = field(default=0.0, metadata=unit("N s/m"))
-    front_strut: Strut = field(default=SPRING_AND_DAMPER, metadata={"key": None})
-    rear_strut: Strut = field(default=SPRING_AND_DAMPER, metadata={"key": None})
+    front_strut: Strut = field(default=SPRING_AND_DAMPER, metadata=STRUT)
+    rear_strut: Strut = field(default=SPRING_AND_DAMPER, metadata=STRUT)
 
     def _assembly(
         self, corners: Mapping[str, Position], inertias: Mapping[str, float], bars: Sequence[StrutParameter] = ()

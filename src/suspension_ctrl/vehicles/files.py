@@ -5,6 +5,7 @@ In ``[struts]`` and ``[bounds]`` a coefficient ``front.spring`` has the key ``fr
 
 from collections.abc import Collection, Mapping
 from dataclasses import MISSING, dataclass, field, fields
+from functools import reduce
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ from .assembly import StrutParameter
 from .cars import FullCar, HalfCar, QuarterCar
 from .handling import RollGeometry
 from .mounted import FlexibleBody, Mounted, Part, Payload, Seat
+from .strut_files import UNREAD
 from .vehicle import AssembledVehicle, Vehicle, assembled
 
 KINDS: dict[str, type[AssembledVehicle]] = {"quarter-car": QuarterCar, "half-car": HalfCar, "full-car": FullCar}
@@ -85,13 +87,15 @@ class Document:
     roll_geometry: RollGeometry | None = None
 
 
-def load_vehicle(source: str | PathLike[str]) -> VehicleFile:
+def load_vehicle(source: str | PathLike[str], *, allow_outside: bool = False) -> VehicleFile:
     """Return the vehicle of a file.
 
     Parameters
     ----------
     source : str or path-like
         The path of a TOML file, or the name of one that comes with the package, ``"yuen_ramli_2010"``.
+    allow_outside : bool
+        Whether the file may name files of elements that are neither beside it nor below, links resolved.
 
     Raises
     ------
@@ -109,7 +113,7 @@ def load_vehicle(source: str | PathLike[str]) -> VehicleFile:
     >>> file.vehicle.modes(file.setting)["name"].to_list()
     ['heave', 'roll', 'pitch', 'rear wheel hop', 'rear wheel tramp', 'front wheel hop', 'front wheel tramp']
     """
-    with document(datafiles.named("vehicle", "vehicles", source)) as table:
+    with document(datafiles.named("vehicle", "vehicles", source), allow_outside) as table:
         mistakes = Mistakes()
         file = read_vehicle(table, mistakes)
         mistakes.settle()
@@ -149,17 +153,17 @@ def read_vehicle(table: Table, mistakes: Mistakes) -> VehicleFile:
         return BAD
     values = read(table, {**KIND, **keys_of(kind), **keys_of(Document)}, mistakes)
     sound = len(mistakes) == before  # else numbers that stand in cause further errors
-    car = constructed(kind, values, table.name, mistakes if sound else Mistakes())
+    unread = {one.name: UNREAD for one in keys_of(kind).values() if one.own and bad(values.get(one.name))}
+    car = constructed(kind, values | unread, table.name, mistakes if sound else Mistakes())
     parts = {"flexible_body": values["flexible_body"]} if "flexible_body" in values else {}
     parts |= numbered("seats", values) | numbered("payload", values)
     vehicle = mounted(car, parts, table.name, mistakes if sound or "flexible_body" not in values else Mistakes())
-    partial = bad(
-        vehicle, values.get("seats"), values.get("payload")
-    )  # the coefficients of some seats are unknown
+    partial = bool(unread) or bad(vehicle, values.get("seats"), values.get("payload"))  # unknown coefficients
     for name, own, form in (("struts", "setting", float), ("bounds", "bounds", tuple[float, float])):
         if not bad(car) and isinstance(values.get(name), dict):
-            inner = Table(f"{table.name}{name}.", values.pop(name))
-            values[own] = read_coefficients(inner, car if partial else vehicle, form, mistakes, others=partial)
+            known = car if bad(vehicle) else vehicle
+            inner = table.inner(name, values.pop(name))
+            values[own] = read_coefficients(inner, known, form, mistakes, others=partial)
     if partial or bad(*values.values()):
         return BAD
     return VehicleFile(
@@ -238,7 +242,7 @@ def coefficient_table(vehicle: Vehicle, values: Mapping[str, Any]) -> dict[str, 
     for parameter in vehicle.parameters:
         if parameter.name in values:
             value = values[parameter.name]
-            *strut, last = key_of(parameter.name, parameter.unit).split(".")
-            place = found.setdefault(strut[0], {}) if strut else found
+            *tables, last = key_of(parameter.name, parameter.unit).split(".")
+            place = reduce(lambda outer, name: outer.setdefault(name, {}), tables, found)
             place[last] = list(value) if isinstance(value, tuple) else value
     return found

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from .. import checks
 from ..quantities import Real, frozen_array, unit
-from .struts import Coefficient, Element
+from .struts import Coefficient, Element, column
 
 Factors = tuple[float, tuple[int, ...]]
 """A number, and the coefficients of the element by which it is multiplied."""
@@ -106,8 +106,8 @@ class TableDamper(Table):
 
     of_rate = True
     name: str = "damper"
-    velocity: ArrayLike = field(kw_only=True, metadata=unit("m/s"))
-    force: ArrayLike = field(kw_only=True, metadata=unit("N"))
+    velocity: ArrayLike = field(kw_only=True, metadata=column("m/s"))
+    force: ArrayLike = field(kw_only=True, metadata=column("N"))
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -155,8 +155,8 @@ class TableSpring(Table):
 
     of_rate = False
     name: str = "spring"
-    deflection: ArrayLike = field(kw_only=True, metadata=unit("m"))
-    force: ArrayLike = field(kw_only=True, metadata=unit("N"))
+    deflection: ArrayLike = field(kw_only=True, metadata=column("m"))
+    force: ArrayLike = field(kw_only=True, metadata=column("N"))
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -208,8 +208,8 @@ class BumpStop(ForceLaw):
     name: str = "bump_stop"
     gap: float | None = field(default=None, kw_only=True, metadata=unit("m"))
     stiffness: float | None = field(default=None, kw_only=True, metadata=unit("N/m"))
-    compression: ArrayLike | None = field(default=None, kw_only=True, metadata=unit("m"))
-    force: ArrayLike | None = field(default=None, kw_only=True, metadata=unit("N"))
+    compression: ArrayLike | None = field(default=None, kw_only=True, metadata=column("m"))
+    force: ArrayLike | None = field(default=None, kw_only=True, metadata=column("N"))
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -11,6 +11,7 @@ from .. import checks
 from ..quantities import Checked, FrozenMapping, Record, unit
 from .assembly import Assembly, Link, Position, Response, check_strut_names
 from .networks import placed
+from .strut_files import STRUT
 from .struts import Damper, Spring, Strut, parallel
 from .vehicle import AssembledVehicle, Vehicle, assembled
 
@@ -84,11 +85,11 @@ class Seat(Part):
     """
 
     mass: float = field(metadata=unit("kg"))
-    spring: float | None = field(default=None, metadata=unit("N/m"))
-    damper: float | None = field(default=None, metadata=unit("N s/m"))
+    spring: float | None = field(default=None, metadata={**unit("N/m"), "instead": "strut"})
+    damper: float | None = field(default=None, metadata={**unit("N s/m"), "instead": "strut"})
     position: Position = field(default=(0.0, 0.0), metadata=unit("m"))
     name: str = "seat"
-    strut: Strut | None = field(default=None, metadata={"key": None})
+    strut: Strut | None = field(default=None, metadata=STRUT)
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import reduce
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.polynomial import polynomial
@@ -17,6 +17,15 @@ from ..quantities import Real, Record, frozen_array, unit
 
 Fraction = tuple[Real, Real]
 """Dynamic stiffness as numerator and denominator: coefficients by rising powers of s."""
+
+
+ROWS = 1000
+"""Most rows of a table of an element."""
+
+
+def column(text: str) -> dict[str, Any]:
+    """Return the metadata of a field with a column of a table in this unit."""
+    return {**unit(text), "most": ROWS}
 
 
 class Coefficient(NamedTuple):
@@ -130,8 +139,9 @@ class Spring(LinearElement):
     [1.27, 10.78]
     """
 
-    order, unit = 0, "N/m"
     name: str = "spring"
+    value: float | None = field(default=None, metadata=unit("N/m"))
+    order, unit = 0, "N/m"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -158,8 +168,9 @@ class Damper(LinearElement):
     {'spring': 22000.0, 'damper': 1500.0, 'mount': 250000.0}
     """
 
-    order, unit = 1, "N s/m"
     name: str = "damper"
+    value: float | None = field(default=None, metadata=unit("N s/m"))
+    order, unit = 1, "N s/m"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -189,8 +200,9 @@ class Inerter(LinearElement):
     [2.55, 7.25]
     """
 
-    order, unit = 2, "kg"
     name: str = "inerter"
+    value: float | None = field(default=None, metadata=unit("kg"))
+    order, unit = 2, "kg"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -252,9 +264,9 @@ class MeasuredStiffness(Element):
     """
 
     name: str = "mount"
-    frequency: Real = field(kw_only=True, metadata=unit("Hz"))
-    storage: Real = field(kw_only=True, metadata=unit("N/m"))
-    loss: Real = field(kw_only=True, metadata=unit("N/m"))
+    frequency: Real = field(kw_only=True, metadata=column("Hz"))
+    storage: Real = field(kw_only=True, metadata=column("N/m"))
+    loss: Real = field(kw_only=True, metadata=column("N/m"))
 
     def __post_init__(self) -> None:
         super().__post_init__()
