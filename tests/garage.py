@@ -62,7 +62,7 @@ _VALUES = {"spring": 21e3, "damper": 1600.0, "front": (19e3, 1500.0), "rear": (2
 
 def struts_of(vehicle: Vehicle) -> dict[str, float | tuple[float, float]]:
     """Return usual coefficients of those that have no default."""
-    needed = {p.name for p in vehicle.parameters if p.default is None}
+    needed = {p.name for p in vehicle.strut_coefficients if p.default is None}
     return {name: value for name, value in _VALUES.items() if name in needed or f"{name}.spring" in needed}
 
 

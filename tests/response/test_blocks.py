@@ -60,7 +60,7 @@ def test_every_response_of_every_vehicle_is_that_of_the_closed_model(name):
     Weightings are evaluated alike on both sides; Wb-table makes kinks.
     """
     vehicle = VEHICLES[name]
-    varied = tuple(p.name for p in vehicle.parameters if p.name in BOXES and not p.name.startswith("rear"))
+    varied = tuple(p.name for p in vehicle.strut_coefficients if p.name in BOXES and not p.name.startswith("rear"))
     terms = [*((response, None) for response in vehicle.responses), ("body_acceleration", "Wk")]
     p = problem(vehicle, varied, tuple(" ".join(filter(None, (w, r))) for r, w in terms))
     assert_is_the_closed_model(p, terms)
@@ -71,7 +71,7 @@ def test_every_coefficient_of_a_full_car_with_a_seat_may_vary():
     weighting, point = "Wb-table", ("acceleration", 1.2, -0.4)
     terms = [("driver_acceleration", weighting), (point, None), ("driver_suspension_travel", None)]
     p = problem(
-        car, tuple(p.name for p in car.parameters),
+        car, tuple(p.name for p in car.strut_coefficients),
         ("Wb-table driver_acceleration", "acceleration (1.2, -0.4)", "SWS driver"), nodes=320,
     )  # fmt: skip
     assert_is_the_closed_model(p, terms, weightings.by_name(weighting).breakpoints)

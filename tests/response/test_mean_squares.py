@@ -11,7 +11,7 @@ from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.response.mean_squares import case_of
 from suspension_ctrl.response.one_strut import OneStrut
 from suspension_ctrl.response.quadrature import frequency_nodes
-from suspension_ctrl.vehicles.assembly import Assembly, Link, StrutParameter
+from suspension_ctrl.vehicles.assembly import Assembly, Link, StrutCoefficient
 from suspension_ctrl.vehicles.vehicle import AssembledVehicle, Vehicle
 
 SETTING = {"spring": 22e3, "damper": 1500.0}
@@ -65,8 +65,8 @@ def test_moments_are_those_of_the_spectrum(vehicle):
 def inerter_car() -> Assembled:
     """The quarter car with an inerter beside its spring and damper."""
     assembly = QUARTER.assembly
-    inerter = StrutParameter("inerter", "kg", np.eye(1), 2, 0.0)
-    return Assembled(replace(assembly, parameters=(*assembly.parameters, inerter)))
+    inerter = StrutCoefficient("inerter", "kg", np.eye(1), 2, 0.0)
+    return Assembled(replace(assembly, strut_coefficients=(*assembly.strut_coefficients, inerter)))
 
 
 def by_hand(inertance: float, f: np.ndarray) -> dict[str, np.ndarray]:
@@ -103,15 +103,15 @@ def test_a_change_of_a_mass_is_a_port():
     """A strut of second order between the inertial frame and the body is a further mass of the body."""
     assembly = QUARTER.assembly
     alone, load = (np.diag(share) for share in ([1.0, 0.0], [0.0, 1.0]))
-    spring, damper = assembly.parameters
+    spring, damper = assembly.strut_coefficients
     car = Assembled(
         replace(
             assembly,
             struts=(*assembly.struts, Link("load", None, "body")),
-            parameters=(
+            strut_coefficients=(
                 replace(spring, gain=alone),
                 replace(damper, gain=alone),
-                StrutParameter("load", "kg", load, 2, 0.0),
+                StrutCoefficient("load", "kg", load, 2, 0.0),
             ),
         )
     )

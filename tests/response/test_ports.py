@@ -17,7 +17,7 @@ def test_closed_at_every_frequency_or_in_state_space(name):
     setting = vehicle.coefficients(struts_of(vehicle))
     responses = list(vehicle.responses)
     expected = from_roads(vehicle, setting, responses, F)
-    gains = gains_by_order(vehicle.parameters, setting, len(vehicle.struts))
+    gains = gains_by_order(vehicle.strut_coefficients, setting, len(vehicle.struts))
     d = dynamic_stiffness(gains, 2 * np.pi * F)
     opened, closed = Ports.of(vehicle, F, responses).around(d), Ports.of(vehicle, F, responses, setting)
     for ports in (opened, closed):

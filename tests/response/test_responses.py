@@ -30,7 +30,7 @@ class Spectrum:
 )
 def test_the_ride_of_a_vehicle_is_the_value_of_a_problem_at_its_setting(vehicle):
     setting = vehicle.coefficients(struts_of(vehicle))
-    free = [parameter.name for parameter in vehicle.parameters if parameter.default is None]
+    free = [one.name for one in vehicle.strut_coefficients if one.default is None]
     problem = RideProblem(
         vehicle,
         ROAD,

@@ -31,7 +31,7 @@ class Cab(Record, AssembledVehicle):
             tyres=[Link("axle", "axle_road", "wheel", 3e5, 200.0)],
             struts=[Link("axle", "wheel", "frame"), Link("cab", "frame", (0.0, 0.0))],
             supports=[Link("lead", None, "body", 500.0, 40.0)],
-            parameters=[*placed(STRUT, "axle", [1.0, 0.0])[0], *placed(STRUT, "cab", [0.0, 1.0])[0]],
+            strut_coefficients=[*placed(STRUT, "axle", [1.0, 0.0])[0], *placed(STRUT, "cab", [0.0, 1.0])[0]],
             responses={
                 "frame_acceleration": Response("acceleration", "frame"),
                 "cab_travel": Response("travel", "cab"),
@@ -86,8 +86,8 @@ def test_a_bar_resists_the_difference_of_travels():
 
 
 BASE = {
-    "masses": {"wheel": 40.0, "body": 300.0}, "contacts": {"": (0.0, 0.0)}, "parameters": [], "responses": {},
-    "tyres": [Link("", "road", "wheel", 2e5)], "struts": [Link("", "wheel", "body")],
+    "masses": {"wheel": 40.0, "body": 300.0}, "contacts": {"": (0.0, 0.0)}, "responses": {},
+    "tyres": [Link("", "road", "wheel", 2e5)], "struts": [Link("", "wheel", "body")], "strut_coefficients": [],
 }  # fmt: skip
 
 

@@ -215,7 +215,7 @@ def test_the_acceleration_of_a_point_is_that_of_a_rigid_body(mass, axle, struts,
 def test_an_anti_roll_bar_is_measured_in_moment_by_angle():
     """Left strut longer by t/2 times a small angle, right one shorter: moment k by radian about the middle."""
     values = FULL.coefficients({"front": (1.0, 1.0), "rear": (1.0, 1.0), "front_antiroll": 3e4})
-    stiffness = gains_by_order(FULL.parameters, values, 4)[0]
+    stiffness = gains_by_order(FULL.strut_coefficients, values, 4)[0]
     lever = np.array([0.75, -0.75, 0.0, 0.0])
     np.testing.assert_allclose(lever @ stiffness @ lever, 3e4 + 2 * 0.75**2, rtol=1e-14)
     np.testing.assert_allclose(stiffness[0], [1 + 3e4 / 1.5**2, -3e4 / 1.5**2, 0, 0], rtol=1e-14)

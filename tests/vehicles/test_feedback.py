@@ -12,7 +12,7 @@ from suspension_ctrl.vehicles.feedback import MeasuredResponse, around, gains_by
 def test_a_gain_around_a_plant_is_the_feedback_of_python_control():
     """At gains that `lft` takes: those of the full car, in kN/m."""
     q = len(FULL.struts)
-    gains = gains_by_order(FULL.parameters, FULL.coefficients(struts_of(FULL)), q)
+    gains = gains_by_order(FULL.strut_coefficients, FULL.coefficients(struts_of(FULL)), q)
     plant, gain = FULL.plant(), np.hstack(gains[:2])
     closed = around(plant, gains)
     select = np.eye(plant.ninputs)[:, -q:]

@@ -312,4 +312,4 @@ def test_a_problem_with_wheels_of_other_names_is_refused_at_birth_but_for_roll_d
 
 
 def struts_by_name(car: Vehicle) -> list[str]:
-    return [parameter.name for parameter in car.parameters if parameter.default is None]
+    return [one.name for one in car.strut_coefficients if one.default is None]

@@ -8,11 +8,11 @@ from suspension_ctrl.vehicles.networks import DAMPER, LAW, MEASURED, PARALLEL, S
 
 def test_plain_elements_in_parallel_are_gains():
     strut = sc.parallel(sc.Spring(installation_ratio=0.5), sc.Damper(), sc.Inerter(), installation_ratio=0.8)
-    parameters, networks = placed(strut, "front", [1.0, 0.0])
+    coefficients, networks = placed(strut, "front", [1.0, 0.0])
     assert not networks
-    assert [one.name for one in parameters] == ["front.spring", "front.damper", "front.inerter"]
-    assert [one.order for one in parameters] == [0, 1, 2]
-    np.testing.assert_allclose([one.gain[0, 0] for one in parameters], [0.16, 0.64, 0.64])
+    assert [one.name for one in coefficients] == ["front.spring", "front.damper", "front.inerter"]
+    assert [one.order for one in coefficients] == [0, 1, 2]
+    np.testing.assert_allclose([one.gain[0, 0] for one in coefficients], [0.16, 0.64, 0.64])
 
 
 def test_nodes_come_after_their_parts():
@@ -22,8 +22,8 @@ def test_nodes_come_after_their_parts():
         sc.series(sc.Damper(), sc.Spring("mount"), sc.MeasuredStiffness("bush", **rows), installation_ratio=0.7),
         sc.Friction(),
     )
-    parameters, networks = placed(strut, "rear", [1.0])
-    program = Program.of(networks, [one.name for one in parameters])
+    coefficients, networks = placed(strut, "rear", [1.0])
+    program = Program.of(networks, [one.name for one in coefficients])
     assert program.kind.tolist() == [DAMPER, SPRING, MEASURED, SERIES, SERIES, LAW, PARALLEL]
     assert program.parts.tolist()[3:] == [[0, 1], [3, 2], [-1, -1], [4, 5]]
     assert program.coefficient.tolist()[:3] == [[1, -1], [2, -1], [3, 0]]

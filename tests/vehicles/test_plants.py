@@ -123,7 +123,7 @@ def test_signals_are_those_of_the_vehicle(car):
     here, there = plant.plant(car.responses), car.plant(car.responses)
     assert isinstance(here, control.FrequencyResponseData)
     assert (here.output_labels, here.input_labels) == (there.output_labels, there.input_labels)
-    assert [p.name.rsplit(".", 1)[-1] for p in plant.parameters] == ["spring", "damper"] * len(car.struts)
+    assert [p.name.rsplit(".", 1)[-1] for p in plant.strut_coefficients] == ["spring", "damper"] * len(car.struts)
 
 
 def test_at_the_lines_the_closed_loop_is_that_of_the_vehicle():
@@ -309,7 +309,7 @@ def test_struts_are_those_asked_for():
     plant = Plant(CAR.plant(), contacts(CAR), struts=["rear"])
     assert plant.struts == ("rear",)
     assert plant.plant().input_labels[-1] == "rear_strut"
-    assert [p.name for p in plant.parameters] == ["rear.spring", "rear.damper"]
+    assert [p.name for p in plant.strut_coefficients] == ["rear.spring", "rear.damper"]
     weak = CAR.closed(front=(1e-9, 1e-9), rear=(22e3, 1500.0))
     s = 2j * np.pi * LINES
     alone = plant.closed(rear=(22e3, 1500.0), responses=CAR.responses)

@@ -53,7 +53,7 @@ def joined_by_control(strut, values):
 def test_a_closed_network_is_the_model_of_python_control(layout):
     strut = LAYOUTS[layout]
     car = sc.QuarterCar(**CAR, strut=strut)
-    own = {name: SETTING[name] for name in (one.name for one in car.parameters)}
+    own = {name: SETTING[name] for name in (one.name for one in car.strut_coefficients)}
     found = car.closed(own).frequency_response(OMEGA).frdata[0, 0]
     joined = joined_by_control(strut, own)
     np.testing.assert_allclose(found, [joined(w) for w in OMEGA], rtol=1e-9)
@@ -87,7 +87,7 @@ def test_axles_and_seats_have_struts_of_their_own():
         front_strut=LAYOUTS["zener"],
     )
     seat = sc.Seat(mass=75.0, name="driver", strut=sc.series(sc.Spring("foam"), LAYOUTS["zener"])).on(car)
-    names = [one.name for one in seat.parameters]
+    names = [one.name for one in seat.strut_coefficients]
     assert names[:5] == ["front.spring", "front.damper", "front.mount", "rear.spring", "rear.damper"]
     assert names[-4:] == ["driver.foam", "driver.spring", "driver.damper", "driver.mount"]
 

@@ -145,7 +145,7 @@ RECORDS = {
     "roll geometry": RollGeometry(roll_arm=0.5, front_roll_centre=0.05, rear_roll_centre=0.1, wheel_centre=0.3),
     "file": load_vehicle("jian_2022_full"),
     "assembly": DRIVER.on(BENDING.on(FULL)).assembly,
-    "coefficient": FULL.parameters[-1],
+    "coefficient": FULL.strut_coefficients[-1],
 }
 
 
@@ -191,7 +191,7 @@ def test_inputs_are_copied_and_cannot_be_changed():
     with pytest.raises(TypeError, match="item assignment"):
         FULL.assembly.masses["body"] = 7.0
     with pytest.raises(ValueError, match="read-only"):
-        FULL.parameters[0].gain[0, 0] = 7.0
+        FULL.strut_coefficients[0].gain[0, 0] = 7.0
     with pytest.raises(ValueError, match="read-only"):
         FULL.contact_points[0] = 7.0
     with pytest.raises(AttributeError):
@@ -214,7 +214,7 @@ def test_every_response_is_the_rate_or_the_law_of_others(vehicle):
         assert by_kind[higher].keys() <= by_kind[lower].keys()
         for where, rate in by_kind[higher].items():
             np.testing.assert_allclose(rate, s * by_kind[lower][where], rtol=0, atol=1e-9 * np.abs(rate).max())
-    springs, dampers = gains_by_order(vehicle.parameters, setting, len(vehicle.struts))[:2]
+    springs, dampers = gains_by_order(vehicle.strut_coefficients, setting, len(vehicle.struts))[:2]
     travels, rates, forces = (
         np.array([*by_kind[kind].values()]) for kind in ("travel", "travel_rate", "strut_force")
     )

@@ -40,7 +40,7 @@ def ride(
     masses = {"body_mass": body_mass, "wheel_mass": wheel_mass, "tyre_stiffness": tyre_stiffness}
     title, car, own = chosen_vehicle(vehicle, masses)
     strut = {name: value for name, value in {"spring": spring, "damper": damper}.items() if value is not None}
-    units = {parameter.name: parameter.unit for parameter in car.parameters}
+    units = {one.name: one.unit for one in car.strut_coefficients}
     values = car.coefficients({**own, **o.by_name("setting", setting or "", units), **strut})
     settings = o.settings(weighting, band)
     problem, _ = paper.chosen(None, road, speed, allow_outside=allow_outside, **settings)

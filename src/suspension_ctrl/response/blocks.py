@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..quantities import Bool, Complex, Integer, Real
-from ..vehicles.assembly import StrutParameter
+from ..vehicles.assembly import StrutCoefficient
 from .many_struts import ManyStruts
 from .ports import Ports
 
@@ -27,9 +27,9 @@ class Variables(NamedTuple):
     origin: Real
 
     @classmethod
-    def of(cls, parameters: Sequence[StrutParameter], origin: Mapping[str, float]) -> "Variables":
+    def of(cls, coefficients: Sequence[StrutCoefficient], origin: Mapping[str, float]) -> "Variables":
         """Take the coefficients with a value in `origin`."""
-        by_name = {parameter.name: parameter for parameter in parameters}
+        by_name = {one.name: one for one in coefficients}
         gains, orders = zip(*((by_name[name].gain, by_name[name].order) for name in origin), strict=True)
         return cls(np.array(gains), np.array(orders, dtype=np.int64), np.array(list(origin.values()), dtype=float))
 

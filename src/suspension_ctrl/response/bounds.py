@@ -13,7 +13,7 @@ def checked_bounds(
     vehicle: Vehicle, bounds: Bounds | None, lower: Sequence[float], upper: Sequence[float], fixed: Struts
 ) -> Bounds:
     """Return the bounds by name, frozen, with `lower` and `upper` (d,) in place of theirs where given."""
-    known = {parameter.name: parameter for parameter in vehicle.parameters}
+    known = {one.name: one for one in vehicle.strut_coefficients}
     if bounds is not None and not bounds:
         raise ValueError("bounds must hold one coefficient at least, got none")
     for name, pair in (bounds or {}).items():

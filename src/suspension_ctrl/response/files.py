@@ -160,7 +160,7 @@ def save_problem(path: str | PathLike[str], problem: RideProblem) -> None:
     if not isinstance(problem, RideProblem):
         raise ValueError(f"problem must be a RideProblem, got {checks.shown(problem)}")
     vehicle, bounds, weighting = problem.cases[0].vehicle, problem.bounds, cast(str, problem.weighting)
-    order = [one.name for one in vehicle.parameters if one.name in bounds]
+    order = [one.name for one in vehicle.strut_coefficients if one.name in bounds]
     if list(bounds) != order:
         raise ValueError(f"bounds must be in the vehicle's order, {', '.join(order)}, got {', '.join(bounds)}")
     problem = problem.replace(struts=coefficients_by_name(problem.struts, {}))

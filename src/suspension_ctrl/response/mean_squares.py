@@ -37,7 +37,7 @@ def cases_of(
 
 def fits_one_strut(load_case: LoadCase, variables: Sequence[str]) -> bool:
     """Whether there is one wheel, and one strut of a spring and a damper that both vary."""
-    names = [parameter.name for parameter in load_case.vehicle.parameters]
+    names = [one.name for one in load_case.vehicle.strut_coefficients]
     return load_case.wheels == 1 and names == list(variables) == ["spring", "damper"]
 
 
@@ -69,5 +69,5 @@ def case_of(
     if one_strut and fits_one_strut(load_case, variables):
         return OneStrut.around(Ports.of(vehicle, f, responses), omega, densities * load_case.psd(f))
     ports, roads = Ports.of(vehicle, f, responses, setting), load_case.cross_spectrum(f)
-    varied = Variables.of(vehicle.parameters, {name: setting[name] for name in variables})
+    varied = Variables.of(vehicle.strut_coefficients, {name: setting[name] for name in variables})
     return in_blocks(ports, omega, roads, densities, varied, pairs(vehicle.struts, vehicle.contact_points))

@@ -31,7 +31,7 @@ class Ports(NamedTuple):
         q = len(vehicle.struts)
         integrals = vehicle.without_jerk(responses)
         distinct = list(dict.fromkeys(integrals))
-        plant = around(vehicle.plant(distinct), gains_by_order(vehicle.parameters, values or {}, q))
+        plant = around(vehicle.plant(distinct), gains_by_order(vehicle.strut_coefficients, values or {}, q))
         rows = [*map(distinct.index, integrals), *range(len(distinct), len(distinct) + q)]
         h = paths(plant, f)[:, rows]
         jerks = [i for i, (name, one) in enumerate(zip(responses, integrals, strict=True)) if name != one]

@@ -180,7 +180,7 @@ class RideProblem(Record):
     @cached_property
     def units(self) -> Mapping[str, str]:
         """Unit of each variable and each objective by name."""
-        units = {one.name: one.unit for one in self.cases[0].vehicle.parameters if one.name in self.bounds}
+        units = {one.name: one.unit for one in self.cases[0].vehicle.strut_coefficients if one.name in self.bounds}
         return FrozenMapping(units | {measure.label: measure.unit for measure in self.measures})
 
     @cached_property

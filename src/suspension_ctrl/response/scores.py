@@ -198,7 +198,7 @@ class Scores:
         ports, roads = Ports.of(vehicle, f, names, known), case.cross_spectrum(f)
         for row in coefficients - np.array(list(known.values())):
             added = dict(zip(known, row.tolist(), strict=True))
-            gains = gains_by_order(vehicle.parameters, added, len(vehicle.struts))
+            gains = gains_by_order(vehicle.strut_coefficients, added, len(vehicle.struts))
             h = ports.around(dynamic_stiffness(gains, 2 * np.pi * f)).h[:, : ports.m, : ports.r]
             yield f, dict(zip(names, np.einsum("nmi,nij,nmj->mn", h, roads, h.conj()).real, strict=True))
 

@@ -73,7 +73,7 @@ class Response(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class StrutParameter(Record):
+class StrutCoefficient(Record):
     """A coefficient of the struts; required if it has no default, and above zero unless its default is 0."""
 
     name: str
@@ -107,7 +107,7 @@ class Assembly(Record):
     contacts: Mapping[str, Position] = field(metadata=unit("m"))  # where each tyre touches ``<tyre>_road``
     tyres: tuple[Link, ...]  # each from its road to a wheel, in the order of `contacts`
     struts: tuple[Link, ...]
-    parameters: tuple[StrutParameter, ...]
+    strut_coefficients: tuple[StrutCoefficient, ...]
     responses: Mapping[str, Response]
     networks: tuple[Network, ...] = ()
     supports: tuple[Link, ...] = ()  # further springs and dampers, the same for every design

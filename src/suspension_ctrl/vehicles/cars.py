@@ -6,7 +6,7 @@ from functools import cached_property
 from typing import Any
 
 from ..quantities import Checked, unit
-from .assembly import Assembly, Link, Position, Response, StrutParameter
+from .assembly import Assembly, Link, Position, Response, StrutCoefficient
 from .feedback import System
 from .networks import placed
 from .strut_files import STRUT
@@ -56,13 +56,13 @@ class QuarterCar(Checked, AssembledVehicle):
     @cached_property
     def assembly(self) -> Assembly:
         """Its masses and links."""
-        parameters, networks = placed(self.strut, "", [1.0])
+        coefficients, networks = placed(self.strut, "", [1.0])
         return Assembly(
             masses={"wheel": self.wheel_mass, "body": self.body_mass},
             contacts={"": (0.0, 0.0)},
             tyres=(Link("", "road", "wheel", self.tyre_stiffness, self.tyre_damping),),
             struts=(Link("", "wheel", (0.0, 0.0)),),
-            parameters=tuple(parameters),
+            strut_coefficients=tuple(coefficients),
             networks=tuple(networks),
             responses={
                 "body_acceleration": Response("acceleration", "body"),
@@ -94,7 +94,7 @@ class _TwoAxleCar(Checked, AssembledVehicle):
     rear_strut: Strut = field(default=SPRING_AND_DAMPER, metadata=STRUT)
 
     def _assembly(
-        self, corners: Mapping[str, Position], inertias: Mapping[str, float], bars: Sequence[StrutParameter] = ()
+        self, corners: Mapping[str, Position], inertias: Mapping[str, float], bars: Sequence[StrutCoefficient] = ()
     ) -> Assembly:
         """Return the body on a wheel under each of its corners, named by axle and side, with anti-roll bars."""
         shares = {axle: [float(corner.startswith(axle)) for corner in corners] for axle in ("front", "rear")}
@@ -113,7 +113,7 @@ class _TwoAxleCar(Checked, AssembledVehicle):
             contacts=corners,
             tyres=tuple(Link(c, f"{c}_road", f"{c}_wheel", stiffness[c], damping[c]) for c in corners),
             struts=tuple(Link(corner, f"{corner}_wheel", position) for corner, position in corners.items()),
-            parameters=(*front[0], *rear[0], *bars),
+            strut_coefficients=(*front[0], *rear[0], *bars),
             networks=(*front[1], *rear[1]),
             responses=accelerations | travels | loads,
         )

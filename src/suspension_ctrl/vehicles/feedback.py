@@ -10,7 +10,7 @@ from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
 from ..quantities import Complex, Real
-from .assembly import Network, StrutParameter
+from .assembly import Network, StrutCoefficient
 from .struts import Fraction
 
 ORDERS = 3  # of the derivative of a deflection in a tension: springs 0, dampers 1, inerters and masses 2
@@ -48,11 +48,11 @@ def system_of(numbers: Sequence[NDArray[Any]], **names: Any) -> System:
     return control.ss(*numbers, **names) if len(numbers) == 4 else MeasuredResponse(*numbers, **names)
 
 
-def gains_by_order(parameters: Iterable[StrutParameter], values: Mapping[str, float], q: int) -> Real:
+def gains_by_order(coefficients: Iterable[StrutCoefficient], values: Mapping[str, float], q: int) -> Real:
     """Return tensions by deflections and their first and second derivatives (3, q, q); none for other names."""
     gains = np.zeros((ORDERS, q, q))
-    for parameter in parameters:
-        gains[parameter.order] += values.get(parameter.name, 0.0) * parameter.gain
+    for one in coefficients:
+        gains[one.order] += values.get(one.name, 0.0) * one.gain
     return gains
 
 

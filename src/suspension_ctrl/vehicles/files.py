@@ -17,7 +17,7 @@ from ..schema.keys import BAD, KIND, Key, bad, keys_of
 from ..schema.reading import constructed, fields_named, kind_of, read
 from ..schema.writing import content, toml
 from ..tables import write_text
-from .assembly import StrutParameter
+from .assembly import StrutCoefficient
 from .cars import FullCar, HalfCar, QuarterCar
 from .handling import RollGeometry
 from .mounted import FlexibleBody, Mounted, Part, Payload, Seat
@@ -219,30 +219,30 @@ def read_coefficients(
     others: bool = False,
 ) -> dict[str, Any]:
     """Return values by coefficient, in the vehicle's order; `given` ones need none, `others` may be there."""
-    keys = [_key(one, kind, one.name in given) for one in vehicle.parameters]
+    keys = [_key(one, kind, one.name in given) for one in vehicle.strut_coefficients]
     values = read(table.flat(), {one.key: one for one in keys}, mistakes, others)
     return {one.name: values[one.name] for one in keys if one.name in values}
 
 
-def _key(parameter: StrutParameter, kind: Any, given: bool) -> Key:
-    optional = given or kind is not float or parameter.default is not None
+def _key(coefficient: StrutCoefficient, kind: Any, given: bool) -> Key:
+    optional = given or kind is not float or coefficient.default is not None
 
     def check(name: str, value: Any) -> None:
         if isinstance(value, tuple):
-            checks.interval(name, value, parameter.unit, equal=True)
-        parameter.check(name, value[0] if isinstance(value, tuple) else value)
+            checks.interval(name, value, coefficient.unit, equal=True)
+        coefficient.check(name, value[0] if isinstance(value, tuple) else value)
 
-    name, unit = parameter.name, parameter.unit
+    name, unit = coefficient.name, coefficient.unit
     return Key(key_of(name, unit), name, kind, unit, None if optional else MISSING, check)
 
 
 def coefficient_table(vehicle: Vehicle, values: Mapping[str, Any]) -> dict[str, Any]:
     """Return the table that `read_coefficients` reads."""
     found: dict[str, Any] = {}
-    for parameter in vehicle.parameters:
-        if parameter.name in values:
-            value = values[parameter.name]
-            *tables, last = key_of(parameter.name, parameter.unit).split(".")
+    for coefficient in vehicle.strut_coefficients:
+        if coefficient.name in values:
+            value = values[coefficient.name]
+            *tables, last = key_of(coefficient.name, coefficient.unit).split(".")
             place = reduce(lambda outer, name: outer.setdefault(name, {}), tables, found)
             place[last] = list(value) if isinstance(value, tuple) else value
     return found

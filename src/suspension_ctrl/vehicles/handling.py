@@ -89,7 +89,8 @@ class Mechanics(NamedTuple):
         p, _ = assembly.elongations(assembly.struts)
         k, c = (np.array([getattr(link, name) for link in links])[:, None] for name in ("stiffness", "damping"))
         stiff, damp = (
-            np.array([p.T @ (q.gain * (q.order == order)) @ p for q in assembly.parameters]) for order in (0, 1)
+            np.array([p.T @ (q.gain * (q.order == order)) @ p for q in assembly.strut_coefficients])
+            for order in (0, 1)
         )
         return cls(assembly, e.T @ (k * e), e.T @ (c * e), stiff, damp, (k * e)[: len(assembly.tyres)])
 

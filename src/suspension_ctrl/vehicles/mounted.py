@@ -105,11 +105,11 @@ class Seat(Part):
 
     def added_to(self, assembly: Assembly) -> Assembly:
         """Return the vehicle with this seat on it."""
-        coefficients = (parameter.name.split(".")[0] for parameter in assembly.parameters)
+        coefficients = (one.name.split(".")[0] for one in assembly.strut_coefficients)
         struts = [strut.name for strut in assembly.struts]
         if self.name in {"pitch", "roll", *assembly.coordinates, *assembly.roads, *struts, *coefficients}:
             raise ValueError(f"name must be one that the vehicle does not have yet, got {checks.shown(self.name)}")
-        parameters = [replace(p, gain=np.pad(p.gain, (0, 1))) for p in assembly.parameters]
+        padded = [replace(p, gain=np.pad(p.gain, (0, 1))) for p in assembly.strut_coefficients]
         strut = self.strut or parallel(Spring(value=self.spring), Damper(value=self.damper))
         own, networks = placed(strut, self.name, [*[0.0] * len(struts), 1.0])
         others = (one._replace(share=(*one.share, 0.0)) for one in assembly.networks)
@@ -119,7 +119,7 @@ class Seat(Part):
             assembly,
             masses={**assembly.masses, self.name: self.mass},
             struts=(*assembly.struts, Link(self.name, self.position, self.name)),
-            parameters=(*parameters, *own),
+            strut_coefficients=(*padded, *own),
             networks=(*others, *networks),
             responses={**assembly.responses, **responses},
         )

@@ -1,6 +1,6 @@
 """Networks of a vehicle's struts: the parts beside plain springs and dampers, as data of compiled loops.
 
-A strut's springs, dampers and inerters directly in parallel are coefficients of gains, see `StrutParameter`. All
+A strut's springs, dampers and inerters directly in parallel are coefficients of gains, see `StrutCoefficient`. All
 else, series, rubber and force laws, is a network at each of the strut's ports.
 """
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from ..compiled import compilable
 from ..quantities import Bool, Integer, Real
-from .assembly import Network, StrutParameter
+from .assembly import Network, StrutCoefficient
 from .force_laws import Curve, Factors, ForceLaw
 from .struts import (
     Damper,
@@ -33,23 +33,23 @@ _KINDS = {Spring: SPRING, Damper: DAMPER, Inerter: INERTER, Rubber: RUBBER, Meas
 _NONE = -1
 
 
-def placed(strut: Strut, prefix: str, share: Sequence[float]) -> tuple[list[StrutParameter], list[Network]]:
+def placed(strut: Strut, prefix: str, share: Sequence[float]) -> tuple[list[StrutCoefficient], list[Network]]:
     """Return coefficients and network of a strut at the ports whose `share` (q,) is 1; names after the prefix."""
     top = isinstance(strut, Parallel) and not isinstance(strut, Series)
     parts = strut.parts if isinstance(strut, Parallel) and top else (strut,)
     ratio = strut.installation_ratio if top else 1.0
     gain, dot = np.diag(np.asarray(share, dtype=float)), f"{prefix}." if prefix else ""
-    parameters = []
+    coefficients = []
     for part in parts:
         for one in part.coefficients:
             plain = isinstance(part, LinearElement)
             own = gain * (ratio * part.installation_ratio) ** 2 if plain else np.zeros_like(gain)
             order = part.order if isinstance(part, LinearElement) else 0
-            parameters.append(StrutParameter(dot + one.name, one.unit, own, order, one.default))
+            coefficients.append(StrutCoefficient(dot + one.name, one.unit, own, order, one.default))
     rest = tuple(part for part in parts if not isinstance(part, LinearElement))
     if not rest:
-        return parameters, []
-    return parameters, [Network(Parallel(rest, installation_ratio=ratio), dot, tuple(map(float, share)))]
+        return coefficients, []
+    return coefficients, [Network(Parallel(rest, installation_ratio=ratio), dot, tuple(map(float, share)))]
 
 
 class Laws(NamedTuple):

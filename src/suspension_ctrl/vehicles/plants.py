@@ -14,7 +14,7 @@ from .. import checks
 from ..documents import naming
 from ..quantities import FrozenMapping, Record, unit
 from ..tables import read_table
-from .assembly import Position, Response, ResponseName, StrutParameter, check_strut_names, joined, label
+from .assembly import Position, Response, ResponseName, StrutCoefficient, check_strut_names, joined, label
 from .feedback import System, numbers_of, selected, system_of, with_copies, with_rates
 from .networks import placed
 from .plant_tables import frequency_responses
@@ -139,11 +139,11 @@ class Plant(Record, Vehicle):
         return tuple(name for name, one in known if one.kind not in ("travel_rate", "strut_force", "jerk"))
 
     @property
-    def parameters(self) -> tuple[StrutParameter, ...]:
+    def strut_coefficients(self) -> tuple[StrutCoefficient, ...]:
         """Coefficients of the struts."""
         strut, shares = parallel(Spring(), Damper()), np.eye(len(self.struts)).tolist()
         placements = (placed(strut, *one) for one in zip(self.struts, shares, strict=True))
-        return tuple(parameter for parameters, _ in placements for parameter in parameters)
+        return tuple(one for coefficients, _ in placements for one in coefficients)
 
     def plant(self, responses: Sequence[ResponseName] | None = None) -> System:
         """Return the vehicle without its struts, see `Vehicle.plant`; points of the body to the millimetre."""

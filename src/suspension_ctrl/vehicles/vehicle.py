@@ -13,7 +13,7 @@ import numpy as np
 
 from .. import checks
 from ..quantities import Real, frozen_array
-from .assembly import Assembly, Network, Position, Response, ResponseName, StrutParameter, label
+from .assembly import Assembly, Network, Position, Response, ResponseName, StrutCoefficient, label
 from .feedback import Dynamics, System, gains_by_order, selected, with_rates
 from .handling import Mechanics
 from .modes import modes_of
@@ -47,7 +47,7 @@ class Vehicle(ABC):
 
     @property
     @abstractmethod
-    def parameters(self) -> tuple[StrutParameter, ...]:
+    def strut_coefficients(self) -> tuple[StrutCoefficient, ...]:
         """Coefficients of the struts."""
 
     @property
@@ -119,7 +119,7 @@ class Vehicle(ABC):
         q, values = len(self.struts), self.coefficients(setting, **struts)
         names = self.responses if responses is None else responses
         integrals = self.without_jerk(names)
-        dynamics = Dynamics.of(self.networks, values, gains_by_order(self.parameters, values, q))
+        dynamics = Dynamics.of(self.networks, values, gains_by_order(self.strut_coefficients, values, q))
         closed = dynamics.around(self.plant(list(dict.fromkeys(integrals))))
         closed = selected(closed, closed.output_labels[: -2 * q], closed.input_labels[:-q], "vehicle")
         rates = {str(name): str(one) for name, one in zip(names, integrals, strict=True) if name != one}
@@ -134,10 +134,10 @@ class Vehicle(ABC):
     def coefficients(self, setting: Setting | None = None, /, **struts: Any) -> dict[str, float]:
         """Return every coefficient by its name, defaults included; arguments and errors as of `closed`."""
         given = coefficients_by_name(setting, struts)
-        known = {parameter.name: parameter for parameter in self.parameters}
+        known = {one.name: one for one in self.strut_coefficients}
         for name in given:
             checks.one_of("setting", name, known)
-        missing = [name for name, parameter in known.items() if name not in given and parameter.default is None]
+        missing = [name for name, one in known.items() if name not in given and one.default is None]
         if missing:
             raise ValueError(f"setting must have {', '.join(known)}, got none for {', '.join(missing)}")
         for name, value in given.items():
@@ -187,9 +187,9 @@ class AssembledVehicle(Vehicle):
         return tuple(strut.name for strut in self.assembly.struts)
 
     @property
-    def parameters(self) -> tuple[StrutParameter, ...]:
+    def strut_coefficients(self) -> tuple[StrutCoefficient, ...]:
         """Coefficients of the struts."""
-        return self.assembly.parameters
+        return self.assembly.strut_coefficients
 
     @property
     def networks(self) -> tuple[Network, ...]:
@@ -214,9 +214,9 @@ def assembled(vehicle: Vehicle) -> AssembledVehicle:
     return vehicle
 
 
-def anti_roll_bar(name: str, difference: Sequence[float], track: float) -> StrutParameter:
+def anti_roll_bar(name: str, difference: Sequence[float], track: float) -> StrutCoefficient:
     """Return the stiffness, 0 by default, of a bar that resists a `difference` (q,) of travels."""
-    return StrutParameter(name, "N m/rad", np.outer(difference, difference) / track**2, 0, 0.0)
+    return StrutCoefficient(name, "N m/rad", np.outer(difference, difference) / track**2, 0, 0.0)
 
 
 def coefficients_by_name(setting: Setting | None, struts: Mapping[str, Any]) -> dict[str, float]:
