@@ -10,12 +10,13 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 from numba import njit
+from numba.core.errors import TypingError
 from numba.extending import register_jitable
 
 import suspension_ctrl
 from functions import dtlz2, srn
 from suspension_ctrl import MoeadDra, Nsga2, minimise
-from suspension_ctrl.compiled import call, call_compiled, storable, verb_of
+from suspension_ctrl.compiled import Linked, call, call_compiled, linked, storable, verb_of
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.kinds import Coding
 from suspension_ctrl.search.operators import DifferentialChild, MutateDesign
@@ -88,6 +89,59 @@ def test_python_calls_verbs_and_any_other_callable():
     assert verb_of(line := Line(2.0, 1.0)) is line
 
 
+class Sum(NamedTuple):
+    weights: np.ndarray
+
+    @register_jitable
+    def __call__(self, design):
+        if design[0] < 0.0:
+            raise ValueError("first must be >= 0")
+        return np.array([(self.weights * design).sum()])
+
+
+@njit
+def total(design, constant):
+    return np.array([design.sum() + constant])
+
+
+@njit("float64[:](float64[:], float64)")
+def total_of_any_layout(design, constant):
+    return np.array([design.sum() + constant])
+
+
+@njit
+def over_rows(verb, designs):
+    result = 0.0
+    for k in range(designs.shape[0]):
+        result += call(verb, (designs[k],))[0]
+    return result
+
+
+DESIGNS = np.arange(6.0).reshape(3, 2)
+
+
+@pytest.mark.parametrize(
+    ("verb", "expected", "by_address"),
+    [
+        (Sum(np.array([1.0, 10.0])), 96.0, True),
+        (verb_of((total, (0.5,))), 16.5, True),
+        (verb_of((total_of_any_layout, (0.5,))), 16.5, False),
+    ],
+)
+def test_a_linked_verb_gives_what_the_verb_does(verb, expected, by_address):
+    found = linked(verb)
+    assert isinstance(found, Linked) == by_address
+    assert over_rows(found, DESIGNS) == over_rows(verb, DESIGNS) == expected
+
+
+def test_an_exception_crosses_the_address_and_other_arrays_do_not():
+    verb = linked(Sum(np.ones(2)))
+    with pytest.raises(ValueError, match="first must be >= 0"):
+        over_rows(verb, -1.0 - DESIGNS)
+    with pytest.raises(TypingError, match="a linked verb takes array"):
+        over_rows(verb, DESIGNS[:, ::-1])
+
+
 def test_verbs_are_storable_where_every_process_finds_their_class():
     box = np.zeros(2), np.ones(2)
     assert storable(DifferentialChild(0.5))
@@ -118,12 +172,14 @@ watched = event.install_listener("numba:compile", Watch())
 SEARCH = f"""
 {WATCH}
 from suspension_ctrl import MoeadDra, Nsga2, minimise
+from suspension_ctrl.compiled import call_compiled
 from suspension_ctrl.paper import experiment
 problem = experiment.ride_problem()
 with watched:
     for optimiser in (Nsga2(population=20), MoeadDra(population=20, utility_period=1)):
-        minimise(problem, optimiser, iterations=2, seed=0)
-print(len(compiled))
+        run = minimise(problem, optimiser, iterations=2, seed=0)
+    call_compiled(problem.kernel, run.designs[0].copy())
+print(len(compiled), run.objectives.tobytes().hex())
 """
 
 IMPORT = f"""
@@ -142,12 +198,16 @@ print(imported, len(compiled))
 
 
 def test_a_second_process_compiles_nothing(tmp_path):
-    """Searches of both algorithms are stored as a whole, the sweep of MOEA/D-DRA with its verbs too."""
+    """Searches of both algorithms are stored as a whole, the sweep of MOEA/D-DRA with its verbs too.
+
+    The store holds the kernel twice: at its address for the sweep, and with a wrapper for Python.
+    """
     environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
     command = [sys.executable, "-c", SEARCH]
-    counts = [int(subprocess.check_output(command, env=environment)) for _ in range(2)]
-    assert 10 < counts[0] < 60
-    assert counts[1] == 0
+    (first, found), (second, again) = (subprocess.check_output(command, env=environment).split() for _ in range(2))
+    assert 10 < int(first) < 60
+    assert int(second) == 0
+    assert again == found
 
 
 OPTIMISERS = {"nsga2": Nsga2(population=24), "moead-dra": MoeadDra(population=24)}

@@ -8,11 +8,13 @@ from collections import namedtuple
 from collections.abc import Callable
 from functools import lru_cache
 from itertools import count
-from typing import Any, TypeVar
+from types import FunctionType
+from typing import Any, NamedTuple, TypeVar
 
-from numba import njit, types
+from numba import njit, typeof, types
 from numba.core import cgutils
-from numba.extending import lower_builtin, register_jitable, type_callable
+from numba.core.errors import TypingError
+from numba.extending import is_jitted, lower_builtin, register_jitable, type_callable
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -51,13 +53,29 @@ def _type_of_call(context: Any) -> Callable[..., Any]:
 
 def _lowered_call(context: Any, builder: Any, signature: Any, values: Any) -> Any:
     function, given, inner = _typed(context.typing_context, *signature.args)
-    settings, arguments = (cgutils.unpack_tuple(builder, value) for value in values)
-    passed = [*arguments, *settings] if is_spread(signature.args[0]) else [values[0], *arguments]
+    (kind, _), (verb, arguments) = signature.args, values
+    if is_linked(kind):
+        verb, address = cgutils.unpack_tuple(builder, verb)
+        kind = kind.types[0]
+    settings, arguments = (cgutils.unpack_tuple(builder, value) for value in (verb, arguments))
+    passed = [*arguments, *settings] if is_spread(kind) else [verb, *arguments]
     cast = [context.cast(builder, *each) for each in zip(passed, given, inner.args, strict=True)]
+    if is_linked(signature.args[0]):
+        return _jump(context, builder, address, inner, cast)
     return context.get_function(function, inner)(builder, cast)
 
 
 lower_builtin(call, types.BaseTuple, types.BaseTuple)(_lowered_call)
+
+
+def _jump(context: Any, builder: Any, address: Any, signature: Any, arguments: Any) -> Any:
+    """Call the function at an address by numba's own convention; an exception is handed on to the caller."""
+    convention, result = context.call_conv, signature.return_type
+    function = builder.inttoptr(address, convention.get_function_type(result, signature.args).as_pointer())
+    status, value = convention.call_function(builder, function, result, signature.args, arguments)
+    with cgutils.if_unlikely(builder, status.is_error):
+        convention.return_status_propagate(builder, status)
+    return value
 
 
 def _typed(context: Any, verb: Any, arguments: Any) -> tuple[Any, tuple[Any, ...], Any]:
@@ -65,9 +83,62 @@ def _typed(context: Any, verb: Any, arguments: Any) -> tuple[Any, tuple[Any, ...
 
     A method gets the verb, then the arguments; a user's compiled function the arguments, then the settings.
     """
+    if is_linked(verb):
+        if arguments.types != (_DESIGN,):
+            raise TypingError(f"a linked verb takes {_DESIGN}, got {arguments.types}")
+        signature = _LINKED[verb.types[0]].signature
+        return None, signature.args, signature
     given = (*arguments.types, *verb.types) if is_spread(verb) else (verb, *arguments.types)
     found = context.resolve_value_type(verb.instance_class.__call__)
     return found, given, context.resolve_function_type(found, given, {})
+
+
+class Linked(NamedTuple):
+    """A verb of one design (d,), and the address of its compiled function.
+
+    Numba copies the code of a function into each caller and optimises it there again; across an address it does
+    not. An address belongs to a process: verbs are linked where a loop begins and not kept.
+    """
+
+    verb: Any
+    address: int
+
+
+_DESIGN = types.float64[::1]
+_LINKED: dict[Any, Any] = {}  # by type of verb what numba compiled, for good: the code at an address must stay
+
+
+def linked(verb: Any) -> Any:
+    """Return a verb of one design (d,) with its address, or as it is if it cannot be compiled for that."""
+    function, kind = _callee(type(verb).__call__, storable(verb)), typeof(verb)
+    if not is_jitted(function):  # NUMBA_DISABLE_JIT
+        return verb
+    given = (_DESIGN, *kind.types) if is_spread(kind) else (kind, _DESIGN)
+    function.get_call_template(given, {})  # compiles, or loads from numba's store
+    if given not in function.overloads:  # a user's function, compiled for other types of arguments alone
+        return verb
+    made: Any = function.overloads[given]
+    _LINKED[kind] = made
+    return Linked(verb, made.library.get_pointer_to_function(made.fndesc.llvm_func_name))
+
+
+@lru_cache
+def _callee(function: Any, stored: bool) -> Any:
+    """Return a verb's function, compiled without the wrapper for callers in Python.
+
+    Under a name of its own: numba's store knows functions by name, and one with the wrapper may be there.
+    """
+    if is_jitted(function):
+        return function
+    twin = FunctionType(function.__code__, function.__globals__)
+    twin.__module__, twin.__qualname__ = function.__module__, f"{function.__qualname__}_linked"
+    decorator: Any = compiled if stored else njit
+    return decorator(no_cpython_wrapper=True)(twin)
+
+
+def is_linked(verb: Any) -> bool:
+    """Whether a verb's type is `Linked`."""
+    return verb.instance_class is Linked
 
 
 def is_spread(verb: Any) -> bool:

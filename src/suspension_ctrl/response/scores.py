@@ -63,7 +63,9 @@ class Kernel(NamedTuple):
     @compilable()
     def __call__(self, design: Real) -> Real:
         """Return the scores (s,) of one design (v,), in compiled code."""
-        designs = design.reshape(1, design.size)
+        designs = np.empty((1, design.size))  # `reshape` takes long to compile
+        for v in range(design.size):
+            designs[0, v] = design[v]
         total = np.empty(self.scale.size)
         for s in range(total.size):
             total[s] = 0.0

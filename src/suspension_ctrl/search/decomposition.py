@@ -154,7 +154,8 @@ class ReplaceWorse(NamedTuple):
                     old = g if g > old else old
             worse[count] = p
             count += new < old
-        for left in range(count, max(count - self.limit, 0), -1):
+        fewest = count - self.limit if count > self.limit else 0
+        for left in range(count, fewest, -1):
             drawn = draw_below(rng, left)
             p = worse[drawn]
             worse[drawn] = worse[left - 1]

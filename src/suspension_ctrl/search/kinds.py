@@ -58,7 +58,10 @@ class DecodedKernel(NamedTuple):
     @compilable()
     def __call__(self, code: Real) -> Real:
         """Return the kernel's values (m + c,) of a code (e,)."""
-        designs = call(self.decode, (code.reshape(1, code.size),))
+        codes = np.empty((1, code.size))  # `reshape` takes long to compile
+        for v in range(code.size):
+            codes[0, v] = code[v]
+        designs = call(self.decode, (codes,))
         value: Real = call(self.kernel, (designs[0],))
         return value
 

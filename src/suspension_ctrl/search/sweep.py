@@ -10,7 +10,7 @@ from numba import njit
 from numba.core.errors import NumbaError
 from numba.extending import is_jitted
 
-from ..compiled import call, call_compiled, compilable, compiled, storable, verb_of
+from ..compiled import call, call_compiled, compilable, compiled, linked, storable, verb_of
 from ..quantities import Integer, Real
 from .clock import untimed
 from .constraints import feasible_objectives
@@ -46,10 +46,10 @@ def sweep_sequential(
     Runs compiled if every verb is compiled and the problem has a kernel, otherwise in Python with the same draws.
     A kernel is compared with `evaluate` after the first sweep.
     """
-    problem.sweep = function, ours, verbs = problem.sweep or swept_by(toolbox, problem)
     box = np.array([problem.lower, problem.upper])
     children, born = np.empty((chosen.size, box.shape[1])), np.empty((chosen.size, population.values.shape[1]))
     try:
+        problem.sweep = function, ours, verbs = problem.sweep or swept_by(toolbox, problem)
         made = function(rng, chosen, population, None if ours else box, problem.strict, children, born, *verbs)
     except NumbaError as error:
         raise ValueError(f"verbs must compile together, got {str(error).splitlines()[0]}") from None
@@ -65,7 +65,7 @@ def swept_by(toolbox: Toolbox, problem: SearchProblem) -> tuple[Callable[..., in
     verbs.append(compiled_evaluation(toolbox, problem))
     if None not in verbs:
         ours = all(map(storable, verbs))
-        return (_STORED if ours else _FRESH), ours, verbs
+        return (_STORED if ours else _FRESH), ours, [*verbs[:-1], linked(verbs[-1])]
     verbs = [getattr(toolbox, name) for name in VERBS]
     verbs.append(lambda child: problem.values(toolbox.evaluate, child[np.newaxis])[0])
     return work_on, False, verbs
@@ -134,15 +134,15 @@ def work_on(
         child = call(mutate, (rng, child))
         if box is not None and place_of(child, box) < 0:
             return place_of(child, box)
-        value = call(evaluate, (child,))
-        if value.size != born.shape[1]:
-            return -1
         for v in range(child.size):
             children[k, v] = child[v]
+        value = call(evaluate, (children[k],))
+        if value.size != born.shape[1]:
+            return -1
         if not all_finite(value, born[k]) and strict:
             return k + 1
         call(update, (rng, child, born[k], partners, designs, values, weights, ideal))
-    return int(chosen.size)
+    return chosen.size
 
 
 @compiled(inline="always")
