@@ -32,7 +32,7 @@ class Profile(Record):
     Parameters
     ----------
     distance : (n,) array_like
-        Two or more, ascending [m]; steps may differ from their mean, a micrometre at least, by 1 % of it.
+        Two or more, ascending [m]. Steps differ from their mean by at most 1 %; the mean is at least 1 micrometre.
     height : (n, tracks) array_like
         Elevation of each track, finite [m].
     tracks : (tracks,) sequence of float

@@ -34,7 +34,7 @@ class Optimiser(Protocol):
         """Return the number of evaluations in an iteration."""
 
     def toolbox(self, problem: Minimisable) -> Toolbox:
-        """Return the verbs of the algorithm for `problem`."""
+        """Return the toolbox of the algorithm for a problem."""
 
     def search(
         self, problem: "SearchProblem", toolbox: Toolbox, rng: np.random.Generator, state: State | None = None

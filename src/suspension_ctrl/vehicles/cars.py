@@ -55,7 +55,7 @@ class QuarterCar(Checked, AssembledVehicle):
 
     @cached_property
     def assembly(self) -> Assembly:
-        """Its masses and links."""
+        """Masses and links."""
         coefficients, networks = placed(self.strut, "", [1.0])
         return Assembly(
             masses={"wheel": self.wheel_mass, "body": self.body_mass},
@@ -166,7 +166,7 @@ class HalfCar(_TwoAxleCar):
 
     @cached_property
     def assembly(self) -> Assembly:
-        """Its masses and links."""
+        """Masses and links."""
         return self._assembly(
             {"front": (self.cg_to_front, 0.0), "rear": (-self.cg_to_rear, 0.0)},
             {"pitch": self.pitch_inertia},
@@ -228,7 +228,7 @@ class FullCar(_TwoAxleCar):
 
     @cached_property
     def assembly(self) -> Assembly:
-        """Its masses and links."""
+        """Masses and links."""
         axles = {"front": (self.cg_to_front, self.front_track), "rear": (-self.cg_to_rear, self.rear_track)}
         sides = {"left": 0.5, "right": -0.5}
         return self._assembly(

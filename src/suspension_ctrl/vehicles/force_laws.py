@@ -86,7 +86,7 @@ class TableDamper(Table):
     force : (n,) array_like
         Force, positive in tension, nowhere falling, 0 at 0 m/s [N].
     installation_ratio : float
-        Deflection of the damper by the deflection at the wheel.
+        Deflection of the damper over the deflection at the wheel.
 
     Raises
     ------
@@ -136,7 +136,7 @@ class TableSpring(Table):
     force : (n,) array_like
         Change of force from the static load, positive in tension, nowhere falling, 0 at 0 m [N].
     installation_ratio : float
-        Deflection of the spring by the deflection at the wheel.
+        Deflection of the spring over the deflection at the wheel.
 
     Raises
     ------
@@ -271,7 +271,7 @@ class Friction(ForceLaw):
     force : float, optional
         Magnitude if a setting gives none, above zero [N].
     installation_ratio : float
-        Sliding distance by the deflection at the wheel.
+        Sliding distance over the deflection at the wheel.
 
     Examples
     --------
@@ -315,7 +315,7 @@ class DigressiveDamper(ForceLaw):
     rebound_over_bump : float
         Force in extension by that in compression at the same rate, above zero [-].
     installation_ratio : float
-        Deflection of the damper by the deflection at the wheel.
+        Deflection of the damper over the deflection at the wheel.
 
     Examples
     --------
@@ -366,7 +366,7 @@ class BilinearDamper(ForceLaw):
     bump, rebound : float, optional
         Slopes if a setting gives none, above zero [N s/m].
     installation_ratio : float
-        Deflection of the damper by the deflection at the wheel.
+        Deflection of the damper over the deflection at the wheel.
 
     Examples
     --------
@@ -410,7 +410,7 @@ class PowerDamper(ForceLaw):
     exponent : float, optional
         Exponent a if a setting gives none, above zero [-].
     installation_ratio : float
-        Deflection of the damper by the deflection at the wheel.
+        Deflection of the damper over the deflection at the wheel.
 
     Examples
     --------

@@ -40,7 +40,7 @@ class Mounted(Record, AssembledVehicle):
 
     @cached_property
     def assembly(self) -> Assembly:
-        """Its masses and links."""
+        """Masses and links."""
         return self.part.added_to(self.vehicle.assembly)
 
 

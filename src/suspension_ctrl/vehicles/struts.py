@@ -40,7 +40,7 @@ class Coefficient(NamedTuple):
 class Strut(Record, ABC):
     """Elements between two ends.
 
-    An installation ratio r is the deflection of the element by the deflection at the wheel: dynamic stiffness at
+    An installation ratio r is the deflection of the element over the deflection at the wheel: dynamic stiffness at
     the wheel is r^2 times that of the element.
     """
 
@@ -104,7 +104,7 @@ class LinearElement(Element):
 
     @property
     def coefficients(self) -> tuple[Coefficient, ...]:
-        """The coefficient with the name of the element."""
+        """The coefficient, of the name of the element."""
         return (Coefficient(self.name, self.unit, self.value),)
 
     def fraction(self, values: Mapping[str, float], /) -> Fraction:
@@ -124,7 +124,7 @@ class Spring(LinearElement):
     value : float, optional
         Stiffness if a setting gives none, above zero [N/m].
     installation_ratio : float
-        Deflection of the spring by the deflection at the wheel: the wheel rate is the spring rate times r^2.
+        Deflection of the spring over the deflection at the wheel: the wheel rate is the spring rate times r^2.
 
     Examples
     --------
@@ -155,7 +155,7 @@ class Damper(LinearElement):
     value : float, optional
         Damping coefficient if a setting gives none, above zero [N s/m].
     installation_ratio : float
-        Deflection of the damper by the deflection at the wheel.
+        Deflection of the damper over the deflection at the wheel.
 
     Examples
     --------
@@ -184,7 +184,7 @@ class Inerter(LinearElement):
     value : float, optional
         Inertance if a setting gives none, above zero [kg].
     installation_ratio : float
-        Deflection of the inerter by the deflection at the wheel.
+        Deflection of the inerter over the deflection at the wheel.
 
     Examples
     --------
@@ -216,7 +216,7 @@ class Rubber(Element):
     storage, loss : float, optional
         Storage stiffness k' and loss stiffness k'' if a setting gives none, above zero [N/m].
     installation_ratio : float
-        Deflection of the rubber by the deflection at the wheel.
+        Deflection of the rubber over the deflection at the wheel.
 
     Examples
     --------
@@ -252,7 +252,7 @@ class MeasuredStiffness(Element):
     storage, loss : (n,) array_like
         Storage and loss stiffness, above zero, and zero or more [N/m].
     installation_ratio : float
-        Deflection of the element by the deflection at the wheel.
+        Deflection of the element over the deflection at the wheel.
 
     Examples
     --------
@@ -338,7 +338,7 @@ def parallel(*parts: Strut, installation_ratio: float = 1.0) -> Strut:
     *parts : Strut
         Two or more, with elements of different names.
     installation_ratio : float
-        Deflection of the whole by the deflection at the wheel.
+        Deflection of the whole over the deflection at the wheel.
 
     Examples
     --------
@@ -357,7 +357,7 @@ def series(*parts: Strut, installation_ratio: float = 1.0) -> Strut:
     *parts : Strut
         Two or more, with elements of different names.
     installation_ratio : float
-        Deflection of the whole by the deflection at the wheel.
+        Deflection of the whole over the deflection at the wheel.
 
     Examples
     --------

@@ -164,7 +164,7 @@ class AssembledVehicle(Vehicle):
     @property
     @abstractmethod
     def assembly(self) -> Assembly:
-        """Its masses and links."""
+        """Masses and links."""
 
     @property
     def meanings(self) -> Mapping[str, Response]:
@@ -198,7 +198,7 @@ class AssembledVehicle(Vehicle):
 
     @cached_property
     def statics(self) -> Mechanics:
-        """Its matrices, for static loads and roll."""
+        """Matrices for static loads and roll."""
         return Mechanics.of(self.assembly)
 
     def plant(self, responses: Sequence[ResponseName] | None = None) -> control.StateSpace:
