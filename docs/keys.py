@@ -22,6 +22,7 @@ from suspension_ctrl.vehicles.files import KINDS as VEHICLES
 from suspension_ctrl.vehicles.files import Document as VehicleDocument
 from suspension_ctrl.vehicles.handling import RollGeometry
 from suspension_ctrl.vehicles.mounted import FlexibleBody, Payload, Seat, Shape
+from suspension_ctrl.vehicles.property_files import Mounting
 from suspension_ctrl.vehicles.strut_files import KINDS as ELEMENTS
 from suspension_ctrl.vehicles.strut_files import element_keys
 
@@ -103,8 +104,9 @@ stiffness = "200 N/mm"
 ```
 
 In place of the columns of a table stands `file = "damper.csv"`: a CSV file, beside the vehicle's file or below,
-with units in its header, `velocity [mm/s],force [kN]`. A coefficient without a value here has one in `[struts]`,
-and any may vary in `[bounds]`: `front.mount_N_per_m`, `front.damper.scale`, `front.bump_stop.gap_m`.
+with units in its header, `velocity [mm/s],force [kN]`; or a property file of the supplier in TeimOrbit format,
+`.dpr`, `.spr` or `.bum`, which needs no `kind`. A coefficient without a value here has one in `[struts]`, and any
+may vary in `[bounds]`: `front.mount_N_per_m`, `front.damper.scale`, `front.bump_stop.gap_m`.
 """
 FORMS = {
     float: "number", float | None: "number", int | None: "whole number", bool: "true or false", str: "text",
@@ -179,10 +181,10 @@ def page() -> str:
     parts += [table("Beside them, of every vehicle", VehicleDocument), table("`[[seats]]`", Seat)]
     parts += [table("`[flexible_body]`", FlexibleBody), table("`[[flexible_body.shapes]]`", Shape)]
     parts += [table("`[roll_geometry]`", RollGeometry), LAYOUTS]
-    kinds = {
-        record: f'An element, `kind = "{kind}"`' for kind, record in ELEMENTS.items() if kind != "rebound-stop"
-    }
-    parts += [table(f"{title}", record) for record, title in kinds.items()]
+    for kind, record in ELEMENTS.items():
+        both = ' or `"rebound-stop"`' if kind == "bump-stop" else ""
+        parts += [table(f'An element, `kind = "{kind}"`{both}', record)] if kind != "rebound-stop" else []
+    parts.append(table("An element in a property file, with `file`", Mounting))
     parts += ["### `[struts]`, `[bounds]`" + STRUTS, "## Roads\n"]
     parts += [table(f'`kind = "{kind}"`', record) for kind, record in ROADS.items()]
     parts.append(table('`kind = "measured"` of a CSV file, with `coherence` as above', MeasuredFile))

@@ -14,7 +14,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from suspension_ctrl import Iso8608Road, MeasuredRoad, Plant, datafiles, international_roughness_index
+from suspension_ctrl import (
+    BumpStop,
+    Iso8608Road,
+    MeasuredRoad,
+    Plant,
+    TableDamper,
+    TableSpring,
+    datafiles,
+    international_roughness_index,
+    load_property,
+    save_property,
+)
 from suspension_ctrl.commands.bode import read_designs
 from suspension_ctrl.documents import FileError
 from suspension_ctrl.paper import experiment
@@ -22,6 +33,7 @@ from suspension_ctrl.response.files import load_problem
 from suspension_ctrl.roads.files import load_road
 from suspension_ctrl.roads.measured import COHERENCE, read_curve
 from suspension_ctrl.roads.profiles import read_profile, write_profile
+from suspension_ctrl.tables import read_columns
 from suspension_ctrl.vehicles.files import load_vehicle
 
 MISTAKES = 21  # most lines of an error
@@ -84,11 +96,37 @@ def readers() -> dict[str, Reader]:
             ".csv",
             (b"name,spring [N/m],damper [N s/m]\nsoft,1e4,1e3\nhard,3e4,2e3\n",),
         ),
+        "table of a damper": Reader(
+            lambda path: TableDamper(**read_columns(path, {"velocity": "m/s", "force": "N"}, 1000)),
+            ".csv",
+            (b"# Source: here\nvelocity [mm/s],force [kN]\n-1000,-0.9\n-100,-0.4\n0,0\n100,0.6\n1000,1.5\n",),
+        ),
+        "property of a damper": Reader(load_property, ".dpr", _properties(".dpr")),
+        "property of a spring": Reader(
+            lambda path: load_property(path, static_load=4e3), ".spr", _properties(".spr")
+        ),
+        "property of a stop": Reader(load_property, ".bum", _properties(".bum")),
     }
 
 
 def _shipped(folder: str) -> tuple[bytes, ...]:
     return tuple(datafiles.path(f"{folder}/{stem}.toml").read_bytes() for stem in datafiles.stems(folder))
+
+
+def _properties(ending: str) -> tuple[bytes, ...]:
+    """Return a property file of an element, in two spellings."""
+    force = [-900.0, -400.0, 0.0, 600.0, 1500.0]
+    elements: dict[str, TableDamper | TableSpring | BumpStop] = {
+        ".dpr": TableDamper(velocity=[-1.0, -0.1, 0.0, 0.1, 1.0], force=force),
+        ".spr": TableSpring(deflection=[-0.08, -0.04, 0.0, 0.04, 0.08], force=force),
+        ".bum": BumpStop(compression=[0.0, 0.01, 0.02], force=force[2:]),
+    }
+    mounting = {"installed_length": 0.2, "static_load": 4e3} if ending == ".spr" else {}
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"file{ending}"
+        save_property(path, elements[ending], **mounting)
+        text = path.read_bytes()
+    return text, b"$ \xfc ! a comment\r\n" + text.replace(b"\n", b"\r\n")
 
 
 def _profiles() -> tuple[bytes, ...]:

@@ -72,6 +72,8 @@ from .vehicles.mounted import FlexibleBody as FlexibleBody
 from .vehicles.mounted import Payload as Payload
 from .vehicles.mounted import Seat as Seat
 from .vehicles.plants import Plant as Plant
+from .vehicles.property_files import load_property as load_property
+from .vehicles.property_files import save_property as save_property
 from .vehicles.struts import Damper as Damper
 from .vehicles.struts import Inerter as Inerter
 from .vehicles.struts import MeasuredStiffness as MeasuredStiffness

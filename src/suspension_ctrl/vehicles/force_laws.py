@@ -454,6 +454,9 @@ def _rows(name: str, x: ArrayLike | None, force: ArrayLike | None) -> tuple[Real
     if (falls := np.diff(force) < 0).any():
         i = int(falls.argmax())
         raise ValueError(f"force must not fall over {name}, got {force[i]:g} N, then {force[i + 1]:g} N")
+    with np.errstate(over="ignore"):
+        if not np.isfinite(np.diff(force) / np.diff(x)).all():
+            raise ValueError(f"force must rise over {name} by slopes of moderate size, got an infinite one")
     return x, force
 
 

@@ -1,11 +1,12 @@
 """Struts in vehicle files: a table with the layout as a text, and a table for each element that needs one.
 
 An element called after a kind, ``spring`` or ``bump_stop``, is of this kind without a table. Tables of force or
-stiffness stand in the file or in a CSV file with units in its header.
+stiffness stand in the file, in a CSV file with units in its header, or in a property file of the supplier.
 """
 
 from collections.abc import Mapping
 from dataclasses import fields
+from pathlib import Path
 from typing import Any
 
 from ..documents import Mistakes, Table, keyed
@@ -25,6 +26,8 @@ from .force_laws import (
     TableSpring,
 )
 from .layouts import layout_of, names, strut_of
+from .property_files import KINDS as PROPERTIES
+from .property_files import Mounting, ending, property_columns
 from .struts import ROWS, Damper, Element, Inerter, LinearElement, MeasuredStiffness, Rubber, Spring, Strut
 
 KINDS: dict[str, type[Element]] = {
@@ -79,42 +82,62 @@ def columns_of(kind: type[Element]) -> dict[str, str]:
     return {one.name: one.metadata["unit"] for one in fields(kind) if one.metadata.get("most") == ROWS}
 
 
-def _usual_kind(name: str) -> str | None:
-    """Return the kind of an element of this name without a table."""
+def file_keys(kind: type[Element], file: object) -> dict[str, Key]:
+    """Return the keys of an element with its table in a file."""
+    keys = {key: one for key, one in element_keys(kind).items() if one.name not in columns_of(kind)}
+    mounting = keys_of(Mounting) if _is_property(file) else {}
+    return {**keys, "file": FILE, **mounting}
+
+
+def _is_property(file: object) -> bool:
+    return isinstance(file, str) and Path(file).suffix.lower() in PROPERTIES
+
+
+def _usual_kind(name: str, file: object = None) -> str | None:
+    """Return the kind of an element of this name or with this file if its table does not say."""
+    if _is_property(file):
+        of_file = PROPERTIES[Path(str(file)).suffix.lower()]
+        return next(kind for kind, record in KINDS.items() if record is of_file)
     kind = name.replace("_", "-")
     return kind if kind in KINDS and keys_of(KINDS[kind])["name"].default == name else None
 
 
 def _element(name: str, table: Table, mistakes: Mistakes) -> Element:
     """Return the element in a table, `BAD` after a mistake."""
-    before = len(mistakes)
-    table = table._replace(content={"kind": _usual_kind(name), **table.content})
+    before, file = len(mistakes), table.content.get("file")
+    table = table._replace(content={"kind": _usual_kind(name, file), **table.content})
     kind = kind_of(KINDS, table, mistakes)
     if bad(kind):
         return BAD
-    keys, columns = element_keys(kind), columns_of(kind)
-    from_file = "file" in table.content and columns
-    if from_file:
-        keys = {key: one for key, one in keys.items() if one.name not in columns} | {"file": FILE}
+    from_file = file is not None and columns_of(kind)
+    keys = file_keys(kind, file) if from_file else element_keys(kind)
     values = read(table, {**KIND, **keys}, mistakes)
     if len(mistakes) > before:
         return BAD
-    given = {one.name: one.key for one in keys.values()}
-    given |= {name: given["value"]} if issubclass(kind, LinearElement) else {}
+    named = {one.name: one.key for one in keys.values()}
+    named |= {name: named["value"]} if issubclass(kind, LinearElement) else {}
     if from_file:
-        values |= _columns(columns, values.pop("file"), table, mistakes)
-        given |= {column: f"file: {column}" for column in columns}
-    del values["kind"]
+        values |= _columns(kind, values, table, mistakes)
+        named |= {column: f"file: {column}" for column in columns_of(kind)}
+    own = {key: value for key, value in values.items() if key in {one.name for one in fields(kind)}}
     if len(mistakes) == before:
-        with mistakes.noted(), keyed(table.name, given):
-            return kind(name, **values)
+        with mistakes.noted(), keyed(table.name, named):
+            return kind(name, **own)
     return BAD
 
 
-def _columns(columns: Mapping[str, str], file: str, table: Table, mistakes: Mistakes) -> dict[str, Real]:
+def _columns(
+    kind: type[Element], values: Mapping[str, Any], table: Table, mistakes: Mistakes
+) -> Mapping[str, Real]:
     """Return the columns of a file by name, none after a mistake."""
     with mistakes.noted(), keyed(table.name, {"file": "file"}):
-        path = table.folder.file(file)
+        path = table.folder.file(values["file"])
         with mistakes.noted(f"{table.name}file: "):
-            return read_columns(path, columns, ROWS)
+            if not _is_property(values["file"]):
+                return read_columns(path, columns_of(kind), ROWS)
+            needed = PROPERTIES[ending(path)]
+            if not issubclass(kind, needed):
+                raise ValueError(f"{path}: the file must be of a {kind.__name__}, got one of a {needed.__name__}")
+            given = {one.name: values[one.name] for one in fields(Mounting) if one.name in values}
+            return property_columns(path, Mounting(**given))
     return {}
