@@ -97,7 +97,7 @@ def readers() -> dict[str, Reader]:
             (b"name,spring [N/m],damper [N s/m]\nsoft,1e4,1e3\nhard,3e4,2e3\n",),
         ),
         "table of a damper": Reader(
-            lambda path: TableDamper(**read_columns(path, {"velocity": "m/s", "force": "N"}, 1000)),
+            lambda path: read_columns(path, {"velocity": "m/s", "force": "N"}, 1000),
             ".csv",
             (b"# Source: here\nvelocity [mm/s],force [kN]\n-1000,-0.9\n-100,-0.4\n0,0\n100,0.6\n1000,1.5\n",),
         ),

@@ -7,6 +7,7 @@ power of the rate. Its knots, slopes and jumps depend on the coefficients of the
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from math import nan, prod
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -32,6 +33,21 @@ class Curve(NamedTuple):
     jumps: Sequence[Factors] = ()  # as many as knots, or none
     power: tuple[int, int] | None = None  # the coefficients c and a
 
+    def force(self, x: Real, values: Sequence[float]) -> Real:
+        """Return the force (...) at rates or deflections (...) with these coefficients, 0 at 0."""
+
+        def product(factors: Factors) -> float:
+            return factors[0] * prod(values[i] for i in factors[1])
+
+        first, *slopes = map(product, self.slopes)
+        force, jumps = first * x, [*map(product, self.jumps)] or [0.0] * len(slopes)
+        for (constant, factors), rise, jump in zip(self.knots, np.diff([first, *slopes]), jumps, strict=True):
+            knot = constant + product(factors)
+            force += rise * (np.maximum(x - knot, 0.0) - max(-knot, 0.0))
+            force += jump * (np.heaviside(x - knot, 0.5) - np.heaviside(-knot, 0.5))
+        c, a = (values[i] for i in self.power) if self.power else (0.0, 1.0)
+        return force + c * np.abs(x) ** a * np.sign(x)
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ForceLaw(Element):
@@ -54,6 +70,41 @@ class ForceLaw(Element):
     def coefficients(self) -> tuple[Coefficient, ...]:
         """Coefficients, named ``<element>.<value>``."""
         return tuple(one._replace(name=f"{self.name}.{one.name}") for one in self.values)
+
+    def tension(self, x: ArrayLike, /, **values: float) -> Real:
+        """Return the force at rates or deflections, at a jump the mean of both sides.
+
+        Parameters
+        ----------
+        x : array_like
+            Rate [m/s] of a damper, deflection [m] of a spring or a stop, positive in extension.
+        **values : float
+            Coefficients, named without the element, above zero; of the others the values of the element.
+
+        Returns
+        -------
+        array of the shape of x
+            Force of the element, positive in tension [N].
+
+        Raises
+        ------
+        ValueError
+            If a coefficient is unknown, has no value or is out of range.
+
+        Examples
+        --------
+        >>> import suspension_ctrl as sc
+        >>> damper = sc.DigressiveDamper(low_speed=4000.0, high_speed=800.0, knee=0.1)
+        >>> damper.tension([-1.0, -0.1, 0.0, 0.1, 1.0], rebound_over_bump=2.0)
+        array([-1120.,  -400.,     0.,   800.,  2240.])
+        """
+        own = {one.name: one for one in self.values}
+        for name in values:
+            checks.one_of(f"coefficient of {self.name}", name, own)
+        numbers = {name: values.get(name, one.default) for name, one in own.items()}
+        for name, number in numbers.items():
+            checks.positive(f"{self.name}.{name}", nan if number is None else number, own[name].unit)
+        return self.curve.force(np.asarray(x, dtype=float), [number or nan for number in numbers.values()])
 
 
 @dataclass(frozen=True, eq=False, repr=False)
