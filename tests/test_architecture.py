@@ -27,7 +27,7 @@ PUBLIC = {
     "TwoSlopeRoad", "load_road", "save_road",
     "Chirp", "Cleat", "Plank", "Pothole", "Ramp", "RigChirp", "RigSine", "Sine", "SpeedBump", "Step",
     "TrapezoidalBump",
-    "ACC", "DLC", "DTL", "FrontLoadTransfer", "Limit", "LoadCase", "Measure", "RideProblem", "RollDamping",
+    "ACC", "DLC", "DTL", "FrontLoadTransfer", "Limit", "LoadCase", "Measure", "Peak", "RideProblem", "RollDamping",
     "RollGradient", "RootSumSquare", "SWS", "Term", "exposure", "international_roughness_index", "load_problem",
     "save_problem",    "response_psds", "ride", "simulate", "weighting",
     "FailureWarning", "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run",

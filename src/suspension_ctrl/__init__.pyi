@@ -8,6 +8,7 @@ from .response.measures.handling import RollDamping as RollDamping
 from .response.measures.handling import RollGradient as RollGradient
 from .response.measures.limits import Limit as Limit
 from .response.measures.measure import Measure as Measure
+from .response.measures.peak import Peak as Peak
 from .response.measures.terms import Term as Term
 from .response.measures.vibration import ACC as ACC
 from .response.measures.vibration import DLC as DLC

@@ -1,13 +1,15 @@
 """A load case: a vehicle with a payload on a road at a speed."""
 
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
 from .. import checks
-from ..quantities import Complex, Real, Record, unit
+from ..quantities import Complex, FrozenMapping, Real, Record, unit
+from ..roads.events import Event
 from ..vehicles.handling import RollGeometry
 from ..vehicles.vehicle import Vehicle
 
@@ -17,6 +19,16 @@ class Road(Protocol):
 
     def psd(self, f: Real, speed: float) -> Real:
         """Return the one-sided spectrum (n,) [m^2/Hz] at the frequencies `f` (n,) [Hz] at a speed [m/s]."""
+
+
+class Drive(NamedTuple):
+    """An event at a speed [m/s], None for that of the load case; a test rig has none."""
+
+    event: Event
+    speed: float | None = None
+
+
+_NO_EVENTS: FrozenMapping[str, Any] = FrozenMapping({})
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -36,6 +48,8 @@ class LoadCase(Record):
         Share of time, > 0; cases count by their shares of the sum.
     roll_geometry : RollGeometry, optional
         For measures of cornering.
+    events : mapping of str to Event or (Event, float), optional
+        Events by name for `Peak`, driven at the speed of the load case or at one of their own [m/s].
 
     Examples
     --------
@@ -60,6 +74,7 @@ class LoadCase(Record):
     speed: float = field(metadata=unit("m/s"))
     share: float = 1.0
     roll_geometry: RollGeometry | None = None
+    events: Mapping[str, Any] = _NO_EVENTS
 
     def __post_init__(self) -> None:
         if not isinstance(self.vehicle, Vehicle):
@@ -72,11 +87,20 @@ class LoadCase(Record):
             )
         checks.positive("speed", self.speed, "m/s")
         checks.positive("share", self.share)
+        self._keep(events=_checked_events(self.events))
 
     def describe(self) -> str:
         """Return road and speed in words."""
         road = self.road.describe() if hasattr(self.road, "describe") else repr(self.road)
         return f"{road}; {self.speed:g} m/s"
+
+    def drive(self, name: str) -> tuple[Event, float]:
+        """Return an event with its speed [m/s]; ValueError if the load case has none of this name."""
+        if name not in self.events:
+            known = ", ".join(self.events) or "those in events=, of which there are none"
+            raise ValueError(f"event must be one of {known}, got {checks.shown(name)}")
+        event, speed = self.events[name]
+        return event, self.speed if speed is None else speed
 
     @property
     def wheels(self) -> int:
@@ -104,8 +128,31 @@ class LoadCase(Record):
         return np.asarray(road.cross_spectrum(f, self.speed, self.vehicle.contact_points))
 
 
-def load_cases(cases: Sequence[LoadCase], **given: Any) -> tuple[LoadCase, ...]:
-    """Return the cases with a `given` vehicle, road or speed in place of theirs, or the one case of all three."""
+def _checked_events(events: object) -> FrozenMapping[str, Drive]:
+    """Return the events by name, each with its speed; ValueError for others."""
+    if not isinstance(events, Mapping):
+        raise ValueError(f"events must be a mapping of events by name, got {checks.shown(events)}")
+    found = {name: Drive(*one) if isinstance(one, tuple) else Drive(one) for name, one in events.items()}
+    for name, (event, speed) in found.items():
+        if not (isinstance(name, str) and re.fullmatch(r"\w+", name)):
+            raise ValueError(
+                f"events must have names of letters, digits and underscores, got {checks.shown(name)}"
+            )
+        if not isinstance(event, Event):
+            raise ValueError(f"event {name} must be one such as SpeedBump, got {checks.shown(event)}")
+        if speed is not None:
+            checks.positive(f"speed of event {name}", speed, "m/s")
+    return FrozenMapping(found)
+
+
+def load_cases(
+    cases: Sequence[LoadCase], events: Mapping[str, Any] | None = None, **given: Any
+) -> tuple[LoadCase, ...]:
+    """Return the cases with a `given` vehicle, road or speed in place of theirs, or the one case of all three.
+
+    Events, if given, take the place of theirs.
+    """
+    own: dict[str, Any] = {} if events is None else {"events": events}
     given = {name: value for name, value in given.items() if value is not None}
     if isinstance(cases, LoadCase):
         raise ValueError("cases must be a list of load cases, got one by itself")
@@ -114,7 +161,7 @@ def load_cases(cases: Sequence[LoadCase], **given: Any) -> tuple[LoadCase, ...]:
     if len(cases) == 0:
         if len(given) < 3:
             raise ValueError("vehicle, road and speed must be given, or cases in their place, got neither")
-        return (LoadCase(**given),)
+        return (LoadCase(**given | own),)
     if not all(isinstance(case, LoadCase) for case in cases):
         raise ValueError(f"cases must be a list of load cases, got {checks.shown(list(cases))}")
-    return tuple(replace(case, **given) for case in cases)
+    return tuple(replace(case, **given | own) for case in cases)

@@ -17,6 +17,7 @@ from .bounds import checked_bounds
 from .load_case import LoadCase, Road, load_cases
 from .measures.limits import Limit
 from .measures.measure import Measure, MeasureLike, OwnMeasure, measure_of
+from .measures.peak import Peak
 from .measures.terms import CaseMeasure
 from .scores import NODES, RESOLVED, Kernel, Score, Scores
 from .weightings import Weighting, checked
@@ -62,6 +63,8 @@ class RideProblem(Record):
         Several load cases; a vehicle, road or speed replaces theirs. An objective is the root mean square over
         them by their shares, of handling and a `Measure` the mean, or if `worst_case` the worst of them.
     worst_case : bool
+    events : mapping of str to Event or (Event, float), optional
+        Events by name for `Peak` in every load case, see `LoadCase`.
     nodes : int, optional
         Quadrature nodes over the band, enough to resolve every resonance at the corners of the box; by default
         they are found. The paper's Table 1 takes 256, with which the objectives over its whole box are within 1e-9
@@ -117,13 +120,14 @@ class RideProblem(Record):
         constraints: Sequence[Limit | str] = (),
         cases: Sequence[LoadCase] = (),
         worst_case: bool = False,
+        events: Mapping[str, Any] | None = None,
         nodes: int | None = None,
     ) -> None:
         checks.interval("band", band, "Hz")
         checks.listed("measures", measures)
         checks.listed("constraints", constraints)
         fixed: Any = {k: tuple(v) if isinstance(v, list | np.ndarray) else v for k, v in (struts or {}).items()}
-        every = load_cases(cases, vehicle=vehicle, road=road, speed=speed)
+        every = load_cases(cases, events, vehicle=vehicle, road=road, speed=speed)
         self._keep(
             cases=every,
             bounds=checked_bounds(every[0].vehicle, bounds, lower, upper, fixed),
@@ -156,6 +160,12 @@ class RideProblem(Record):
     def speed(self) -> float:
         """Speed in every load case [m/s]."""
         return self._common("speed")
+
+    @property
+    def events(self) -> Mapping[str, Any]:
+        """Events of every load case, with their speeds [m/s], None for that of the case."""
+        events: Mapping[str, Any] = self._common("events")
+        return events
 
     @cached_property
     def lower(self) -> tuple[float, ...]:
@@ -272,8 +282,8 @@ class RideProblem(Record):
                 raise ValueError(f"{what} must have names of their own, got {checks.shown(names)}")
         scores = [Score(self._in_cases(one), self.worst_case, one.sign) for one in self.measures]
         scores += [Score(self._in_cases(one), True, one.scale, one.offset) for one in self.constraints]
-        own = any(isinstance(one, OwnMeasure) for one in self.measures)
-        if not own and all(score.by_function for score in scores):
+        moving = any(isinstance(one, OwnMeasure | Peak) for one in self.measures)
+        if not moving and all(score.by_function for score in scores):
             raise ValueError(f"measures must hold one of the ride, got {checks.shown(list(self.objectives))}")
         middle = {name: (low + high) / 2 for name, (low, high) in self.bounds.items()}
         settings = [case.vehicle.coefficients({**self.struts, **middle}) for case in self.cases]

@@ -1,7 +1,7 @@
 """Responses of a vehicle with its struts to a random road: frequency responses, spectra, root mean squares."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import control
 import numpy as np
@@ -33,6 +33,7 @@ def ride(
     weighting: Weighting | control.LTI | None = "Wk",
     band: tuple[float, float] = (0.0, 20.0),
     measures: Sequence[MeasureLike] = ("ACC", "SWS", "DTL"),
+    events: Mapping[str, Any] | None = None,
 ) -> "pd.DataFrame":
     """Return the ride of a vehicle with its struts: measures, and the root mean square of every response.
 
@@ -45,7 +46,7 @@ def ride(
         Under one wheel any object with ``psd(f, speed)``.
     speed : float
         Vehicle speed V [m/s].
-    weighting, band, measures
+    weighting, band, measures, events
         As of `RideProblem`. Of a function of designs these are all coefficients, in the vehicle's order.
 
     Returns
@@ -97,7 +98,7 @@ def ride(
 
     checks.interval("band", band, "Hz")
     checks.listed("measures", measures)
-    case = LoadCase(vehicle=vehicle, road=road, speed=speed)
+    case = LoadCase(vehicle=vehicle, road=road, speed=speed, events=events or {})
     known = checked(weighting)
     judged = [measure_of(one) for one in measures]
     labels = {one.label for one in judged}

@@ -75,14 +75,17 @@ class Dynamics(NamedTuple):
                 filters += [(port, (np.asarray(rest, dtype=np.float64), denominator))] if rest.any() else []
         return cls(total, tuple(filters))
 
+    def stiffness(self, s: Complex) -> Complex:
+        """Return the dynamic stiffness (n, q, q) at s (n,) [rad/s]."""
+        stiffness = np.asarray(np.tensordot(s[:, None] ** np.arange(ORDERS), self.gains, 1))
+        for port, (numerator, denominator) in self.filters:
+            stiffness[:, port, port] += polynomial.polyval(s, numerator) / polynomial.polyval(s, denominator)
+        return stiffness
+
     def around(self, plant: System) -> System:
         """Return the plant, ports included, with these struts from last outputs to last inputs."""
         if not isinstance(plant, control.StateSpace):
-            s = 1j * plant.omega
-            stiffness = np.tensordot(s[:, None] ** np.arange(ORDERS), self.gains, 1)
-            for port, (numerator, denominator) in self.filters:
-                stiffness[:, port, port] += polynomial.polyval(s, numerator) / polynomial.polyval(s, denominator)
-            return _around_stiffness(plant, stiffness)
+            return _around_stiffness(plant, self.stiffness(1j * plant.omega))
         return _with_filters(around(plant, self.gains), self.filters, self.gains.shape[1])
 
 
