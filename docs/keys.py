@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 from numpy.typing import ArrayLike
 
 from suspension_ctrl.quantities import Real
+from suspension_ctrl.response.event_files import EVENTS, DriveKeys
 from suspension_ctrl.response.files import CaseDocument
 from suspension_ctrl.response.files import Document as ProblemDocument
 from suspension_ctrl.roads.coherence import COHERENCES
@@ -191,7 +192,9 @@ def page() -> str:
     parts += [table(f'`[coherence]`, `kind = "{kind}"`', record) for kind, record in COHERENCES.items()]
     parts.append(table('`[coherence]`, `kind = "tabulated"` of a CSV file', TabulatedFile))
     parts += ["## Problems\n", table("A problem", ProblemDocument), table("`[[cases]]`", CaseDocument)]
-    return "\n".join([*parts, table("`[[cases.payload]]`, also `[[payload]]` of a vehicle", Payload)])
+    parts.append(table("`[[cases.payload]]`, also `[[payload]]` of a vehicle", Payload))
+    parts += [table(f'`[events.<name>]`, `kind = "{kind}"`', record) for kind, record in EVENTS.items()]
+    return "\n".join([*parts, table("Beside them, of all but a test rig", DriveKeys)])
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ take, paths as seen from the problem's file.
 """
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from os import PathLike
 from pathlib import Path
 from typing import Any, cast
@@ -34,7 +34,8 @@ from ..vehicles.handling import RollGeometry
 from ..vehicles.mounted import Part, Payload, Seat
 from ..vehicles.vehicle import assembled, coefficients_by_name
 from . import weightings
-from .load_case import LoadCase
+from .event_files import IN_FILES
+from .load_case import Drive, LoadCase
 from .measures.limits import Limit
 from .measures.measure import Measure
 from .problem import RideProblem
@@ -93,6 +94,8 @@ class Document:
         Coefficients that do not vary; those of the first case's vehicle if not given.
     seats : array of tables
         Seats that are put on the vehicle of every case.
+    events : table
+        Events of every case by name, for measures such as ``peak front_travel bump``.
     cases : array of tables
         The load cases.
     """
@@ -108,6 +111,7 @@ class Document:
     kinds: Mapping[str, Any] = field(default_factory=dict)
     struts: Mapping[str, Any] = field(default_factory=dict)
     seats: tuple[Seat, ...] = field(default=(), metadata={"most": 50})
+    events: Mapping[str, Drive] = field(default_factory=dict, metadata=IN_FILES)
     cases: tuple[CaseDocument, ...]
 
 
@@ -159,6 +163,8 @@ def save_problem(path: str | PathLike[str], problem: RideProblem) -> None:
     """
     if not isinstance(problem, RideProblem):
         raise ValueError(f"problem must be a RideProblem, got {checks.shown(problem)}")
+    if any(case.events != problem.cases[0].events for case in problem.cases):
+        raise ValueError("events must be the same in all load cases of a file, got others")
     vehicle, bounds, weighting = problem.cases[0].vehicle, problem.bounds, cast(str, problem.weighting)
     order = [one.name for one in vehicle.strut_coefficients if one.name in bounds]
     if list(bounds) != order:
@@ -174,6 +180,7 @@ def save_problem(path: str | PathLike[str], problem: RideProblem) -> None:
         bounds=coefficient_table(vehicle, bounds),
         kinds=coefficient_table(vehicle, problem.kinds),
         struts=coefficient_table(vehicle, problem.struts),
+        events=dict(problem.events),
         cases=tuple(map(_case_document, problem.cases)),
     )
     write_text(Path(path), toml(content(file), problem, _problem))
@@ -198,9 +205,9 @@ def _problem(table: Table) -> RideProblem:
         mistakes.settle()
     seats, documents = numbered("seats", values), enumerate(values["cases"], start=1)
     given = [_case(one, table.inner(f"cases[{i}]", {}), seats, mistakes) for i, one in documents]
-    apart = ("title", "seats", "cases")
+    apart, events = ("title", "seats", "cases", "events"), values.get("events", {})
     values = {name: value for name, value in values.items() if name not in apart and not bad(value)}
-    cases = [case for _, case in filter(None, given) if case]
+    cases = [replace(case, events={} if bad(events) else events) for _, case in filter(None, given) if case]
     _check(values, cases, mistakes)
     if given[0]:
         values |= _coefficients(values, *given[0], mistakes)

@@ -176,8 +176,10 @@ class TrapezoidalBump(Polygon):
         Height and total length [m].
     ramp : float
         Length of each flank, at most half of the total length [m].
-    contact_length, side
-        As of `SpeedBump`.
+    contact_length : float
+        Length over which a tyre averages the elevation, 0 for contact in a point [m].
+    side : str
+        The wheels that meet it: "both", "left" or "right".
 
     Examples
     --------
@@ -215,8 +217,10 @@ class Ramp(Polygon):
     ----------
     height, length : float
         Rise, and length of the slope [m].
-    contact_length, side
-        As of `SpeedBump`.
+    contact_length : float
+        Length over which a tyre averages the elevation, 0 for contact in a point [m].
+    side : str
+        The wheels that meet it: "both", "left" or "right".
 
     Examples
     --------
@@ -301,8 +305,10 @@ class Cleat(Plank):
     ----------
     height, length : float
         Height, and length along the road [m].
-    contact_length, side
-        As of `Plank`.
+    contact_length : float
+        Length over which a tyre averages the elevation, > 0: each edge is a slope of this length [m].
+    side : str
+        The wheels that meet it: "both", "left" or "right".
 
     Examples
     --------
@@ -320,8 +326,10 @@ class Pothole(_Rectangle):
     ----------
     depth, length : float
         Depth, and length along the road [m].
-    contact_length, side
-        As of `Plank`.
+    contact_length : float
+        Length over which a tyre averages the elevation, > 0: each edge is a slope of this length [m].
+    side : str
+        The wheels that meet it: "both", "left" or "right".
 
     Examples
     --------
@@ -347,8 +355,10 @@ class Step(Shape):
     ----------
     height : float
         Height [m].
-    contact_length, side
-        As of `Plank`.
+    contact_length : float
+        Length over which a tyre averages the elevation, > 0: each edge is a slope of this length [m].
+    side : str
+        The wheels that meet it: "both", "left" or "right".
 
     Examples
     --------
