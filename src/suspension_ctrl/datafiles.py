@@ -29,8 +29,8 @@ def named(kind: str, folder: str, source: str | PathLike[str]) -> Path:
 
 
 def stems(folder: str) -> list[str]:
-    """Return the names, without endings, of the files in a data folder, sorted."""
-    return sorted(file.stem for file in (DATA / folder).iterdir())
+    """Return the names, without endings, of the TOML files in a data folder, sorted."""
+    return sorted(file.stem for file in (DATA / folder).glob("*.toml"))
 
 
 def rows(name: str) -> list[dict[str, str]]:

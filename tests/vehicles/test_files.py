@@ -197,6 +197,24 @@ def test_full_car_in_full():
     assert isinstance(file.roll_geometry, RollGeometry)
 
 
+def test_tables_of_the_suv_are_those_of_the_source():
+    """Forces in compression there; the front spring carries what the mass on it weighs, within 0.1 %."""
+    car = load_vehicle("volvo_xc90_full").vehicle
+    front = {one.name: one for one in car.front_strut.elements}
+    rear = {one.name: one for one in car.rear_strut.elements}
+    compression = np.array([-0.0697, 0.0, 0.0646])
+    np.testing.assert_allclose(4972 - front["spring"].tension(-compression), [1289, 4972, 8944], rtol=1e-12)
+    compression = np.array([-0.0745, 0.0, 0.0905])
+    np.testing.assert_allclose(4756 - rear["spring"].tension(-compression), [1898, 4756, 9323], rtol=1e-12)
+    compression = np.array([0.0243, 0.0348, 0.0638, 0.0646])
+    np.testing.assert_allclose(-front["bump_stop"].tension(-compression), [0, 500, 30000, 35000], atol=1e-6)
+    np.testing.assert_allclose(-rear["bump_stop"].tension([-0.017, -0.0805]), [0, 8500], atol=1e-6)
+    np.testing.assert_allclose(front["rebound_stop"].tension([0.0681, 0.0697]), [0, 25000], atol=1e-6)
+    np.testing.assert_allclose(rear["damper"].tension([-0.832, 0.04, 0.832]), [-1751, 276, 2652], rtol=1e-12)
+    static = car.body_mass * 9.81 * car.cg_to_rear / (car.cg_to_front + car.cg_to_rear) / 2
+    assert static == pytest.approx(4972, rel=1e-3)
+
+
 def test_files_of_the_package_say_where_they_are_from(checkout):
     names = stems("vehicles")
     assert len(names) >= 4
