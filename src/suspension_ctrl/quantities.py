@@ -49,10 +49,10 @@ def quantity(name: str, text: str, unit: str = "", *, bare: bool = True) -> floa
 
     A text of a `bare` number is in `unit`. The result is rounded once; factors of units are exact, except degrees.
     """
-    found = _QUANTITY.fullmatch(text) if isinstance(text, str) else None
-    if not found or not (found[2] or bare):
+    match = _QUANTITY.fullmatch(text) if isinstance(text, str) else None
+    if not match or not (match[2] or bare):
         raise ValueError(f"{name} must be a number with a unit like {unit or '%'}, got {checks.shown(text)}")
-    number, given = Fraction(found[1]), (found[2] or "").strip()
+    number, given = Fraction(match[1]), (match[2] or "").strip()
     try:
         (factor, dimension), (_, needed) = _dimension(given or unit), _dimension(unit)
     except KeyError:
@@ -72,7 +72,7 @@ def _dimension(unit: str) -> tuple[Fraction, Counter[str]]:
     factor, exponents = Fraction(1), Counter[str]()
     terms = re.split(r"\s*([/ *])\s*", f"*{unit}" if unit else "")[1:]
     for sign, term in zip(terms[::2], terms[1::2], strict=True):
-        name, exponent = found.groups() if (found := _TERM.fullmatch(term)) else (term, "")
+        name, exponent = match.groups() if (match := _TERM.fullmatch(term)) else (term, "")
         size, base = Fraction(1), Counter({name: 1})
         if name not in _BASE:
             number, _, definition = _UNITS[name].partition(" ")

@@ -43,7 +43,7 @@ def test_the_others_are_made_beside_calls_that_kill_leave_or_cannot_be_pickled(c
     before = set(cluster.run(os.getpid).values())
     found = {name: (result, error) for name, result, error in calls.outcomes(fatal, work, cluster)}
     assert {name: found[name] for name in "abcd"} == {name: (name, "") for name in "abcd"}
-    assert found["deadly"] == (None, "KilledWorker: the run killed every process that it was made in")
+    assert found["deadly"] == (None, "KilledWorker: the run killed each of its processes")
     assert found["leaves"] == (None, "SystemExit: 3")
     assert found["local"][0] is None
     assert found["local"][1].startswith("TypeError: cannot pickle")

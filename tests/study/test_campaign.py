@@ -103,7 +103,7 @@ def test_ten_times_killed_and_started_again_is_as_if_never_killed(undisturbed, t
     assert 5 <= done < RUNS  # the kills were within the campaign
     status, said = finish(folder)
     assert status == 0
-    assert all(line.endswith("the run is made again") for line in said.splitlines())
+    assert all(line.endswith("the run is repeated") for line in said.splitlines())
     assert (folder / "table.csv").read_bytes() == (undisturbed / "table.csv").read_bytes()
     names = finished(folder)
     assert len(set(names)) == len(names)
@@ -131,7 +131,7 @@ def test_a_full_disk_ends_it_in_one_line_and_loses_nothing(undisturbed, tmp_path
     assert status == 1
     assert error.count("\n") == 1
     assert error.startswith(f"error: [Errno 27] File too large: '{folder / 'store'}")
-    assert error.endswith(f"; finished runs are kept: start again with '{folder / 'store'}' to go on\n")
+    assert error.endswith(f"; finished runs are kept: start again with '{folder / 'store'}' to resume\n")
     store = FolderStore(folder / "store", {"plan": 1})
     assert len(store) == 5
     assert all(len(store[name].course) for name in store)
@@ -248,11 +248,11 @@ def test_the_reference_front_of_a_grid_is_made_once_for_a_folder(tmp_path):
 )
 def test_a_reference_front_of_another_problem_is_refused(tmp_path, evaluate, changes, key):
     Campaign(compared(Line()), tmp_path, tolerance=0.02).reference({}, grid=True)
-    with pytest.raises(ValueError, match=f"^{key}.* must be .* to go on there"):
+    with pytest.raises(ValueError, match=f"^{key}.* must be .* to resume there"):
         Campaign(compared(evaluate, **changes), tmp_path, tolerance=0.02).reference({}, grid=True)
 
 
 def test_another_tolerance_makes_no_use_of_a_reference_front(tmp_path):
     Campaign(compared(Line()), tmp_path, tolerance=0.02).reference({}, grid=True)
-    with pytest.raises(ValueError, match=r"^tolerance must be 0.02 as in .* to go on there, got 0.01$"):
+    with pytest.raises(ValueError, match=r"^tolerance must be 0.02 as in .* to resume there, got 0.01$"):
         Campaign(compared(Line()), tmp_path, tolerance=0.01).reference({}, grid=True)

@@ -24,7 +24,7 @@ def test_a_difference_in_a_vehicle_or_on_a_road_is_named_by_its_key(tmp_path, ta
     ):
         with pytest.raises(ValueError, match=rf"^{key} must be") as found:
             plans.settle(path, {"problem": other}, started=True)
-        assert str(found.value) == f"{key} must be {there} as in {str(path)!r} to go on there, got {here}"
+        assert str(found.value) == f"{key} must be {there} as in {str(path)!r} to resume there, got {here}"
 
 
 def test_settings_of_any_kind_are_described_alike_in_every_process():

@@ -26,7 +26,7 @@ def test_a_run_comes_back_to_the_last_bit(tmp_path):
 
 def test_a_folder_belongs_to_one_plan(tmp_path):
     FolderStore(tmp_path, {"seeds": 3, "numpy": "2.4"})
-    with pytest.raises(ValueError, match=r"^seeds must be 3 as in '.*plan.json' to go on there, got 4$"):
+    with pytest.raises(ValueError, match=r"^seeds must be 3 as in '.*plan.json' to resume there, got 4$"):
         FolderStore(tmp_path, {"seeds": 4, "numpy": "2.4"})
 
 
@@ -56,7 +56,7 @@ def test_a_spoilt_run_is_named_and_absent(tmp_path, file, spoil, said):
     (text,) = (str(warning.message) for warning in caught)
     assert "one." in text
     assert said in text
-    assert text.endswith("; the run is made again")
+    assert text.endswith("; the run is repeated")
     assert list(again) == ["two"]
     again["one"] = RUN
     assert list(FolderStore(tmp_path, {})) == ["one", "two"]  # without a further warning
@@ -66,7 +66,7 @@ def test_a_spoilt_run_is_named_and_absent(tmp_path, file, spoil, said):
 def test_a_run_of_which_only_half_is_there_is_named(tmp_path):
     FolderStore(tmp_path, {})["one"] = RUN
     (tmp_path / "records" / "one.json").unlink()
-    with pytest.warns(SpoiltRunWarning, match=r"one.csv: only half of the run is there; the run is made again$"):
+    with pytest.warns(SpoiltRunWarning, match=r"one.csv: a part of the run is missing; the run is repeated$"):
         assert list(FolderStore(tmp_path, {})) == []
 
 
@@ -96,7 +96,7 @@ def test_what_cannot_be_written_is_named_and_what_was_finished_is_kept(tmp_path,
         ):
             store["two"] = RUN
     assert len(written) == 1
-    with pytest.warns(SpoiltRunWarning, match="only half of the run"):
+    with pytest.warns(SpoiltRunWarning, match="a part of the run is missing"):
         assert list(FolderStore(tmp_path, {})) == ["one"]
 
 

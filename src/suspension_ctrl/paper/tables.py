@@ -72,8 +72,8 @@ def _also_at_equal_evaluations(table: pd.DataFrame) -> pd.DataFrame:
     """Return the rows of the algorithms with most evaluations again, as rows at equal evaluations."""
     others = table[table.budget == EQUAL_EVALUATIONS]
     matched = table.merge(others[CONFIGURATION].drop_duplicates(), on=CONFIGURATION)
-    theirs = pd.MultiIndex.from_frame(others[[*CONFIGURATION, "algorithm"]])
-    most = matched[~pd.MultiIndex.from_frame(matched[[*CONFIGURATION, "algorithm"]]).isin(theirs)]
+    own_runs = pd.MultiIndex.from_frame(others[[*CONFIGURATION, "algorithm"]])
+    most = matched[~pd.MultiIndex.from_frame(matched[[*CONFIGURATION, "algorithm"]]).isin(own_runs)]
     return most.assign(budget=EQUAL_EVALUATIONS)
 
 

@@ -104,7 +104,7 @@ def _result(future: Any, name: str) -> tuple[int, Any, str]:
         raise ConnectionError(f"scheduler lost: {future.status} {name}; what was finished is kept")
     error = future.exception()
     if isinstance(error, KilledWorker):
-        return error.allowed_failures + 1, None, "KilledWorker: the run killed every process that it was made in"
+        return error.allowed_failures + 1, None, "KilledWorker: the run killed each of its processes"
     return 0, None, outcome(_raise, (error,))[1]
 
 

@@ -130,7 +130,7 @@ def _sentence(lens: str, pairs: pd.DataFrame, first: str, second: str) -> str:
         numbers = f"{medians}, {p}, A12 = {pair['a12']:.2f}, {pair['effect']}"
         outcome = f"{first if pair['a12'] > 0.5 else second} is ahead"
         if pair["p_holm"] >= SIGNIFICANCE or pair["effect"] == "negligible":
-            outcome = "there is no difference that the runs can show"
+            outcome = "the runs show no difference"
         where = f"N = {pair['population']} and {pair['iterations']} iterations ({numbers})"
         outcomes.setdefault(outcome, []).append(where)
     return f"At {lens} {'; '.join(f'{outcome} for {_listed(where)}' for outcome, where in outcomes.items())}."

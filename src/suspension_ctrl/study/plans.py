@@ -55,7 +55,7 @@ def settle(path: Path, plan: Mapping[str, Any], *, started: bool) -> None:
         more = [key for key, *_ in others[:4]] + ([f"{len(others) - 4} more"] if len(others) > 4 else [])
         also = f" (also another {', '.join(more)})" if others else ""
         old, new = _around_difference(repr(old), repr(new))
-        raise ValueError(f"{key} must be {old} as in {str(path)!r} to go on there, got {new}{also}")
+        raise ValueError(f"{key} must be {old} as in {str(path)!r} to resume there, got {new}{also}")
 
 
 def read(path: Path) -> dict[str, Any]:

@@ -21,7 +21,7 @@ _RECORDS = "records"  # folder of numbers of rows and digests: the last file of 
 
 
 class SpoiltRunWarning(UserWarning):
-    """A stored run is damaged or incomplete, and is made again."""
+    """A stored run is damaged or incomplete, and is repeated."""
 
 
 class NotStoredError(OSError):
@@ -49,7 +49,7 @@ def keeping(folder: Path) -> Iterator[None]:
         raise
     except OSError as error:
         raise NotStoredError(
-            f"{error}; finished runs are kept: start again with {str(folder)!r} to go on"
+            f"{error}; finished runs are kept: start again with {str(folder)!r} to resume"
         ) from error
 
 
@@ -107,10 +107,10 @@ class FolderStore(MutableMapping[str, StoredRun]):
             record = self._path(_RECORDS, name)
             try:
                 if not record.exists():
-                    raise _SpoiltError(self._path("runs", name), "only half of the run is there")
+                    raise _SpoiltError(self._path("runs", name), "a part of the run is missing")
                 self[name]
             except _SpoiltError as spoilt:
-                warnings.warn(f"{spoilt}; the run is made again", SpoiltRunWarning, stacklevel=3)
+                warnings.warn(f"{spoilt}; the run is repeated", SpoiltRunWarning, stacklevel=3)
                 for part in (*_PARTS, _RECORDS):
                     lock.set_aside(self._path(part, name))
 
