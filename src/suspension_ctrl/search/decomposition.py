@@ -75,17 +75,14 @@ def tchebycheff(values: Real, weights: Real, ideal: Real) -> Real:
 def choose_subproblems(
     rng: np.random.Generator, utility: Real, corners: Integer, size: int, tournament: int
 ) -> Integer:
-    """Return the subproblems (size,) of an iteration: the corners, then winners of tournaments by utility.
-
-    `tournament` subproblems compete, drawn from those not chosen yet; the first drawn wins a tie.
-    """
+    """Return the subproblems (size,) of an iteration: the corners, then winners of tournaments by utility."""
     draws = rng.random((size - corners.size, tournament))
     return chosen_by(draws, utility, corners, np.arange(utility.size), np.empty(size, dtype=np.int64))
 
 
 @compiled()
 def chosen_by(draws: Real, utility: Real, corners: Integer, open_: Integer, chosen: Integer) -> Integer:
-    """Fill and return `chosen` (c,): corners, then winners of draws from `open_` (N,), which changes too."""
+    """Fill and return `chosen` (c,): corners, then winners drawn from `open_` (N,); the first drawn wins a tie."""
     for c in range(chosen.size):
         left, best = open_.size - c, np.int64(0)
         if c < corners.size:

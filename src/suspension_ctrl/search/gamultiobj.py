@@ -94,10 +94,8 @@ class Gamultiobj(Generational):
                 pairs, alone = parents[: 2 * crossed], parents[2 * crossed :]
                 children = np.concatenate([toolbox.mate(rng, pairs), toolbox.mutate(rng, alone, step)])
             new_values = problem.values(toolbox.evaluate, children)
-            ideal, evaluations = (
-                ideal_with(ideal, new_values, any_feasible(values, m)),
-                evaluations + len(children),
-            )
+            ideal = ideal_with(ideal, new_values, any_feasible(values, m))
+            evaluations += len(children)
             designs, values = np.concatenate([designs, children]), np.concatenate([values, new_values])
             pool = contenders(values, m, size)
             kept, rank, crowding = toolbox.select(constrained(values[pool], m), size)

@@ -102,10 +102,8 @@ class Nsga2(Generational):
                 parents = toolbox.tournament(rng, constrained(values, m), crowding, size)
                 children = toolbox.mutate(rng, toolbox.mate(rng, designs.take(parents, axis=0)))
             new_values = problem.values(toolbox.evaluate, children)
-            ideal, evaluations = (
-                ideal_with(ideal, new_values, any_feasible(values, m)),
-                evaluations + len(children),
-            )
+            ideal = ideal_with(ideal, new_values, any_feasible(values, m))
+            evaluations += len(children)
             designs, values = np.concatenate([designs, children]), np.concatenate([values, new_values])
             kept, crowding = toolbox.select(constrained(values, m), size)
             designs, values = designs.take(kept, axis=0), values.take(kept, axis=0)

@@ -21,11 +21,7 @@ def draw_below(rng: np.random.Generator, count: int) -> np.int64:
 
 
 def crowded_tournament(rng: np.random.Generator, objectives: Real, crowding: Real, size: int) -> Integer:
-    """Return `size` winners of binary tournaments by dominance, then by larger crowding distance.
-
-    Each pass shuffles the population and pairs neighbours (Deb et al. 2002; ``selTournamentDCD`` of DEAP, for any
-    size).
-    """
+    """Return `size` winners of tournaments of shuffled pairs by dominance, then crowding (Deb et al. 2002)."""
     n = objectives.shape[0]
     passes = -(-size // (n // 2))
     return crowded_winners(rng.random((passes, n)), rng.random(size), objectives, crowding)

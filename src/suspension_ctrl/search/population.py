@@ -19,24 +19,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Population(Record):
-    """Designs with their objectives and constraints.
+    """Designs with their objectives and constraints."""
 
-    Parameters
-    ----------
-    designs : (n, d) ndarray
-        The designs.
-    objectives : (n, m) ndarray
-        Their objectives.
-    constraints : (n, c) ndarray
-        Values g of their constraints, met where g <= 0.
-    headers : (d + m,) tuple of str
-        Names of variables and objectives with their units, such as "SWS [m]"; x1 .. xd, f1 .. fm if empty.
-    """
-
-    designs: Real
-    objectives: Real
-    constraints: Real
-    headers: tuple[str, ...] = ()
+    designs: Real  # (n, d)
+    objectives: Real  # (n, m)
+    constraints: Real  # (n, c), met where they are <= 0
+    headers: tuple[str, ...] = ()  # (d + m,) of variables and objectives, "SWS [m]"; x1 .. xd, f1 .. fm if empty
 
     def __post_init__(self) -> None:
         self._keep(

@@ -48,6 +48,8 @@ class Run(Population):
 
     Attributes
     ----------
+    designs, objectives, constraints : (n, d), (n, m), (n, c) ndarray
+        Of the final population; a constraint is met where it is <= 0.
     evaluations : int
         Designs evaluated, the start included.
     seconds, cpu_seconds : float

@@ -44,11 +44,7 @@ def front_ranks(objectives: Real) -> NDArray[np.int32]:
 
 
 def crowding_distances(objectives: Real, rank: NDArray[np.int32]) -> Real:
-    """Return the crowding distances (n,) of objectives (n, m) within the fronts of ranks (n,).
-
-    The distance is the mean, over the objectives, of the gap between both neighbours divided by the range of the
-    front; it is infinite at the ends of a front.
-    """
+    """Return the mean over objectives (n, m) of the gap of both neighbours in a front over its range, (n,)."""
     distance = np.zeros(rank.size)
     m, fronts = objectives.shape[1], int(rank.max()) + 1
     for value in np.ascontiguousarray(objectives.T):

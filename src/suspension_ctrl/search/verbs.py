@@ -18,10 +18,7 @@ from .sweep import VERBS, sweep_sequential
 
 
 def with_checked_verbs(toolbox: Toolbox, default: Toolbox, problem: SearchProblem) -> Toolbox:
-    """Return a copy of a toolbox that checks the results of the verbs that are not the default ones.
-
-    Compiled verbs in a sweep of MOEA/D-DRA are left out: the sweep checks them.
-    """
+    """Return a copy of a toolbox that checks the results of its verbs; default ones are left out."""
     wanted = set(vars(default))
     if wrong := sorted(set(vars(toolbox)) ^ wanted):
         verbs = ", ".join(sorted(wanted - {"clone", "map"}))
@@ -30,7 +27,7 @@ def with_checked_verbs(toolbox: Toolbox, default: Toolbox, problem: SearchProble
     swept = VERBS if getattr(getattr(default, "sweep", None), "func", None) is sweep_sequential else ()
     for name, own in vars(default).items():
         verb = getattr(toolbox, name)
-        if not _same(verb, own) and not (name in swept and is_compiled(verb)):
+        if not _same(verb, own) and not (name in swept and is_compiled(verb)):  # a compiled sweep checks its verbs
             setattr(checked, name, partial(_call_checked, name, verb, own, problem))
     return checked
 

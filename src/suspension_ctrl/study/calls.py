@@ -65,10 +65,7 @@ def _unpickled(content: bytes) -> tuple[Any, str]:
 
 
 def _spread(pickled: Mapping[str, bytes], client: "Client") -> Iterator[tuple[str, Any, str]]:
-    """Yield name, result and error of pickled calls on a cluster, at most one per thread.
-
-    A dead worker then points to one call. After two deaths of its worker a call is repeated alone on the cluster.
-    """
+    """Yield name, result and error of pickled calls, one per thread: a dead worker points to one call."""
     threads = _Threads(client)
     waiting, suspects, kills = deque(pickled), deque[str](), dict.fromkeys(pickled, 0)
     running: dict[Any, str] = {}

@@ -74,16 +74,12 @@ class Comparison(Record):
         return runs
 
     def _budgets_of(self, population: int, count: int) -> Iterator[tuple[str, str, int]]:
-        """Yield algorithm, kind of budget and evaluations of the runs at `count` iterations.
-
-        An algorithm with fewer evaluations than another has a second run at equal evaluations, rounded down to
-        whole iterations.
-        """
+        """Yield algorithm, budget and evaluations of runs at `count` iterations, then at equal evaluations."""
         cost = {name: each for (name, n), each in self.cost().items() if n == population}
         most = population + count * max(cost.values())
         for name, each in cost.items():
             yield name, EQUAL_ITERATIONS, population + count * each
-        for name, each in cost.items():
+        for name, each in cost.items():  # rounded down to whole iterations
             if population + count * each < most:
                 yield name, EQUAL_EVALUATIONS, population + (most - population) // each * each
 

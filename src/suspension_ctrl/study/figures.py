@@ -27,10 +27,7 @@ STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (1, 1)), (0, (3, 1, 1, 1)))
 
 
 def anytime(ax: Axes, quality: pd.DataFrame, over: str = "evaluations") -> None:
-    """Draw the median relative hypervolume with its interquartile band, a line per algorithm.
-
-    `quality` is from `lenses.with_seconds`, of one population and set; `over` is "evaluations" or "seconds".
-    """
+    """Draw median and quartiles of the hypervolume over "evaluations" or "seconds", from `lenses.with_seconds`."""
     value = "relative_hypervolume"
     by_algorithm = quality.groupby("algorithm", sort=False)
     for colour, style, (algorithm, part) in zip(COLOURS, STYLES, by_algorithm, strict=False):

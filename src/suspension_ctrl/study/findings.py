@@ -24,11 +24,7 @@ class Findings(NamedTuple):
 
 
 def findings(comparison: Comparison, table: pd.DataFrame, clock: pd.DataFrame, target: float) -> Findings | None:
-    """Return the findings of judged runs, None if all raised an exception.
-
-    `table` is from `Study.table` of all populations, `clock` from `timing.seconds_by_evaluations`, `target` a
-    relative hypervolume [-].
-    """
+    """Return the findings from `Study.table` and `timing.seconds_by_evaluations`, None if all runs raised."""
     ended = table[table.error.eq("")].drop(columns="error")
     if ended.empty:
         return None

@@ -15,10 +15,7 @@ SIGNIFICANCE, CONFIDENCE, RESAMPLES = 0.05, 0.95, 9999
 
 
 def quartiles(table: pd.DataFrame, by: Sequence[str], values: Sequence[str]) -> pd.DataFrame:
-    """Return by group the number of runs (rows), and the median and quartiles of each value.
-
-    Columns: `by`, runs, and ``<value>``, ``<value> q1``, ``<value> q3`` of each value.
-    """
+    """Return runs (rows), median ``<value>`` and quartiles ``<value> q1``, ``<value> q3`` of values by group."""
     groups = table.groupby(list(by), sort=False)
     columns: dict[str, Any] = {"runs": groups.size()}
     for value in values:
@@ -58,11 +55,7 @@ def holm(p_values: ArrayLike) -> Real:
 
 
 def ratio_of_medians(first: ArrayLike, second: ArrayLike, seed: int = 0) -> tuple[float, float, float]:
-    """Return the ratio of the medians of two samples and its 95 % bootstrap interval (low, high).
-
-    The ratio is NaN if a value is infinite or a value of the second sample is not positive; the interval is NaN
-    for samples of one value.
-    """
+    """Return the ratio of the medians of two samples and its 95 % bootstrap interval, NaN where undefined."""
     from scipy import stats
 
     first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
@@ -111,10 +104,7 @@ def _compared(first: "pd.Series[float]", second: "pd.Series[float]") -> dict[str
 
 
 def verdict(compared: pd.DataFrame, first: str, second: str, value: str) -> str:
-    """Return a paragraph that compares two algorithms, from the rows of `pairwise` of one value.
-
-    Larger values are better; an algorithm is ahead if p_holm is below 0.05 and the effect is not negligible.
-    """
+    """Return a paragraph that compares two algorithms, from the rows of `pairwise` of a value to be maximised."""
     pairs = compared[(compared["first"] == first) & (compared["second"] == second)]
     if pairs.empty:
         return f"There are no runs of both {first} and {second} to compare."

@@ -46,11 +46,8 @@ def at_equal(
 
 
 def to_reach(quality: pd.DataFrame, target: float) -> pd.DataFrame:
-    """Return a row per population, set and algorithm: runs, runs that reached the target, and median effort.
-
-    The target is a relative hypervolume. A run that does not reach it counts as infinite effort; an infinite
-    median is NaN.
-    """
+    """Return a row per population, set and algorithm: runs, runs that reached the target, and median effort."""
+    # a run that does not reach the relative hypervolume counts as infinite effort; an infinite median is NaN
     reached = quality[quality.relative_hypervolume >= target].groupby(RUN, sort=False).head(1)
     runs = quality[RUN].drop_duplicates().merge(reached[[*RUN, "evaluations", "seconds"]], on=RUN, how="left")
     groups = runs.fillna(np.inf).groupby(["population", "set", "algorithm"], sort=False)

@@ -25,10 +25,7 @@ OLD = 60.0
 
 
 def hold(folder: Path) -> "BaseFileLock":
-    """Make a folder and return its lock, which the process holds until the last reference is deleted.
-
-    The operating system releases the lock of a dead process. BlockingIOError if another process holds it.
-    """
+    """Make a folder and return its lock, held until the last reference is deleted; BlockingIOError if in use."""
     with installed("study"):
         from filelock import FileLock, Timeout
 

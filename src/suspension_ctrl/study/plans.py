@@ -37,10 +37,7 @@ def described(value: object) -> Any:
 
 
 def settle(path: Path, plan: Mapping[str, Any], *, started: bool) -> None:
-    """Write a plan to a file, or compare it with the plan there; ValueError if they differ.
-
-    A spoilt file is written anew, unless runs have `started`.
-    """
+    """Write a plan, or compare it with its file; ValueError if they differ, or if it is spoilt after a start."""
     wanted = json.loads(json.dumps(described(plan)))
     try:
         kept = read(path)

@@ -55,11 +55,7 @@ class Refined(NamedTuple):
 
 
 def refined(problem: Minimisable, tolerance: float = TOLERANCE, most: int = MOST) -> Refined:
-    """Return the front of a grid refined until it converges, for problems of few variables.
-
-    It has converged if half as many points, and a second grid, change its hypervolume by at most `tolerance`;
-    ValueError if a grid of `most` designs does not.
-    """
+    """Return the front of a grid of at most `most` designs, refined until its hypervolume converges."""
     checks.positive("tolerance", tolerance)
     points, before, coding = FIRST, None, Coding(problem)
     while points <= most >= prod(axis.size for axis in coding.grid_axes(points)):

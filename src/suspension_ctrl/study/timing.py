@@ -31,10 +31,7 @@ def warm_up(comparison: Comparison) -> None:
 
 
 def carry_out(comparison: Comparison, store: MutableMapping[str, StoredRun]) -> Iterator[PlannedRun]:
-    """Warm up, make the timed runs that are not in `store` one after the other, and yield each stored one.
-
-    Of a final population larger than that of the start an evenly spread subset is stored.
-    """
+    """Warm up, make the timed runs that are not in `store` one after the other, and yield each stored one."""
     warm_up(comparison)
     for planned in comparison.timed_runs():
         if planned.name not in store:
