@@ -24,6 +24,28 @@ def test_mean_squares_are_those_of_the_closed_loop(spring, damper):
     np.testing.assert_allclose(STRUT(np.array([[spring, damper]]))[0], expected, rtol=1e-9)
 
 
+def test_each_of_an_odd_number_of_frequencies_counts_once():
+    """Frequencies share a division two by two; the last of an odd number has its own."""
+    design = np.array([[2e4, 1500.0]])
+    for n in (1, 2, 3, 39):
+        parts = [
+            OneStrut.around(
+                PORTS._replace(h=PORTS.h[i : i + 1]), 2 * np.pi * F[i : i + 1], DENSITIES[:, i : i + 1]
+            )
+            for i in range(n)
+        ]
+        together = OneStrut.around(PORTS._replace(h=PORTS.h[:n]), 2 * np.pi * F[:n], DENSITIES[:, :n])
+        np.testing.assert_allclose(together(design), sum(part(design) for part in parts), rtol=1e-12)
+
+
+@given(st.floats(1e3, 1e145), st.floats(1e2, 1e145))
+def test_no_size_of_coefficients_overflows_before_its_square(spring, damper):
+    """The product of two denominators holds the fourth power of a coefficient."""
+    found = STRUT(np.array([[spring, damper]]))[0]
+    assert np.isfinite(found).all()
+    assert (found > 0).all()
+
+
 @settings(max_examples=50)
 @given(springs, dampers)
 def test_the_compiled_loop_is_the_plain_one(spring, damper):
