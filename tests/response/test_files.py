@@ -200,6 +200,13 @@ def test_the_full_car_study_is_the_one_made_by_hand(full_car):
     np.testing.assert_array_equal(full_car.evaluate(designs), mine.evaluate(designs))
 
 
+def test_the_full_car_study_evaluates_a_design_alone_as_among_others(full_car):
+    """Bit by bit, the constraint on handling too, which is a function of designs and not a mean square."""
+    designs = np.random.default_rng(0).uniform(full_car.lower, full_car.upper, (40, len(full_car.lower)))
+    alone = np.vstack([full_car.evaluate(design[None]) for design in designs])
+    np.testing.assert_array_equal(full_car.evaluate(designs), alone)
+
+
 def test_only_the_third_case_of_the_full_car_is_loaded(full_car):
     assert [case.vehicle.assembly.payload for case in full_car.cases] == [(), (), ((225.0, (-0.9, 0.0)),)]
 

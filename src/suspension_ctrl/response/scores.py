@@ -181,7 +181,10 @@ class Scores:
         functions = [one.values for one in score.cases if one.values]
         by_case = np.array([values(self._designs(c, designs)) for c, values in enumerate(functions)])
         if not score.worst_case:
-            return np.asarray(self.shares @ by_case)
+            mean = np.zeros(len(designs))
+            for share, values in zip(self.shares, by_case, strict=True):  # in order, for one design as for many
+                mean += share * values
+            return mean
         sign = np.sign(score.scale)
         return np.asarray(sign * (sign * by_case).max(axis=0))
 

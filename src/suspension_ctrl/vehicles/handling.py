@@ -71,6 +71,15 @@ def check_cornering(measure: str, assembly: Assembly) -> None:
         raise ValueError(f"{measure} must be of a vehicle with {needed}, got tyres {got}")
 
 
+def weighted_sum(weights: Real, arrays: Real) -> Real:
+    """Return the sum over v (p, ...) of weights (p, v) times arrays (v, ...), for each p as if alone."""
+    # A product of matrices takes sums in an order that depends on p.
+    result = np.zeros((len(weights), *arrays.shape[1:]))
+    for weight, array in zip(weights.T, arrays, strict=True):
+        result += np.multiply.outer(weight, array)
+    return result
+
+
 class Mechanics(NamedTuple):
     """Matrices of a vehicle with n coordinates, t tyres and v coefficients of struts."""
 
@@ -96,7 +105,7 @@ class Mechanics(NamedTuple):
 
     def stiffness_of(self, coefficients: Real) -> Real:
         """Return the stiffness matrices (p, n, n) of designs with these coefficients (p, v)."""
-        return self.stiffness + np.tensordot(coefficients, self.by_stiffness, axes=1)
+        return self.stiffness + weighted_sum(coefficients, self.by_stiffness)
 
     def static_loads(self, coefficients: Real) -> Real:
         """Return the load (p, t) of each tyre on level ground [N]."""
@@ -119,7 +128,7 @@ class Mechanics(NamedTuple):
         """Return the damping ratio (p,) of the mode with most of its kinetic energy in roll, 1 if overdamped."""
         n = len(self.assembly.coordinates)
         k = self.stiffness_of(coefficients)
-        c = self.damping + np.tensordot(coefficients, self.by_damping, axes=1)
+        c = self.damping + weighted_sum(coefficients, self.by_damping)
         inverse = np.linalg.inv(self.assembly.mass_matrix)
         a = np.zeros((len(coefficients), 2 * n, 2 * n))
         a[:, :n, n:], a[:, n:, :n], a[:, n:, n:] = np.eye(n), -inverse @ k, -inverse @ c
