@@ -41,8 +41,8 @@ def printed(ran):
     return lambda number: ran(number)[0]
 
 
-def test_there_are_ten_of_a_page_each():
-    assert [int(path.name[:2]) for path in EXAMPLES] == list(range(1, 11))
+def test_there_are_eleven_of_a_page_each():
+    assert [int(path.name[:2]) for path in EXAMPLES] == list(range(1, 12))
     assert all(20 <= len(path.read_text(encoding="utf-8").splitlines()) <= 60 for path in EXAMPLES)
 
 
@@ -141,3 +141,18 @@ def test_setts_excite_the_tyre_and_hardly_the_body(ran):
 def test_more_evaluations_come_nearer_to_the_reference(printed):
     before, after = numbers(printed(10), "3000"), numbers(printed(10), "6000")
     assert all(0.9 < x <= y <= 1 for x, y in zip(before, after, strict=True))
+
+
+def test_both_curves_damp_as_samples_of_their_rate_say(ran):
+    """Equivalent damping E[v F]/s^2 and mean force of a million Gaussian rates; both dampers alike within 5 %."""
+    names = ran(11)[1]
+    table, z = names["table"], np.random.default_rng(1).standard_normal(10**6)
+    for damper, column in ((names["supplier"], "damping [N s/m]"), (names["found"], "digressive [N s/m]")):
+        for s, damping in zip(table["rate [m/s]"], table[column], strict=True):
+            v = s * z
+            assert (v @ damper.tension(v)) / (v @ v) == pytest.approx(damping, rel=0.005)
+        mean = damper.tension(table["rate [m/s]"].max() * z).mean()
+        assert mean == pytest.approx(names["equivalent"](damper, table["rate [m/s]"].max())[1], rel=0.005)
+    np.testing.assert_allclose(table["digressive [N s/m]"], table["damping [N s/m]"], rtol=0.05)
+    curve = names["axes"][0].lines[0]
+    np.testing.assert_array_equal(curve.get_ydata(), names["supplier"].tension(curve.get_xdata()))

@@ -57,6 +57,7 @@ from .study.study import Study as Study
 from .vehicles.cars import FullCar as FullCar
 from .vehicles.cars import HalfCar as HalfCar
 from .vehicles.cars import QuarterCar as QuarterCar
+from .vehicles.figures import damper_figure as damper_figure
 from .vehicles.files import VehicleFile as VehicleFile
 from .vehicles.files import load_vehicle as load_vehicle
 from .vehicles.files import save_vehicle as save_vehicle
