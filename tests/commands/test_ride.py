@@ -74,3 +74,19 @@ def test_spring_alone_changes_the_car_of_a_file(called, tmp_path):
     assert done.returncode == 0, done.stderr
     assert "spring 12389.2 N/m, damper 1616.3 N s/m" in done.stdout  # the published optimum
     assert " 2.066" in done.stdout
+
+
+def test_a_vehicle_names_files_elsewhere_only_where_that_is_allowed(called, tmp_path):
+    (tmp_path / "car.toml").write_text("""
+kind = "quarter-car"
+body_mass_kg = 317.5
+wheel_mass_kg = 45.4
+tyre_stiffness_N_per_m = 192e3
+strut.layout = "spring | damper"
+strut.damper.file = "../front.dpr"
+""")
+    done = called("ride", "--vehicle", "car.toml")
+    assert done.returncode == 2
+    assert "strut.damper.file must be beside this file or below it, unless outside is allowed" in done.stderr
+    done = called("ride", "--vehicle", "car.toml", "--allow-outside")
+    assert (done.returncode, "No such file or directory: " in done.stderr) == (1, True)

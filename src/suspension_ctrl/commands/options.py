@@ -99,7 +99,8 @@ File = Path | None
 Vehicle = Annotated[Text, _option("NAME", "TOML file, or name of one in the package.  [default: the paper's car]")]
 Road = Annotated[Text, _option("ROAD", "ISO 8608 class: C, C-lower; CSV or TOML file.  [default: the paper's]")]
 AllowOutside = Annotated[
-    bool, _option(None, "Let a road's TOML file name files outside its folder.", "--allow-outside")
+    bool,
+    _option(None, "Let TOML files of vehicles and roads name files outside their folders.", "--allow-outside"),
 ]
 Speed = Annotated[Real, _real("Speed [m/s], or with a unit: 72km/h.  [default: 20]", "m/s")]
 Band = Annotated[Text, _option("LOW,HIGH", "Frequencies [Hz]: 0.5,20 or 0.5Hz..  [default: 0,20]")]

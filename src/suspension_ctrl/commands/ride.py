@@ -38,7 +38,7 @@ def ride(
     from . import results, terminal
 
     masses = {"body_mass": body_mass, "wheel_mass": wheel_mass, "tyre_stiffness": tyre_stiffness}
-    title, car, own = chosen_vehicle(vehicle, masses)
+    title, car, own = chosen_vehicle(vehicle, masses, allow_outside)
     strut = {name: value for name, value in {"spring": spring, "damper": damper}.items() if value is not None}
     units = {one.name: one.unit for one in car.strut_coefficients}
     values = car.coefficients({**own, **o.by_name("setting", setting or "", units), **strut})
@@ -60,7 +60,7 @@ def ride(
 
 
 def chosen_vehicle(
-    name: str | None, masses: Mapping[str, float | None]
+    name: str | None, masses: Mapping[str, float | None], allow_outside: bool
 ) -> "tuple[str, AssembledVehicle, Mapping[str, float]]":
     """Return title, vehicle and setting of a file, or of a quarter car with these masses."""
     from ..vehicles.cars import QuarterCar
@@ -68,7 +68,7 @@ def chosen_vehicle(
 
     given: dict[str, Any] = {parameter: value for parameter, value in masses.items() if value is not None}
     if not given:
-        file = load_vehicle(PAPERS if name is None else name)
+        file = load_vehicle(PAPERS if name is None else name, allow_outside=allow_outside)
         return file.name or str(name), file.vehicle, file.setting
     if name is not None:
         raise ValueError(f"vehicle must stand without {', '.join(masses)}, got {name!r} with one")

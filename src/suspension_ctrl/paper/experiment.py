@@ -74,7 +74,7 @@ def chosen(
     settings |= {"road": None if road is None else load_road(road, allow_outside=allow_outside), "speed": speed}
     if vehicle is None:
         return papers.replace(**settings), dict(zip(papers.variables, reference_design(), strict=True))
-    file = load_vehicle(vehicle)
+    file = load_vehicle(vehicle, allow_outside=allow_outside)
     if not file.bounds:
         raise ValueError(f"vehicle must be a file with bounds, got {checks.shown(vehicle)}")
     bounds = settings.pop("bounds", file.bounds)
