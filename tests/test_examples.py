@@ -41,8 +41,8 @@ def printed(ran):
     return lambda number: ran(number)[0]
 
 
-def test_there_are_eleven_of_a_page_each():
-    assert [int(path.name[:2]) for path in EXAMPLES] == list(range(1, 12))
+def test_there_are_twelve_of_a_page_each():
+    assert [int(path.name[:2]) for path in EXAMPLES] == list(range(1, 13))
     assert all(20 <= len(path.read_text(encoding="utf-8").splitlines()) <= 60 for path in EXAMPLES)
 
 

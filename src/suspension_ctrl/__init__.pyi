@@ -3,6 +3,11 @@ from .response.files import load_problem as load_problem
 from .response.files import save_problem as save_problem
 from .response.histories import exposure as exposure
 from .response.load_case import LoadCase as LoadCase
+from .response.measures.gaussian import Bottoming as Bottoming
+from .response.measures.gaussian import DamperPower as DamperPower
+from .response.measures.gaussian import LargestPeak as LargestPeak
+from .response.measures.gaussian import Lift as Lift
+from .response.measures.gaussian import Topping as Topping
 from .response.measures.handling import FrontLoadTransfer as FrontLoadTransfer
 from .response.measures.handling import RollDamping as RollDamping
 from .response.measures.handling import RollGradient as RollGradient
@@ -20,6 +25,7 @@ from .response.responses import response_psds as response_psds
 from .response.responses import ride as ride
 from .response.roughness import international_roughness_index as international_roughness_index
 from .response.weightings import weighting as weighting
+from .response.zones import time_in_zones as time_in_zones
 from .roads.coherence import Constant as Constant
 from .roads.coherence import Exponential as Exponential
 from .roads.coherence import Isotropic as Isotropic

@@ -16,8 +16,7 @@ from ..vehicles.vehicle import Struts, Vehicle
 from .bounds import checked_bounds
 from .load_case import LoadCase, Road, load_cases
 from .measures.limits import Limit
-from .measures.measure import Measure, MeasureLike, OwnMeasure, measure_of
-from .measures.peak import Peak
+from .measures.measure import Measure, MeasureLike, measure_of
 from .measures.terms import CaseMeasure
 from .scores import NODES, RESOLVED, Kernel, Score, Scores
 from .weightings import Weighting, checked
@@ -282,8 +281,7 @@ class RideProblem(Record):
                 raise ValueError(f"{what} must have names of their own, got {checks.shown(names)}")
         scores = [Score(self._in_cases(one), self.worst_case, one.sign) for one in self.measures]
         scores += [Score(self._in_cases(one), True, one.scale, one.offset) for one in self.constraints]
-        moving = any(isinstance(one, OwnMeasure | Peak) for one in self.measures)
-        if not moving and all(score.by_function for score in scores):
+        if not any(one.of_ride for one in (*self.measures, *(limit.measure for limit in self.constraints))):
             raise ValueError(f"measures must hold one of the ride, got {checks.shown(list(self.objectives))}")
         middle = {name: (low + high) / 2 for name, (low, high) in self.bounds.items()}
         settings = [case.vehicle.coefficients({**self.struts, **middle}) for case in self.cases]

@@ -1,7 +1,7 @@
 """Objectives and constraints of designs from the mean squares of every load case."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
+from functools import cache, cached_property
 from math import sqrt
 from typing import NamedTuple
 
@@ -143,7 +143,7 @@ class Scores:
         scores = kernel.scores(designs)
         for column, score in enumerate(self.scores):
             if score.by_function:
-                scores[:, column] = score.scale * self._by_function(score, designs) + score.offset
+                scores[:, column] = score.scale * self._by_function(score, designs, kernel) + score.offset
         return scores
 
     def errors(self, designs: Real, nodes: int) -> list[Real]:
@@ -165,7 +165,7 @@ class Scores:
         squares = np.zeros((len(self.cases), len(self.scores), max(map(len, self.terms))))
         for c, terms in enumerate(self.terms):
             for s, score in enumerate(self.scores):
-                for term in score.cases[c].terms:
+                for term in () if score.by_function else score.cases[c].terms:
                     factor = term.factor / (self._static_load(c, term) if term.relative else 1.0)
                     squares[c, s, terms.index(term.integral)] += factor**2
         return squares
@@ -176,10 +176,10 @@ class Scores:
         loads = vehicle.statics.static_loads(np.array([list(self.settings[c].values())]))[0]
         return float(loads[vehicle.tyres.index(str(vehicle.meanings[str(term.response)].where))])
 
-    def _by_function(self, score: Score, designs: Real) -> Real:
+    def _by_function(self, score: Score, designs: Real, kernel: Kernel) -> Real:
         """Return a measure by a function (p,): its mean over the cases by shares, or the worst."""
         functions = [one.values for one in score.cases if one.values]
-        by_case = np.array([values(self._designs(c, designs)) for c, values in enumerate(functions)])
+        by_case = np.array([values(self._designs(c, designs, kernel)) for c, values in enumerate(functions)])
         if not score.worst_case:
             mean = np.zeros(len(designs))
             for share, values in zip(self.shares, by_case, strict=True):  # in order, for one design as for many
@@ -188,12 +188,18 @@ class Scores:
         sign = np.sign(score.scale)
         return np.asarray(sign * (sign * by_case).max(axis=0))
 
-    def _designs(self, c: int, designs: Real) -> Designs:
+    def _designs(self, c: int, designs: Real, kernel: Kernel) -> Designs:
         """Return designs (p, v) in a load case."""
         known = self.settings[c]
         coefficients = np.tile(list(known.values()), (len(designs), 1))
         coefficients[:, [list(known).index(name) for name in self.variables]] = designs
-        return Designs(designs, coefficients, lambda: self._spectra(c, coefficients))
+
+        squares = cache(lambda: kernel.cases[c](designs))
+
+        def mean_squares(terms: Sequence[Term]) -> Real:
+            return np.asarray(squares()[:, [self.terms[c].index(term.integral) for term in terms]])
+
+        return Designs(designs, coefficients, lambda: self._spectra(c, coefficients), mean_squares)
 
     def _spectra(self, c: int, coefficients: Real) -> Iterator[tuple[Real, Mapping[str, Real]]]:
         """Yield frequencies (n,) [Hz] and the spectra of all responses for each design (p, c)."""

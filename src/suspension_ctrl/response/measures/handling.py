@@ -18,6 +18,8 @@ class RollDamping(Measure, word="roll_damping", unit="-"):
     -roll_damping
     """
 
+    of_ride = False
+
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError if the vehicle does not roll."""
         vehicle = assembled(case.vehicle)
@@ -35,6 +37,8 @@ class RollGradient(Measure, word="roll_gradient", unit="deg/g"):
     roll_gradient <= 5
     """
 
+    of_ride = False
+
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError without four wheels or roll geometry."""
         statics, geometry = _cornering(self.word, case)
@@ -50,6 +54,8 @@ class FrontLoadTransfer(Measure, word="front_load_transfer", unit="-"):
     >>> print(sc.Limit(sc.FrontLoadTransfer(), minimum=0.5))
     front_load_transfer >= 0.5
     """
+
+    of_ride = False
 
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError without four wheels or roll geometry."""

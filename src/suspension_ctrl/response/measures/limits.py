@@ -77,7 +77,7 @@ class Limit(Record):
     def in_case(self, case: LoadCase, weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError if the vehicle lacks it or it has no such limit."""
         found = self.measure.in_case(case, weighting)
-        if found.terms and not (self.maximum or 0.0) > 0:
+        if not found.values and not (self.maximum or 0.0) > 0:
             got = checks.shown(str(self))
             raise ValueError(f"constraint on a measure of the ride must be <= a limit above zero, got {got}")
         return found

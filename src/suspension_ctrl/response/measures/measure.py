@@ -74,6 +74,7 @@ class Measure(Record):
     """Classes of measures by the first word of their texts, ``""`` for a text without such a word."""
     word: ClassVar[str]
     unit_of_class: ClassVar[str] = ""
+    of_ride: ClassVar[bool] = True  # on a road or in an event, not of statics or roll
 
     def __init_subclass__(cls, word: str | None = None, unit: str = "") -> None:
         cls.unit_of_class = unit or cls.unit_of_class

@@ -1,6 +1,6 @@
 """Terms of measures, and measures in a load case."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -71,15 +71,22 @@ class Term(Record):
 
 
 class Designs(NamedTuple):
-    """Designs (p, v) in a load case, all their coefficients (p, c), and response spectra design by design."""
+    """Designs (p, v) in a load case, all their coefficients (p, c), and response spectra design by design.
+
+    The mean squares (p, k) of terms are those of terms of the measure.
+    """
 
     values: Real
     coefficients: Real
     spectra: Callable[[], Iterator[tuple[Real, Mapping[str, Real]]]]
+    mean_squares: Callable[[Sequence[Term]], Real]
 
 
 class CaseMeasure(NamedTuple):
-    """A measure in a load case: the root of the sum of its mean squares or of the largest, or a function."""
+    """A measure in a load case: the root of the sum of its mean squares or of the largest, or a function.
+
+    A function may ask the designs for the mean squares of the terms.
+    """
 
     terms: tuple[Term, ...] = ()
     largest: bool = False

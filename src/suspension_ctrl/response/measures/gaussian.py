@@ -1,0 +1,261 @@
+"""Measures of a Gaussian response by its spectral moments: crossings, lift-off, largest peak, power of dampers.
+
+The response of a linear vehicle to a Gaussian road is Gaussian. Its standard deviation s and that of its rate, s',
+are the roots of the moments of order 0 and 2. It crosses a level a upwards ``s'/(2 pi s) exp(-a^2/(2 s^2))`` times
+a second [1]_. The expected largest value of n upward crossings of the mean is ``s (g + 0.5772/g)`` with
+``g = sqrt(2 ln n)`` [2]_. Force laws and stops that are met change the distribution: the formulas then tell how
+often they are met, not what follows.
+
+.. [1] S. O. Rice, "Mathematical analysis of random noise", Bell System Technical Journal 24 (1945).
+.. [2] A. G. Davenport, "Note on the distribution of the largest value of a random function with application to
+   gust loading", Proceedings of the Institution of Civil Engineers 28 (1964).
+"""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+import numpy as np
+
+from ... import checks
+from ...quantities import Real, signal_unit, unit
+from ...vehicles.vehicle import assembled
+from ..load_case import LoadCase
+from ..weightings import Weighting
+from .measure import Measure
+from .peak import responses_at
+from .terms import NUMBER, CaseMeasure, Designs, Term, number_text, place_text
+from .vibration import WheelMeasure
+
+_GAP = re.compile(rf"(?:(\w+)\s+)?({NUMBER})")
+_LARGEST = re.compile(rf"(\w+)\s+({NUMBER})")
+_EULER = 0.5772156649015329
+_KM = 1000.0  # m
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Bottoming(WheelMeasure, word="bottoming", unit="1/km"):
+    """Expected strikes of the bump stop per kilometre: crossings of its gap by the travel in compression.
+
+    Of several struts the one that strikes most. The travel is Gaussian with mean 0, as without the stop.
+
+    Parameters
+    ----------
+    where : str
+        An axle, a wheel or a seat: ``"front"``; all wheels by default.
+    gap : float
+        Travel in compression up to the stop, > 0 [m].
+    name, maximise
+        As of `Measure`; the name is optional.
+
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> print(sc.Limit(sc.Bottoming("front", gap=0.06), 1.0))
+    bottoming front 0.06 <= 1
+    """
+
+    gap: float = field(default=0.0, metadata=unit("m"))
+    kind: ClassVar[str] = "travel"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        checks.positive("gap", self.gap, "m")
+
+    @classmethod
+    def read(cls, rest: str, **options: Any) -> Measure:
+        """Return the measure of a text after its word; options name and maximise."""
+        found = _GAP.fullmatch(rest)
+        if not found:
+            needed = f"followed by the gap in m, as in '{cls.word} front 0.06'"
+            raise ValueError(f"{cls.word} must be {needed}, got {checks.shown(rest)}")
+        return cls(found[1] or "", gap=float(found[2]), **options)
+
+    def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
+        """Return the measure in a load case; ValueError if the vehicle lacks the place."""
+        terms, pairs = _moments(self.responses(case.vehicle))
+
+        def values(designs: Designs) -> Real:
+            deviation, rate = pairs(designs)
+            a_second = rate / (2 * np.pi * deviation) * np.exp(-(self.gap**2) / (2 * deviation**2))
+            return np.asarray(_KM / case.speed * a_second.max(axis=1))
+
+        return CaseMeasure(terms, values=values)
+
+    def _rest(self) -> str:
+        return f"{place_text(self.where)} {number_text(self.gap)}".strip()
+
+
+class Topping(Bottoming, word="topping", unit="1/km"):
+    """Expected strikes of the rebound stop per kilometre, as `Bottoming` in extension.
+
+    Parameters
+    ----------
+    where, name, maximise
+        As of `Bottoming`.
+    gap : float
+        Travel in extension up to the stop, > 0 [m].
+
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> print(sc.Topping("rear", gap=0.08))
+    topping rear 0.08
+    """
+
+
+class Lift(WheelMeasure, word="lift", unit="-"):
+    """Share of time in which a tyre would pull, of several the largest.
+
+    Its dynamic load is Gaussian, and then beyond the static load.
+
+    Parameters
+    ----------
+    where : str
+        An axle or a wheel: ``"rear"``; all wheels by default.
+    name, maximise
+        As of `Measure`; the name is optional.
+
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> print(sc.Limit(sc.Lift("rear"), 1e-4))
+    lift rear <= 0.0001
+    """
+
+    kind = "load"
+
+    def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
+        """Return the measure in a load case; ValueError if the vehicle lacks masses or the place."""
+        vehicle = assembled(case.vehicle)
+        names = self.responses(vehicle)
+        terms, tyres = tuple(map(Term, names)), [str(vehicle.meanings[name].where) for name in names]
+        index = [vehicle.tyres.index(tyre) for tyre in tyres]
+
+        def values(designs: Designs) -> Real:
+            from scipy.special import ndtr
+
+            deviation = np.sqrt(designs.mean_squares(terms))
+            static = vehicle.statics.static_loads(designs.coefficients)[:, index]
+            return np.asarray(ndtr(-static / deviation).max(axis=1))
+
+        return CaseMeasure(terms, values=values)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LargestPeak(Measure, word="largest"):
+    """Expected largest value of a Gaussian response over a distance, upwards as downwards.
+
+    Parameters
+    ----------
+    response : str
+        A response, as of `Peak`; of several wheels the largest.
+    distance : float
+        Distance driven, > 0 [m].
+    name, maximise
+        As of `Measure`; the name is optional.
+
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> car = sc.load_vehicle("yuen_ramli_2010")
+    >>> measures = ["largest travel 1000", "largest travel 100000"]
+    >>> table = sc.ride(car.vehicle, car.setting, sc.Iso8608Road("C"), speed=20.0, measures=measures)
+    >>> (1e3 * table["value"].head(2)).round(1).to_dict()
+    {'largest travel 1000': 37.6, 'largest travel 100000': 50.4}
+    """
+
+    response: str
+    distance: float = field(metadata=unit("m"))
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not (isinstance(self.response, str) and re.fullmatch(r"\w+", self.response)):
+            raise ValueError(f"response must be a name, got {checks.shown(self.response)}")
+        checks.positive("distance", self.distance, "m")
+        self._keep(unit=signal_unit(self.response))
+
+    @classmethod
+    def read(cls, rest: str, **options: Any) -> Measure:
+        """Return the measure of a text after its word; options name and maximise."""
+        found = _LARGEST.fullmatch(rest)
+        if not found:
+            needed = "followed by a response and a distance in m, as in 'largest front_travel 1000'"
+            raise ValueError(f"{cls.word} must be {needed}, got {checks.shown(rest)}")
+        return cls(found[1], float(found[2]), **options)
+
+    def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
+        """Return the measure in a load case; ValueError if the vehicle lacks the response."""
+        terms, pairs = _moments(responses_at(case.vehicle, self.response))
+
+        def values(designs: Designs) -> Real:
+            deviation, rate = pairs(designs)
+            crossings = rate / (2 * np.pi * deviation) * self.distance / case.speed
+            g = np.sqrt(2 * np.log(np.maximum(crossings, np.e)))
+            return np.asarray((deviation * (g + _EULER / g)).max(axis=1))
+
+        return CaseMeasure(terms, values=values)
+
+    def _rest(self) -> str:
+        return f"{self.response} {number_text(self.distance)}"
+
+
+class DamperPower(WheelMeasure, word="damper_power", unit="W"):
+    """Mean power that a damper turns into heat, ``c s^2`` with the standard deviation s of its rate.
+
+    Of several struts the largest. The damper stands directly between body and wheel, or seat and body.
+
+    Parameters
+    ----------
+    where : str
+        An axle, a wheel or a seat: ``"front"``; all wheels by default.
+    name, maximise
+        As of `Measure`; the name is optional.
+
+    Examples
+    --------
+    On a road of waviness 2 and over all frequencies the power is pi^2 K_t Gd(n0) n0^2 V for any spring and damper,
+    here 97 W:
+
+    >>> import suspension_ctrl as sc
+    >>> car = sc.QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3)
+    >>> road = sc.Iso8608Road("C")
+    >>> for damper in (1000.0, 2000.0):
+    ...     table = sc.ride(car, (22e3, damper), road, 20.0, band=(0.0, 200.0), measures=["damper_power"])
+    ...     print(round(table["value"]["damper_power"]))
+    97
+    97
+    """
+
+    kind = "travel_rate"
+
+    def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
+        """Return the measure in a load case; ValueError if the vehicle lacks the place or the damper."""
+        vehicle, names = case.vehicle, self.responses(case.vehicle)
+        terms = tuple(map(Term, names))
+        struts = [vehicle.struts.index(str(vehicle.meanings[name].where)) for name in names]
+        if any(network.share[i] for network in vehicle.networks for i in struts):
+            raise ValueError(f"{self.word} must be of a damper beside its spring, got a strut of other elements")
+        dampers = np.array(
+            [
+                one.gain[struts, struts] if one.order == 1 else np.zeros(len(struts))
+                for one in vehicle.strut_coefficients
+            ]
+        )
+
+        def values(designs: Designs) -> Real:
+            return np.asarray((designs.coefficients @ dampers * designs.mean_squares(terms)).max(axis=1))
+
+        return CaseMeasure(terms, values=values)
+
+
+def _moments(responses: Sequence[str]) -> Any:
+    """Return terms of responses (w), and a function to standard deviations of these and their rates (p, w)."""
+    terms = [Term(name) for name in responses]
+    rates = [Term(name, moment=2) for name in responses]
+
+    def pairs(designs: Designs) -> tuple[Real, Real]:
+        return np.sqrt(designs.mean_squares(terms)), np.sqrt(designs.mean_squares(rates))
+
+    return (*terms, *rates), pairs
