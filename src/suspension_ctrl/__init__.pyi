@@ -2,6 +2,7 @@ from .response.driving import simulate as simulate
 from .response.files import load_problem as load_problem
 from .response.files import save_problem as save_problem
 from .response.histories import exposure as exposure
+from .response.linearisation import linearised as linearised
 from .response.load_case import LoadCase as LoadCase
 from .response.measures.gaussian import Bottoming as Bottoming
 from .response.measures.gaussian import DamperPower as DamperPower

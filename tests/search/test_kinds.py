@@ -187,15 +187,6 @@ def test_operators_of_deap_vary_codes():
 
 
 @every_optimiser
-def test_a_resumed_search_does_not_evaluate_its_population_again(optimiser):
-    half = minimise(whole_and_catalogue(Seen()), optimiser, evaluations=600, seed=1)
-    seen = Seen()
-    rest = half.resume(whole_and_catalogue(seen), iterations=5)
-    assert not set(seen.designs) & set(map(tuple, half.designs.tolist()))
-    assert len(seen.designs) == rest.evaluations - half.evaluations - (rest.repeats - half.repeats)
-
-
-@every_optimiser
 @pytest.mark.parametrize("problem", [Problem(**MIXED), whole_and_catalogue(Seen())], ids=["mixed", "discrete"])
 def test_a_search_goes_on_from_its_codes(optimiser, problem):
     whole = minimise(problem, optimiser, iterations=6, seed=1)

@@ -20,7 +20,10 @@ _ROUNDING = 1e-13  # share of the road's power, and of a response's largest valu
 
 
 class Variables(NamedTuple):
-    """Coefficients that vary: tensions (v, q, q) by derivatives of `order` (v,), and values in place (v,)."""
+    """Coefficients that vary: tensions (v, q, q) by derivatives of `order` (v,), and values in place (v,).
+
+    Further gains (t, q, q) are those of networks.
+    """
 
     gain: Real
     order: Integer
@@ -68,7 +71,8 @@ def in_blocks(
     for q, s in _parts(_coupled(feedback) | _coupled(gain), by_road, paired_roads):
         factor = _factor(paired_roads[:, s][:, :, s], power)
         heard = np.flatnonzero(_contributes(rows)[:, s].any(axis=1) | _contributes(from_struts)[:, q].any(axis=1))
-        if factor.shape[2] and heard.size:
+        networks = gain[variables.order.size :, q][:, :, q].any()  # their working points depend on the block
+        if factor.shape[2] and (heard.size or networks):
             parts = [
                 feedback[:, q][:, :, q],
                 by_road[:, q][:, :, s] @ factor,
@@ -107,7 +111,7 @@ def _joined(blocks: Sequence[_Block], m: int, omega: Real, variables: Variables)
     kept, channel = np.unique(first, return_inverse=True)
     blocks = [block.only(kept) for block in blocks]
     sizes = [(*block.parts[1].shape[:2], block.response.size) for block in blocks]
-    v, n = variables.origin.size, omega.size
+    v, n = len(variables.gain), omega.size
     rows = [part.reshape(-1, 2, n) for block in blocks for part in block.parts]
     return ManyStruts(
         omega,

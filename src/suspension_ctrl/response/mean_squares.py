@@ -10,15 +10,19 @@ import numpy as np
 
 from ..quantities import Real
 from . import weightings
+from .any_struts import AnyStruts
 from .blocks import Pairs, Variables, in_blocks, pairs_of
 from .load_case import LoadCase
 from .many_struts import ManyStruts
 from .measures.terms import Term
+from .one_port import OnePort
 from .one_strut import OneStrut
 from .ports import Ports
 from .quadrature import frequency_nodes
+from .strut_data import any_struts, networks_of
 
-Case = OneStrut | ManyStruts
+AnyCase = OnePort | AnyStruts
+Case = OneStrut | ManyStruts | AnyCase
 
 
 def cases_of(
@@ -30,15 +34,20 @@ def cases_of(
     nodes: int,
 ) -> tuple[Case, ...]:
     """Return `case_of` each load case, all of one class for compiled loops."""
-    each = zip(load_cases, terms, settings, strict=True)
-    one_strut = all(fits_one_strut(case, variables) for case in load_cases)
-    return tuple(case_of(*case, variables, band, nodes, one_strut=one_strut) for case in each)
+    each, kind = zip(load_cases, terms, settings, strict=True), kind_of(load_cases, variables)
+    return tuple(case_of(*case, variables, band, nodes, kind=kind) for case in each)
 
 
-def fits_one_strut(load_case: LoadCase, variables: Sequence[str]) -> bool:
-    """Whether there is one wheel, and one strut of a spring and a damper that both vary."""
-    names = [one.name for one in load_case.vehicle.strut_coefficients]
-    return load_case.wheels == 1 and names == list(variables) == ["spring", "damper"]
+def kind_of(load_cases: Sequence[LoadCase], variables: Sequence[str]) -> type[Case]:
+    """Return the quickest class for all load cases."""
+    vehicles = [case.vehicle for case in load_cases]
+    if all(len(one.contact_points) == len(one.struts) == 1 for one in vehicles):
+        names = {tuple(one.name for one in vehicle.strut_coefficients) for vehicle in vehicles}
+        plain = not any(vehicle.networks for vehicle in vehicles)
+        if plain and names == {tuple(variables)} == {("spring", "damper")}:
+            return OneStrut
+        return OnePort
+    return AnyStruts if any(vehicle.networks for vehicle in vehicles) else ManyStruts
 
 
 def case_of(
@@ -49,12 +58,10 @@ def case_of(
     band: tuple[float, float],
     nodes: int,
     pairs: Callable[[Sequence[str], Real], Pairs] = pairs_of,
-    one_strut: bool = True,
+    kind: type[Case] | None = None,
 ) -> Case:
     """Return the mean squares (k,) of terms over the variables (v,), around a setting in the middle of the box."""
-    if load_case.vehicle.networks:
-        names = ", ".join(one.strut.elements[0].name for one in load_case.vehicle.networks)
-        raise ValueError(f"struts must be of springs, dampers and inerters in parallel, got {names}")
+    kind = kind or kind_of([load_case], variables)
     weights = [term.weighting and weightings.by_name(term.weighting) for term in terms]
     kinks = {f for weighting in weights if weighting for f in weighting.breakpoints}
     f, w = frequency_nodes(band, nodes, kinks.union(load_case.breakpoints))
@@ -66,8 +73,15 @@ def case_of(
         ]
     ).reshape(len(terms), f.size)
     responses = [term.response for term in terms]
-    if one_strut and fits_one_strut(load_case, variables):
+    if kind is OneStrut:
         return OneStrut.around(Ports.of(vehicle, f, responses), omega, densities * load_case.psd(f))
+    if kind is OnePort:
+        ports, excitation = Ports.of(vehicle, f, responses), w * load_case.psd(f)
+        networks = networks_of(vehicle, setting, variables, f, True)
+        return OnePort.around(networks, ports, f, excitation, densities * load_case.psd(f))
+    apart = pairs(vehicle.struts, vehicle.contact_points)
+    if kind is AnyStruts:
+        return any_struts(load_case, responses, setting, variables, f, w, densities, apart)
     ports, roads = Ports.of(vehicle, f, responses, setting), load_case.cross_spectrum(f)
     varied = Variables.of(vehicle.strut_coefficients, {name: setting[name] for name in variables})
-    return in_blocks(ports, omega, roads, densities, varied, pairs(vehicle.struts, vehicle.contact_points))
+    return in_blocks(ports, omega, roads, densities, varied, apart)

@@ -26,12 +26,19 @@ class Ports(NamedTuple):
         f: Real,
         responses: Sequence[ResponseName],
         values: Mapping[str, float] | None = None,
+        added: Real | None = None,
     ) -> "Ports":
-        """Take it at ascending `f` (n,) [Hz] around struts with `values`, closed in state space: no drift."""
+        """Take it at ascending `f` (n,) [Hz] around struts with `values`, closed in state space: no drift.
+
+        Gains (3, q, q) by order may be `added`.
+        """
         q = len(vehicle.struts)
         integrals = vehicle.without_jerk(responses)
         distinct = list(dict.fromkeys(integrals))
-        plant = around(vehicle.plant(distinct), gains_by_order(vehicle.strut_coefficients, values or {}, q))
+        gains = gains_by_order(vehicle.strut_coefficients, values or {}, q)
+        if added is not None:
+            gains += added
+        plant = around(vehicle.plant(distinct), gains)
         rows = [*map(distinct.index, integrals), *range(len(distinct), len(distinct) + q)]
         h = paths(plant, f)[:, rows]
         jerks = [i for i, (name, one) in enumerate(zip(responses, integrals, strict=True)) if name != one]

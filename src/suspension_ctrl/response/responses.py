@@ -8,8 +8,9 @@ import numpy as np
 
 from .. import checks
 from ..quantities import Complex, Real
-from ..vehicles.assembly import ResponseName
+from ..vehicles.assembly import ResponseName, label
 from ..vehicles.vehicle import Setting, Vehicle
+from .linearisation import linearised
 from .load_case import LoadCase, Road
 from .measures.measure import MeasureLike, measure_of
 from .measures.terms import CaseMeasure, Term
@@ -119,8 +120,14 @@ def ride(
 def _diverging(case: LoadCase, setting: Setting, terms: Iterable[Term]) -> set[ResponseName]:
     """Return the responses whose spectrum rises towards 0 Hz as 1/f or faster."""
     responses = list(dict.fromkeys(term.response for term in terms))
-    closed = case.vehicle.closed(setting, responses=responses)
-    spectra = np.array(list(response_psds(closed, _LOWEST, case.cross_spectrum(_LOWEST)).values()))
+    vehicle = case.vehicle
+    if vehicle.networks:
+        vehicle, setting = linearised(vehicle, setting, case.road, case.speed, band=(_LOWEST[1], 20.0)), {}
+    integrals = vehicle.without_jerk(responses)
+    closed = vehicle.closed(setting, responses=list(dict.fromkeys(integrals)))
+    found = response_psds(closed, _LOWEST, case.cross_spectrum(_LOWEST))
+    jerk = [name != one for name, one in zip(responses, integrals, strict=True)]
+    spectra = np.array([found[label(one)] for one in integrals]) * np.where(jerk, _LOWEST[:, None] ** 2, 1.0).T
     rising = spectra[:, 0] >= spectra[:, 1] * _LOWEST[1] / _LOWEST[0]
     return {responses[i] for i in np.flatnonzero(rising & (spectra[:, 0] > 0))}
 

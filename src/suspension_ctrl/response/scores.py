@@ -8,13 +8,14 @@ from typing import NamedTuple
 import numpy as np
 
 from ..compiled import call, compilable
-from ..quantities import Bool, Integer, Real
+from ..quantities import Bool, Complex, Integer, Real
 from ..vehicles.feedback import gains_by_order
 from ..vehicles.vehicle import assembled
+from .linearisation import check_reached, linear_vehicles
 from .load_case import LoadCase
-from .mean_squares import Case, cases_of
+from .mean_squares import AnyCase, Case, cases_of
 from .measures.terms import CaseMeasure, Designs, Term
-from .ports import Ports, dynamic_stiffness
+from .ports import Ports, dynamic_stiffness, paths
 
 RESOLVED = 1e-6
 """Largest relative change of a root mean square that twice the nodes may make."""
@@ -77,11 +78,11 @@ class Kernel(NamedTuple):
                     term = self.squares[c, s, k] * found[0, k]
                     if not self.worst_term[s]:
                         value += term
-                    elif term > value:
+                    elif not term <= value:  # NaN too
                         value = term
                 if not self.worst_case[s]:
                     total[s] += self.shares[c] * value
-                elif value > total[s]:
+                elif not value <= total[s]:
                     total[s] = value
         for s in range(total.size):
             total[s] = self.scale[s] * sqrt(total[s]) + self.offset[s]
@@ -138,9 +139,9 @@ class Scores:
         kernel = self.kernel(nodes)
         if self._simple:
             which, factor = self._simple
-            found = kernel.cases[0](designs).T[which]
+            found = _reached(kernel.cases[0](designs), designs).T[which]
             return np.asarray(kernel.scale * np.sqrt(factor * found).T + kernel.offset)
-        scores = kernel.scores(designs)
+        scores = _reached(kernel.scores(designs), designs)
         for column, score in enumerate(self.scores):
             if score.by_function:
                 scores[:, column] = score.scale * self._by_function(score, designs, kernel) + score.offset
@@ -149,7 +150,7 @@ class Scores:
     def errors(self, designs: Real, nodes: int) -> list[Real]:
         """Return by case the largest change (k,) of each root mean square by twice the nodes."""
         both = zip(self.kernel(nodes).cases, self.kernel(2 * nodes).cases, strict=True)
-        return [_change(*(np.sqrt(case(designs)) for case in pair)) for pair in both]
+        return [_change(*(np.sqrt(_reached(case(designs), designs)) for case in pair)) for pair in both]
 
     @cached_property
     def _simple(self) -> tuple[Integer, Real] | None:
@@ -199,19 +200,39 @@ class Scores:
         def mean_squares(terms: Sequence[Term]) -> Real:
             return np.asarray(squares()[:, [self.terms[c].index(term.integral) for term in terms]])
 
-        return Designs(designs, coefficients, lambda: self._spectra(c, coefficients), mean_squares)
+        return Designs(
+            designs, coefficients, lambda: self._spectra(c, designs, coefficients, kernel.cases[c]), mean_squares
+        )
 
-    def _spectra(self, c: int, coefficients: Real) -> Iterator[tuple[Real, Mapping[str, Real]]]:
-        """Yield frequencies (n,) [Hz] and the spectra of all responses for each design (p, c)."""
+    def _spectra(
+        self, c: int, designs: Real, coefficients: Real, squares: Case
+    ) -> Iterator[tuple[Real, Mapping[str, Real]]]:
+        """Yield frequencies (n,) [Hz] and the spectra of all responses for each of designs (p, v)."""
         case, known, (low, high) = self.cases[c], self.settings[c], self.band
         f = low + (high - low) * (np.arange(_PARTS) + 0.5) / _PARTS
+        if isinstance(squares, AnyCase):
+            for linear in linear_vehicles(case.vehicle, list(known), squares, designs, coefficients):
+                h, names = paths(linear.closed(), f), linear.responses
+                yield f, spectra_of(h, case.cross_spectrum(f), names)
+            return
         vehicle, names = case.vehicle, case.vehicle.responses
         ports, roads = Ports.of(vehicle, f, names, known), case.cross_spectrum(f)
         for row in coefficients - np.array(list(known.values())):
             added = dict(zip(known, row.tolist(), strict=True))
             gains = gains_by_order(vehicle.strut_coefficients, added, len(vehicle.struts))
             h = ports.around(dynamic_stiffness(gains, 2 * np.pi * f)).h[:, : ports.m, : ports.r]
-            yield f, dict(zip(names, np.einsum("nmi,nij,nmj->mn", h, roads, h.conj()).real, strict=True))
+            yield f, spectra_of(h, roads, names)
+
+
+def spectra_of(h: Complex, roads: Complex, names: Sequence[str]) -> dict[str, Real]:
+    """Return the spectra (n,) of responses by frequency responses (n, m, r) to roads (n, r, r)."""
+    return dict(zip(names, np.einsum("nmi,nij,nmj->mn", h, roads, h.conj()).real, strict=True))
+
+
+def _reached(values: Real, designs: Real) -> Real:
+    """Return values (p, k) of designs (p, v); ValueError that names the first without a working point."""
+    check_reached(np.asarray(~np.isnan(values).any(axis=1)), designs)
+    return values
 
 
 def _change(coarse: Real, fine: Real) -> Real:

@@ -172,8 +172,6 @@ class _Search:
         self.state, self.rows = run.checkpoint.state, list(run.log.rows)
         self.problem.failures, self.problem.first = run.failures, "in the run before" if run.failures else ""
         self.problem.repeats = run.repeats
-        if self.state is not None:
-            self.problem.know(*self.state.arrays()[:2])
         self.rng.bit_generator.state = dict(run.checkpoint.generator)
 
     def until(self, count: float, seconds: float | None, callback: Callable[[Run], object] | None) -> Run:

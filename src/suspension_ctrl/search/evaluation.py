@@ -84,11 +84,6 @@ class SearchProblem:
         self.repeats += len(keys) - len(new)
         return np.array([self._known[key] for key in keys])
 
-    def know(self, codes: Real, values: Real) -> None:
-        """Take values (n, m + c) of codes (n, e) from an earlier search: discrete designs need no evaluation."""
-        if self._known is not None:
-            self._known.update(zip((row.tobytes() for row in self.decode(codes)), values, strict=True))
-
     def _evaluated(self, evaluate: Callable[[Real], ArrayLike], designs: Real) -> Real:
         # Copies: a user's evaluation may change its argument and reuse its result.
         values = checks.reals("evaluate must return", evaluate(designs.copy()))

@@ -58,7 +58,7 @@ class DecodedKernel(NamedTuple):
     @compilable()
     def __call__(self, code: Real) -> Real:
         """Return the kernel's values (m + c,) of a code (e,)."""
-        codes = np.empty((1, code.size))  # numba takes long to compile `reshape`
+        codes = np.empty((1, code.size))  # `reshape` takes long to compile
         for v in range(code.size):
             codes[0, v] = code[v]
         designs = call(self.decode, (codes,))

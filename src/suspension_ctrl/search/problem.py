@@ -92,7 +92,7 @@ class Problem(Record):
     (`search.kinds`). Verbs of a toolbox work on codes; `evaluate`, `start`, callbacks and results have designs. If
     all variables are whole numbers, of catalogues or held, a search evaluates each design once. A budget counts
     repeated designs too, and `Run.repeats` is their number. A kernel evaluates repeated designs again, as this
-    costs no more than looking them up. A resumed search knows the designs of its population, not all earlier ones.
+    costs no more than looking them up. A resumed search does too: a run keeps its population, not every design.
 
     Examples
     --------

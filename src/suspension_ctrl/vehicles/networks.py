@@ -5,14 +5,14 @@ else, series, rubber and force laws, is a network at each of the strut's ports.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
 from ..compiled import compilable
 from ..quantities import Bool, Integer, Real
 from .assembly import Network, StrutCoefficient
-from .force_laws import Curve, Factors, ForceLaw
+from .force_laws import Curve, ForceLaw
 from .struts import (
     Damper,
     Element,
@@ -31,6 +31,7 @@ SPRING, DAMPER, INERTER, RUBBER, MEASURED, LAW, PARALLEL, SERIES = range(8)
 
 _KINDS = {Spring: SPRING, Damper: DAMPER, Inerter: INERTER, Rubber: RUBBER, MeasuredStiffness: MEASURED}
 _NONE = -1
+E = TypeVar("E", bound=Element)
 
 
 def placed(strut: Strut, prefix: str, share: Sequence[float]) -> tuple[list[StrutCoefficient], list[Network]]:
@@ -53,16 +54,15 @@ def placed(strut: Strut, prefix: str, share: Sequence[float]) -> tuple[list[Stru
 
 
 class Laws(NamedTuple):
-    """Force laws by coefficients of the vehicle: each of up to k knots, see `force_laws.Curve`; index -1 is 1."""
+    """Force laws as curves of up to k knots, see `force_laws.Curve`, by coefficients of the vehicle.
+
+    A number of a curve is a constant plus a factor times up to two coefficients; index -1 stands for 1.
+    """
 
     of_rate: Bool  # (l,), whether of the rate or of the deflection
-    knots: Integer  # (l,), number of knots
-    knot: Real  # (l, k, 2), constant and factor
-    knot_by: Integer  # (l, k), coefficient of the factor
-    slope: Real  # (l, k + 1)
-    slope_by: Integer  # (l, k + 1, 2), its coefficients
-    jump: Real  # (l, k)
-    jump_by: Integer  # (l, k)
+    most: Integer  # (l,), number of knots
+    number: Real  # (l, 3, k + 1, 2), constant and factor of knots, slopes and jumps
+    by: Integer  # (l, 3, k + 1, 2), coefficients of the factor
     power: Integer  # (l, 2), coefficients c and a of c |v|^a, -1 without
 
 
@@ -128,7 +128,7 @@ def _append(strut: Strut, prefix: str, index: Mapping[str, int], rows: list[_Nod
     return len(rows) - 1
 
 
-def elements_of(networks: Sequence[Network], kind: type[Element]) -> Iterator[tuple[Network, Element]]:
+def elements_of(networks: Sequence[Network], kind: type[E]) -> Iterator[tuple[Network, E]]:
     """Yield the elements of a class in the order of `Program`, each with its network."""
     for network in networks:
         yield from ((network, element) for element in network.strut.elements if isinstance(element, kind))
@@ -141,46 +141,26 @@ def _indexed(law: ForceLaw, prefix: str, index: Mapping[str, int]) -> tuple[Curv
 def _laws_of(curves: Sequence[tuple[Curve, list[int]]], laws: Sequence[ForceLaw]) -> Laws:
     """Return curves in arrays, padded to the most knots."""
     n, k = len(curves), max((len(curve.knots) for curve, _ in curves), default=0)
-    found = Laws(
-        np.array([law.of_rate for law in laws], dtype=bool),
-        np.array([len(curve.knots) for curve, _ in curves], dtype=np.int64),
-        np.zeros((n, k, 2)),
-        np.full((n, k), _NONE),
-        np.zeros((n, k + 1)),
-        np.full((n, k + 1, 2), _NONE),
-        np.zeros((n, k)),
-        np.full((n, k), _NONE),
-        np.full((n, 2), _NONE),
-    )
-    for l, (curve, own) in enumerate(curves):  # noqa: E741
-        for i, (constant, (factor, by)) in enumerate(curve.knots):
-            found.knot[l, i] = constant, factor
-            found.knot_by[l, i] = own[by[0]] if by else _NONE
-        _put(curve.slopes, own, found.slope[l], found.slope_by[l])
-        _put(curve.jumps, own, found.jump[l], found.jump_by[l][:, None])
+    number, by, power = np.zeros((n, 3, k + 1, 2)), np.full((n, 3, k + 1, 2), _NONE), np.full((n, 2), _NONE)
+    for law, (curve, own) in enumerate(curves):
+        slopes, jumps = ([(0.0, one) for one in rows] for rows in (curve.slopes, curve.jumps))
+        for part, rows in enumerate((curve.knots, slopes, jumps)):
+            for i, (constant, (factor, factors)) in enumerate(rows):
+                number[law, part, i] = constant, factor
+                by[law, part, i, : len(factors)] = [own[j] for j in factors]
         if curve.power:
-            found.power[l] = [own[j] for j in curve.power]
-    return found
-
-
-def _put(numbers: Sequence[Factors], own: Sequence[int], value: Real, by: Integer) -> None:
-    """Put numbers and the indices of their coefficients into rows."""
-    for i, (number, factors) in enumerate(numbers):
-        value[i] = number
-        by[i, : len(factors)] = [own[j] for j in factors]
+            power[law] = [own[j] for j in curve.power]
+    count = np.array([len(curve.knots) for curve, _ in curves], dtype=np.int64)
+    return Laws(np.array([law.of_rate for law in laws], dtype=bool), count, number, by, power)
 
 
 @compilable()
-def fill_curve(laws: Laws, law: int, values: Real, knot: Real, slope: Real, jump: Real) -> int:
-    """Fill in the knots (k,), slopes (k + 1,) and jumps (k,) of a law with these coefficients; return k."""
-    k = laws.knots[law]
-    for i in range(k):
-        by = laws.knot_by[law, i]
-        knot[i] = laws.knot[law, i, 0] + laws.knot[law, i, 1] * (values[by] if by >= 0 else 1.0)
-        by = laws.jump_by[law, i]
-        jump[i] = laws.jump[law, i] * (values[by] if by >= 0 else 1.0)
-    for i in range(k + 1):
-        slope[i] = laws.slope[law, i]
-        for by in laws.slope_by[law, i]:
-            slope[i] *= values[by] if by >= 0 else 1.0
-    return int(k)
+def fill_curve(number: Real, by: Integer, values: Real, curve: Real) -> None:
+    """Fill in knots, slopes and jumps (3, k + 1) of a law by its numbers and these coefficients."""
+    for part in range(3):
+        for i in range(curve.shape[1]):
+            factor = number[part, i, 1]
+            for j in range(2):
+                if by[part, i, j] >= 0:
+                    factor *= values[by[part, i, j]]
+            curve[part, i] = number[part, i, 0] + factor

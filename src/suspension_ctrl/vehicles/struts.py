@@ -48,7 +48,7 @@ class Strut(Record, ABC):
 
     def __post_init__(self) -> None:
         checks.positive("installation_ratio", self.installation_ratio)
-        names = [one.name for one in self.coefficients]
+        names = [one.name for one in self.elements]
         if twice := {name for name in names if names.count(name) > 1}:
             raise ValueError(f"elements must have names of their own, got {min(twice)} twice")
 

@@ -144,6 +144,15 @@ class Vehicle(ABC):
             known[name].check(name, value)
         return {name: given.get(name, p.default or 0.0) for name, p in known.items()}
 
+    def linearised(
+        self, setting: Setting, road: Any, speed: float, *, band: tuple[float, float] = (0.0, 20.0)
+    ) -> "Vehicle":
+        """Return the vehicle with linear struts in place of force laws, as on a road; see `linearised`."""
+        import suspension_ctrl  # the package's top: a vehicle knows no response
+
+        found: Vehicle = suspension_ctrl.linearised(self, setting, road, speed, band=band)
+        return found
+
     def modes(self, setting: Setting | None = None, /, **struts: Any) -> "pd.DataFrame":
         """Return the modes with struts, by rising frequency; arguments and errors as of `closed`, masses needed.
 

@@ -1,0 +1,173 @@
+"""Mean squares over designs of any number of struts of any kind: the loop of `ManyStruts` with networks."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..compiled import compilable, compiled
+from ..quantities import Bool, Real
+from .many_struts import ManyStruts, add_product, eliminate, fill_loop, fill_stiffness, sum_of_squares
+from .mean_position import place
+from .network_rows import IN_SERIES, NETWORK, NEXT, OF_RATE, STATES, Networks, fill_rows, fill_share
+from .working_point import MOST, NEAR, Points, begin, fill_values, improve, keep, linearise, relaxation
+
+
+class AnyStruts(NamedTuple):
+    """Blocks of coupled struts around nominal ones, with v variables of gains and t networks after them."""
+
+    struts: ManyStruts
+    networks: Networks
+    nominal: Real  # (t, 2, n), dynamic stiffness in place of each network
+    density: Real  # (2, n), quadrature weights of deflections and of rates
+    wheels: Real  # (t,), number of ports of each network
+
+    @compiled(error_model="numpy")
+    def __call__(self, designs: Real) -> Real:
+        """Return the mean squares (p, k) of designs (p, v), each as if alone; NaN without a working point."""
+        laws, ports = self.networks.law.shape[0], self.networks.sag.size
+        nothing = Points(np.empty((0, laws, STATES)), np.empty((0, ports)), np.empty(0, dtype=np.int64))
+        return solve(self, designs, nothing)
+
+
+@compilable(error_model="numpy")
+def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
+    """Return the mean squares (p, k) of designs (p, v), and fill in their working points if there is room."""
+    struts, networks, density = any_struts.struts, any_struts.networks, any_struts.density
+    node, ratio, law, square = networks.node, networks.ratio, networks.law, networks.square
+    measured, variable, omega = networks.measured, networks.variable, struts.omega
+    count, number, by = networks.laws.most, networks.laws.number, networks.laws.by
+    values, n, m = networks.setting.copy(), omega.size, ratio.size
+    rows, share = np.empty((m, 2, n)), np.empty(n)
+    curve, state, nodes = np.empty(number.shape[:3]), np.empty((count.size, STATES)), np.empty((m, 3))
+    position, damping = np.zeros(networks.sag.size), np.empty(networks.root.size)
+    entries = (struts.sizes[:, 0] * (2 * struts.sizes[:, 0] + struts.sizes[:, 1])).sum()
+    room = np.empty((entries, 2, n))
+    anywhere = points.iterations.size > 0 or (law[:, OF_RATE] == 0).any()
+    result = np.empty((designs.shape[0], struts.channel.size))
+    for p in range(designs.shape[0]):
+        fill_values(variable, designs[p], values)
+        fill_damping(networks, values, damping)
+        begin(law, number, by, values, curve, state)
+        reached, iteration = count.size == 0, 0
+        while iteration < MOST:
+            linearise(law, count, curve, values, state)
+            fill_rows(node, ratio, law, measured, omega, values, state, rows)
+            close_blocks(any_struts, designs[p], rows, room)
+            if reached:
+                break
+            for i in range(count.size):
+                share[:] = square[i]
+                if law[i, IN_SERIES]:
+                    fill_share(node, ratio, i, rows, share)
+                seen = density[law[i, OF_RATE]]
+                state[i, NEXT] = np.sqrt(deflection(any_struts, law[i, NETWORK], seen, share, room))
+            error = place(networks, values, state, nodes, position, relaxation(iteration)) if anywhere else 0.0
+            if max(error, improve(law, square, damping, state, iteration)) < NEAR:
+                reached = True
+                break
+            iteration += 1
+        keep(points, p, state, position, iteration + 1 if reached else -1)
+        found = outputs(any_struts, room)
+        for term in range(struts.channel.size):
+            result[p, term] = found[struts.channel[term]] if reached else np.nan
+    return result
+
+
+@compilable()
+def fill_damping(networks: Networks, values: Real, damping: Real) -> None:
+    """Fill in the damping (t,) of linear dampers in parallel with each network."""
+    gains, order, port = networks.gain, networks.order, networks.port
+    for t in range(port.size):
+        damping[t] = 0.0
+        for c in range(order.size):
+            if order[c] == 1:
+                damping[t] += gains[c, port[t], port[t]] * values[c]
+
+
+@compilable()
+def close_blocks(any_struts: AnyStruts, design: Real, rows: Real, room: Real) -> None:
+    """Solve the strut loops of all blocks: stiffness (q q), then loop (q (q + s)) of each block after another."""
+    struts, root, nominal = any_struts.struts, any_struts.networks.root, any_struts.nominal
+    added, row, entry, start = np.empty(design.size), 0, 0, 0
+    for v in range(design.size):
+        added[v] = design[v] - struts.origin[v]
+    for b in range(struts.sizes.shape[0]):
+        q, s, k = struts.sizes[b]
+        stiffness, loop = room[start : start + q * q], room[start + q * q : start + q * (2 * q + s)]
+        present = fill_stiffness(added, struts, entry, stiffness)
+        for t in range(root.size):
+            gain = struts.gain[added.size + t, entry : entry + q * q]
+            add_network(gain, rows[root[t]], nominal[t], present, stiffness)
+        feedback, sources = struts.rows[row : row + q * q], struts.rows[row + q * q : row + q * (q + s)]
+        fill_loop(q, s, present, stiffness, feedback, sources, loop)
+        eliminate(q, q + s, loop)
+        for i in range(q * q):
+            if not present[i]:
+                stiffness[i] = 0.0
+        row, entry, start = row + (q + k) * (q + s), entry + q * q, start + q * (2 * q + s)
+
+
+@compilable(fastmath={"contract", "nsz"})
+def add_network(gain: Real, row: Real, nominal: Real, present: Bool, stiffness: Real) -> None:
+    """Add the row (2, n) of a network, less its nominal one, to the stiffness (q q, 2, n) by its gains (q q,)."""
+    for i in range(gain.size):
+        if gain[i] != 0.0:
+            present[i] = True
+            for part in range(2):
+                total, given, taken = stiffness[i, part], row[part], nominal[part]
+                for t in range(total.size):
+                    total[t] += gain[i] * (given[t] - taken[t])
+
+
+@compilable()
+def deflection(any_struts: AnyStruts, network: int, density: Real, share: Real, room: Real) -> float:
+    """Return the mean square of the deflection of a network's port, times a share (n,), with density (n,)."""
+    struts, total, entry, start = any_struts.struts, 0.0, 0, 0
+    v = struts.origin.size + network
+    for b in range(struts.sizes.shape[0]):
+        q, s = struts.sizes[b, 0], struts.sizes[b, 1]
+        loop = room[start + q * q : start + q * (2 * q + s)]
+        for i in range(q):
+            member = struts.gain[v, entry + i * q + i]
+            if member != 0.0:
+                for source in range(s):
+                    total += member * weighted_square(loop[i * (q + s) + q + source], density, share)
+        entry, start = entry + q * q, start + q * (2 * q + s)
+    return total / any_struts.wheels[network]
+
+
+@compilable(fastmath={"reassoc", "contract", "nsz"})
+def weighted_square(value: Real, density: Real, share: Real) -> float:
+    """Return the sum of the squared magnitudes of a row (2, n) times density and share (n,)."""
+    total = 0.0
+    x, y = value[0], value[1]
+    for t in range(x.size):
+        total += (x[t] * x[t] + y[t] * y[t]) * density[t] * share[t]
+    return total
+
+
+@compilable()
+def outputs(any_struts: AnyStruts, room: Real) -> Real:
+    """Return the distinct mean squares of the responses."""
+    struts, n = any_struts.struts, any_struts.struts.omega.size
+    found, tension, value = np.zeros(struts.channel.size), np.empty((2, n)), np.empty((2, n))
+    row, start, output = 0, 0, 0
+    total = np.empty((struts.sizes[:, 0].max() if struts.sizes.size else 0, 2, n))
+    for b in range(struts.sizes.shape[0]):
+        q, s, k = struts.sizes[b]
+        stiffness, loop = room[start : start + q * q], room[start + q * q : start + q * (2 * q + s)]
+        by_source = struts.rows[row + q * (q + s) : row + q * (q + s) + k * s]
+        by_strut = struts.rows[row + q * (q + s) + k * s : row + (q + k) * (q + s)]
+        for source in range(s):
+            for i in range(q):
+                tension[:] = 0.0
+                for j in range(q):
+                    add_product(1.0, stiffness[i * q + j], loop[j * (q + s) + q + source], tension)
+                total[i] = tension
+            for i in range(k):
+                value[:] = by_source[i * s + source]
+                for j in range(q):
+                    add_product(1.0, by_strut[i * q + j], total[j], value)
+                found[struts.response[output + i]] += sum_of_squares(value)
+        row, start, output = row + (q + k) * (q + s), start + q * (2 * q + s), output + k
+    return found

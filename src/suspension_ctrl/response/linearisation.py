@@ -1,0 +1,221 @@
+"""Vehicles with force laws on a random road: working points, and equivalent springs and dampers."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from .. import checks
+from ..compiled import compiled
+from ..quantities import Bool, FrozenMapping, Real, Record
+from ..vehicles.assembly import Assembly, Network, StrutCoefficient
+from ..vehicles.force_laws import ForceLaw
+from ..vehicles.struts import Damper, Parallel, Spring, Strut
+from ..vehicles.vehicle import AssembledVehicle, Setting, Vehicle, assembled
+from . import any_struts, one_port
+from .load_case import LoadCase, Road
+from .mean_squares import AnyCase, case_of
+from .measures.terms import Term
+from .network_rows import DEVIATION, FORCE, MEAN, SLOPE, STATES
+from .one_port import OnePort
+from .strut_data import apart
+from .working_point import Points
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+_LEAST = 1e-9  # N/m or N s/m, of a law without slope such as a stop out of reach
+_NODES = 1024
+
+
+class LinearisedLaw(NamedTuple):
+    """A force law at its working point."""
+
+    deviation: float  # standard deviation of its deflection [m] or rate [m/s]
+    mean: float  # mean deflection [m], 0 of a rate
+    equivalent: float  # mean slope [N/m or N s/m]
+    force: float  # mean force [N]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class LinearisedVehicle(Record, AssembledVehicle):
+    """A vehicle with springs and dampers in place of its force laws, see `linearised`.
+
+    Parameters
+    ----------
+    vehicle : AssembledVehicle
+        With force laws.
+    settled : Assembly
+        Its masses and links, with an equivalent spring or damper for each force law. All coefficients have values
+        by default.
+    laws : mapping of str to LinearisedLaw
+        By law its ``deviation`` and ``mean`` [m or m/s], its mean slope ``equivalent`` [N/m or N s/m] and mean
+        ``force`` [N].
+    mean_travel : mapping of str to float
+        Mean deflection of each strut [m], the change of ride height.
+    iterations : int
+        Steps to the working point.
+    """
+
+    vehicle: AssembledVehicle
+    settled: Assembly = field(repr=False)
+    laws: Mapping[str, LinearisedLaw]
+    mean_travel: Mapping[str, float]
+    iterations: int
+
+    @property
+    def assembly(self) -> Assembly:
+        """Its masses and links."""
+        return self.settled
+
+    def table(self) -> "pd.DataFrame":
+        """Return the working point: a row for each force law, its equivalent in N/m or N s/m."""
+        import pandas as pd
+
+        rows = pd.DataFrame(self.laws.values(), columns=LinearisedLaw._fields, index=list(self.laws))
+        return rows.rename_axis("law")
+
+
+def linearised(
+    vehicle: Vehicle, setting: Setting, road: Road, speed: float, *, band: tuple[float, float] = (0.0, 20.0)
+) -> LinearisedVehicle:
+    """Return a vehicle with springs and dampers in place of its force laws, as on a road at a speed.
+
+    A law F of Gaussian deflection or rate x with the standard deviation s is replaced by its mean slope
+    ``E[F'(x)] = E[(x - m) F(x)]/s^2`` and its mean force E[F], which moves the strut to a mean m (statistical
+    linearisation). s depends on the slope: both belong to a fixed point. On one road a force law acts on root mean
+    squares through this slope alone; peaks and ride height depend on the whole curve.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    setting : mapping of str to float or (float, float)
+        Coefficients of its struts, as for ``vehicle.coefficients``.
+    road : Road
+        Under one wheel any object with ``psd(f, speed)``.
+    speed : float
+        Vehicle speed V [m/s].
+    band : (float, float)
+        Frequencies that make up the standard deviations [Hz].
+
+    Returns
+    -------
+    LinearisedVehicle
+        ``closed()``, ``modes()`` and `ride` work on it; ``laws``, ``mean_travel`` and ``iterations`` tell the
+        working point.
+
+    Raises
+    ------
+    ValueError
+        If there is no working point, or about a coefficient, road or speed.
+
+    Examples
+    --------
+    A damper with a knee is stiff on a smooth road and soft on a rough one:
+
+    >>> import suspension_ctrl as sc
+    >>> damper = sc.DigressiveDamper(low_speed=4000.0, high_speed=800.0, knee=0.1)
+    >>> car = sc.QuarterCar(
+    ...     body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3, strut=sc.parallel(sc.Spring(), damper)
+    ... )
+    >>> for road in "AD":
+    ...     linear = sc.linearised(car, {"spring": 22e3}, sc.Iso8608Road(road), speed=20.0, band=(0.1, 20.0))
+    ...     print(road, {name: round(law.equivalent) for name, law in linear.laws.items()})
+    A {'damper': 3971}
+    D {'damper': 1262}
+    """
+    car = assembled(vehicle)
+    checks.interval("band", band, "Hz")
+    case = LoadCase(vehicle=car, road=road, speed=speed)
+    values = car.coefficients(setting)
+    squares = case_of(case, [Term(car.responses[0])], values, list(values), band, _NODES)
+    if isinstance(squares, AnyCase):
+        points = working_points(squares, np.array([list(values.values())]))
+        return at_working_point(car, values, points, 0, stands_for_both(squares))
+    still = dict.fromkeys(car.struts, 0.0)
+    return LinearisedVehicle(
+        vehicle=car, settled=_settled(car.assembly, values, []), laws={}, mean_travel=still, iterations=0
+    )
+
+
+def working_points(case: AnyCase, designs: Real) -> Points:
+    """Return the working points of designs (p, v); ValueError that names the first design without one."""
+    p, laws, ports = len(designs), len(case.networks.law), case.networks.sag.size
+    points = Points(np.empty((p, laws, STATES)), np.zeros((p, ports)), np.empty(p, dtype=np.int64))
+    _solver(one_port.solve if isinstance(case, OnePort) else any_struts.solve)(case, designs, points)
+    check_reached(points.iterations >= 0, designs)
+    return points
+
+
+def check_reached(reached: Bool, designs: Real) -> None:
+    """Raise ValueError that names the first of designs (p, v) without a working point."""
+    if not reached.all():
+        got = designs[int(reached.argmin())].tolist()
+        raise ValueError(f"force laws must have a working point, got none for design {got}")
+
+
+@lru_cache
+def _solver(function: Any) -> Any:
+    return compiled(error_model="numpy")(function)
+
+
+def at_working_point(
+    car: AssembledVehicle, values: Mapping[str, float], points: Points, design: int, alike: bool
+) -> LinearisedVehicle:
+    """Return the vehicle at one of its working points; laws of left and right have one point if `alike`."""
+    state, networks, names = points.state[design], list[tuple[Network, str]](), list[str]()
+    for network in (one for whole in car.networks for one in apart(whole, alike)):
+        port = car.struts[network.share.index(1.0)]
+        networks.append((network, network.prefix if alike or not port else f"{port}."))
+        names += [networks[-1][1] + one.name for one in network.strut.elements if isinstance(one, ForceLaw)]
+    slopes = iter(state[:, SLOPE].tolist())
+    linear = [(network._replace(strut=_linear(network.strut, slopes)), prefix) for network, prefix in networks]
+    rows = state[:, [DEVIATION, MEAN, SLOPE, FORCE]].tolist()
+    return LinearisedVehicle(
+        vehicle=car,
+        settled=_settled(car.assembly, values, linear),
+        laws=FrozenMapping({name: LinearisedLaw(*row) for name, row in zip(names, rows, strict=True)}),
+        mean_travel=FrozenMapping(dict(zip(car.struts, points.position[design].tolist(), strict=True))),
+        iterations=int(points.iterations[design]),
+    )
+
+
+def linear_vehicles(
+    vehicle: Vehicle, names: Sequence[str], case: AnyCase, designs: Real, coefficients: Real
+) -> Iterator[LinearisedVehicle]:
+    """Yield the vehicle at the working point of each of designs (p, v) with coefficients (p, c) of these names."""
+    car, points, alike = assembled(vehicle), working_points(case, designs), stands_for_both(case)
+    for p, row in enumerate(coefficients.tolist()):
+        yield at_working_point(car, dict(zip(names, row, strict=True)), points, p, alike)
+
+
+def stands_for_both(case: AnyCase) -> bool:
+    """Whether a network stands for several ports, as left and right are alike."""
+    return bool(case.networks.ports.sum(axis=1).max(initial=1) > 1)
+
+
+def _linear(strut: Strut, slopes: Iterator[float]) -> Strut:
+    """Return a strut with a spring or a damper of the next slope in place of each force law."""
+    if isinstance(strut, Parallel):
+        return replace(strut, parts=tuple(_linear(part, slopes) for part in strut.parts))
+    if isinstance(strut, ForceLaw):
+        kind = Damper if strut.of_rate else Spring
+        return kind(strut.name, max(next(slopes), _LEAST), installation_ratio=strut.installation_ratio)
+    return strut
+
+
+def _settled(assembly: Assembly, values: Mapping[str, float], networks: Sequence[tuple[Network, str]]) -> Assembly:
+    """Return an assembly with values by default, and networks with other prefixes in place of its own."""
+    before = {n.prefix + one.name for n in assembly.networks for one in n.strut.coefficients}
+    kept = [
+        replace(one, default=values[one.name]) for one in assembly.strut_coefficients if one.name not in before
+    ]
+    nothing = np.zeros((len(assembly.struts), len(assembly.struts)))
+    for network, prefix in networks:
+        for one in network.strut.coefficients:
+            value = values.get(network.prefix + one.name, one.default)
+            kept.append(StrutCoefficient(prefix + one.name, one.unit, nothing, 0, value))
+    moved = tuple(network._replace(prefix=prefix) for network, prefix in networks)
+    return replace(assembly, strut_coefficients=tuple(kept), networks=moved)

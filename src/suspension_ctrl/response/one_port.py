@@ -1,0 +1,140 @@
+"""Mean squares over designs of one strut of any kind: ratios of polynomials in its dynamic stiffness."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..compiled import compilable, compiled
+from ..quantities import Complex, Integer, Real
+from .mean_position import place
+from .network_rows import IN_SERIES, NEXT, OF_RATE, STATES, Networks, fill_element, fill_rows, fill_share
+from .ports import Ports
+from .working_point import MOST, NEAR, Points, begin, fill_values, improve, keep, linearise, relaxation
+
+
+class OnePort(NamedTuple):
+    """Mean squares around a strut of dynamic stiffness D, from one frequency response of the plant.
+
+    As in `OneStrut` a response is (a + b D) / (1 + c D): |a + b D|^2 is linear in 1, Re D, Im D and |D|^2.
+    """
+
+    networks: Networks
+    omega: Real  # (n,) angular frequencies [rad/s]
+    denominator: Real  # (4, n), coefficients of |1 + c D|^2
+    numerators: Real  # (r, n), of |a + b D|^2 times a density, those that are not zero throughout
+    term: Integer  # (r,), the term of each numerator
+    power: Integer  # (r,), its polynomial in D
+    excitation: Real  # (2, n), of deflection and rate of the port without a strut, times the density
+    terms: int
+
+    @compiled(error_model="numpy")
+    def __call__(self, designs: Real) -> Real:
+        """Return the mean squares (p, k) of designs (p, v), each as if alone; NaN without a working point."""
+        laws, ports = self.networks.law.shape[0], self.networks.sag.size
+        nothing = Points(np.empty((0, laws, STATES)), np.empty((0, ports)), np.empty(0, dtype=np.int64))
+        return solve(self, designs, nothing)
+
+    @classmethod
+    def around(cls, networks: Networks, ports: Ports, f: Real, weight: Real, densities: Real) -> "OnePort":
+        """Take ports at `f` (n,) [Hz], the road's density times quadrature weights (n,), and densities (k, n)."""
+        omega = 2 * np.pi * f
+        p21, p22 = ports.h[:, -1, 0], ports.h[:, -1, 1]
+        numerators = np.array(
+            [
+                density * _square_of_line(by_road, by_strut * p21 - by_road * p22)
+                for density, by_road, by_strut in zip(densities, *ports.h.T[:, : ports.m], strict=True)
+            ]
+        ).reshape(ports.m, 4, omega.size)
+        term, power = np.nonzero(numerators.any(axis=2))
+        denominator = _square_of_line(np.ones_like(p22), -p22)
+        deflection = np.abs(p21) ** 2 * weight
+        excitation = np.array([deflection, omega**2 * deflection])
+        return cls(networks, omega, denominator, numerators[term, power], term, power, excitation, ports.m)
+
+
+def _square_of_line(a: Complex, b: Complex) -> Real:
+    """Coefficients (4, n) of |a + b D|^2 at 1, Re D, Im D and |D|^2."""
+    cross = 2 * a.conj() * b
+    return np.stack([np.abs(a) ** 2, cross.real, -cross.imag, np.abs(b) ** 2])
+
+
+@compilable(error_model="numpy")
+def solve(port: OnePort, designs: Real, points: Points) -> Real:
+    """Return the mean squares (p, k) of designs (p, v), and fill in their working points if there is room."""
+    networks, omega, excitation, denominator = port.networks, port.omega, port.excitation, port.denominator
+    numerators, term, power = port.numerators, port.term, port.power
+    node, ratio, law, square = networks.node, networks.ratio, networks.law, networks.square
+    measured, root, gains, order = networks.measured, networks.root, networks.gain, networks.order
+    count, number, by = networks.laws.most, networks.laws.number, networks.laws.by
+    variable, values, n, m = networks.variable, networks.setting.copy(), omega.size, ratio.size
+    rows, powers, gain, share = np.empty((m, 2, n)), np.ones((4, n)), np.empty(n), np.empty(n)
+    curve, state, nodes = np.empty(number.shape[:3]), np.empty((count.size, STATES)), np.empty((m, 3))
+    linear, position = np.empty(3), np.zeros(1)
+    anywhere = points.iterations.size > 0 or (law[:, OF_RATE] == 0).any()
+    result = np.empty((designs.shape[0], port.terms))
+    for p in range(designs.shape[0]):
+        fill_values(variable, designs[p], values)
+        fill_linear(gains, order, values, linear)
+        begin(law, number, by, values, curve, state)
+        reached, iteration = count.size == 0, 0
+        while iteration < MOST:
+            linearise(law, count, curve, values, state)
+            fill_rows(node, ratio, law, measured, omega, values, state, rows)
+            fill_powers(linear, omega, root, rows, powers)
+            fill_gain(denominator, powers, gain)
+            if reached:
+                break
+            for i in range(count.size):
+                if law[i, IN_SERIES]:
+                    fill_share(node, ratio, i, rows, share)
+                seen, factor = (share, 1.0) if law[i, IN_SERIES] else (powers[0], square[i])
+                state[i, NEXT] = np.sqrt(factor * weighted(gain, excitation[law[i, OF_RATE]], seen))
+            error = place(networks, values, state, nodes, position, relaxation(iteration)) if anywhere else 0.0
+            if max(error, improve(law, square, linear[1:2], state, iteration)) < NEAR:
+                reached = True
+                break
+            iteration += 1
+        keep(points, p, state, position, iteration + 1 if reached else -1)
+        result[p] = 0.0 if reached else np.nan
+        for q in range(power.size):
+            result[p, term[q]] += weighted(gain, numerators[q], powers[power[q]])
+    return result
+
+
+@compilable()
+def fill_linear(gains: Real, order: Integer, values: Real, linear: Real) -> None:
+    """Fill in stiffness, damping and inertance (3,) in parallel with the network."""
+    linear[:] = 0.0
+    for i in range(order.size):
+        linear[order[i]] += gains[i, 0, 0] * values[i]
+
+
+@compilable(fastmath={"contract", "nsz"}, error_model="numpy")
+def fill_powers(linear: Real, omega: Real, root: Integer, rows: Real, powers: Real) -> None:
+    """Fill in Re D, Im D and |D|^2 (rows 1 to 3) of the strut."""
+    fill_element(linear[0], linear[1], linear[2], 0.0, omega, powers[1:3])
+    re, im, square = powers[1], powers[2], powers[3]
+    for last in root:
+        real, imaginary = rows[last, 0], rows[last, 1]
+        for i in range(re.size):
+            re[i] += real[i]
+            im[i] += imaginary[i]
+    for i in range(re.size):
+        square[i] = re[i] * re[i] + im[i] * im[i]
+
+
+@compilable(fastmath={"contract", "nsz"}, error_model="numpy")
+def fill_gain(denominator: Real, powers: Real, gain: Real) -> None:
+    """Fill in |1 + c D|^-2."""
+    d, re, im, square = denominator, powers[1], powers[2], powers[3]
+    for i in range(gain.size):
+        gain[i] = 1.0 / (d[0, i] + d[1, i] * re[i] + d[2, i] * im[i] + d[3, i] * square[i])
+
+
+@compilable(fastmath={"reassoc", "contract", "nsz"})
+def weighted(gain: Real, density: Real, power: Real) -> float:
+    """Return the sum of the products of three rows (n,)."""
+    total = 0.0
+    for i in range(gain.size):
+        total += gain[i] * density[i] * power[i]
+    return total

@@ -1,0 +1,193 @@
+"""Struts of a load case as data of compiled loops, see `network_rows`."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+import control
+import numpy as np
+from scipy.linalg import block_diag
+
+from ..quantities import Bool, Complex, Real
+from ..vehicles.assembly import GRAVITY, Network, ResponseName
+from ..vehicles.networks import LAW, SERIES, Program, elements_of
+from ..vehicles.struts import MeasuredStiffness
+from ..vehicles.vehicle import AssembledVehicle, Vehicle
+from .any_struts import AnyStruts
+from .blocks import Pairs, Variables, in_blocks
+from .load_case import LoadCase
+from .mean_position import STIFFNESS, fill_static
+from .network_rows import STATES, Networks, fill_rows
+from .ports import Ports
+from .working_point import begin, linearise
+
+_MIDDLE = 2.0  # Hz, at which the damping of nominal struts is taken
+_ALIKE = 1e-9  # largest coupling of the halves of a symmetric vehicle
+
+
+def any_struts(
+    load_case: LoadCase,
+    responses: Sequence[ResponseName],
+    setting: Mapping[str, float],
+    variables: Sequence[str],
+    f: Real,
+    weight: Real,
+    densities: Real,
+    pairs: Pairs,
+) -> AnyStruts:
+    """Return mean squares of responses (m,) at `f` (n,) [Hz] with quadrature weights (n,) and densities (m, n)."""
+    vehicle, omega, roads = load_case.vehicle, 2 * np.pi * f, load_case.cross_spectrum(f)
+    networks = networks_of(vehicle, setting, variables, f, True)
+    gains, nominal = _nominal(networks, omega)
+    ports = Ports.of(vehicle, f, responses, setting, gains)
+    if not _alike(ports, roads, pairs):
+        pairs = tuple(np.eye(len(one)) for one in pairs)  # type: ignore[assignment]
+        networks = networks_of(vehicle, setting, variables, f, False)
+        gains, nominal = _nominal(networks, omega)
+    varied = Variables.of(vehicle.strut_coefficients, {name: setting[name] for name in variables})
+    placed = np.array([np.diag(row) for row in networks.ports]).reshape(-1, *gains.shape[1:])
+    both = varied._replace(gain=np.concatenate([varied.gain, placed]))
+    struts = in_blocks(ports, omega, roads, densities, both, pairs)
+    density = np.array([weight, omega**2 * weight])
+    return AnyStruts(struts, networks, nominal, density, networks.ports.sum(axis=1).astype(float))
+
+
+def _nominal(networks: Networks, omega: Real) -> tuple[Real, Real]:
+    """Return gains (3, q, q), and dynamic stiffness (t, 2, n), of nominal struts in place of the networks."""
+    law, values = networks.law, networks.setting
+    state, nodes = nominal_state(networks)
+    rows = np.empty((networks.ratio.size, 2, omega.size))
+    fill_rows(networks.node, networks.ratio, law, networks.measured, omega, values, state, rows)
+    middle = int(np.abs(omega - 2 * np.pi * _MIDDLE).argmin())
+    damping = rows[networks.root, 1, middle] / omega[middle]
+    stiffness = nodes[networks.root, STIFFNESS]
+    gains = np.array([np.diag(one @ networks.ports) for one in (stiffness, damping, np.zeros(damping.size))])
+    nominal = np.empty((damping.size, 2, omega.size))
+    nominal[:, 0], nominal[:, 1] = stiffness[:, None], damping[:, None] * omega
+    return gains, nominal
+
+
+def _alike(ports: Ports, roads: Complex, pairs: Pairs) -> bool:
+    """Whether sums and differences of left and right are not coupled."""
+    struts, wheels = pairs
+    h = struts @ ports.h[:, ports.m :] @ block_diag(wheels, struts).T
+    anti, wheel = ((one < 0).any(axis=1) for one in pairs)
+    return all(
+        np.abs(matrix[:, odd][:, :, ~other]).max(initial=0.0) <= _ALIKE * np.abs(matrix).max()
+        and np.abs(matrix[:, ~odd][:, :, other]).max(initial=0.0) <= _ALIKE * np.abs(matrix).max()
+        for matrix, odd, other in ((h, anti, np.append(wheel, anti)), (wheels @ roads @ wheels.T, wheel, wheel))
+    )
+
+
+def networks_of(
+    vehicle: Vehicle, setting: Mapping[str, float], variables: Sequence[str], f: Real, alike: bool
+) -> Networks:
+    """Return the networks at `f` (n,) [Hz] around a setting; one for both of left and right if `alike`."""
+    names, q = list(setting), len(vehicle.struts)
+    placed = [one for network in vehicle.networks for one in apart(network, alike)]
+    program = Program.of(placed, names)
+    by_name = {one.name: one for one in vehicle.strut_coefficients}
+    shares = np.array([one.share for one in placed]).reshape(len(placed), q) > 0
+    laws = [sum(program.kind[: root + 1] == LAW) for root in program.root]
+    network = np.searchsorted(laws, np.arange(len(program.laws.of_rate)), side="right")
+    flags = [program.laws.of_rate, _in_series(program), network]
+    values = np.array(list(setting.values()), dtype=float)
+    found = Networks(
+        node=np.column_stack([program.kind, program.parts, program.coefficient, program.law]),
+        ratio=program.ratio,
+        root=program.root,
+        measured=_measured(placed, f),
+        laws=program.laws,
+        law=np.column_stack([*flags, program.laws.power]).astype(np.int64),
+        square=_squares(program),
+        setting=values,
+        variable=np.array([names.index(name) for name in variables], dtype=np.int64),
+        gain=np.array([by_name[name].gain for name in names]),
+        order=np.array([by_name[name].order for name in names]),
+        ports=shares,
+        port=shares.argmax(axis=1),
+        compliance=np.zeros((q, q)),
+        nominal=np.zeros((q, q)),
+        sag=np.zeros(q),
+    )
+    return _statics(found, vehicle, setting, values)
+
+
+def _statics(networks: Networks, vehicle: Vehicle, setting: Mapping[str, float], values: Real) -> Networks:
+    """Return the networks with static compliance, and deflections by payload."""
+    _, nodes = nominal_state(networks)
+    added = np.diag(nodes[networks.root, STIFFNESS] @ networks.ports)
+    nominal = np.tensordot(values * (networks.order == 0), networks.gain, 1) + added
+    lowest = 0.0
+    plant = vehicle.plant(vehicle.responses[:1])
+    if not isinstance(plant, control.StateSpace):
+        lowest = plant.omega[0] / (2 * np.pi)
+    gains = np.pad(added[None], ((0, 2), (0, 0), (0, 0)))
+    ports = Ports.of(vehicle, np.array([lowest]), vehicle.responses[:1], setting, gains)
+    compliance = np.ascontiguousarray(ports.h[0, ports.m :, ports.r :].real)
+    return networks._replace(compliance=compliance, nominal=nominal, sag=_sag(vehicle, nominal))
+
+
+def nominal_state(networks: Networks) -> tuple[Real, Real]:
+    """Return the first state of laws (l, 8), and of nodes (m, 3) at 0 Hz, at the setting."""
+    laws, values = networks.laws, networks.setting
+    curve, state = np.empty(laws.number.shape[:3]), np.zeros((len(laws.most), STATES))
+    nodes = np.empty((networks.ratio.size, 3))
+    begin(networks.law, laws.number, laws.by, values, curve, state)
+    linearise(networks.law, laws.most, curve, values, state)
+    fill_static(networks, values, state, nodes)
+    return state, nodes
+
+
+def _sag(vehicle: Vehicle, stiffness: Real) -> Real:
+    """Return the deflections (q,) by the payload on springs of a stiffness (q, q)."""
+    if not isinstance(vehicle, AssembledVehicle):
+        return np.zeros(len(stiffness))
+    assembly = vehicle.assembly
+    load = assembly.weights - replace(assembly, payload=()).weights
+    links = [*assembly.tyres, *assembly.supports]
+    e, _ = assembly.elongations(links)
+    p, _ = assembly.elongations(assembly.struts)
+    tyre = e.T * [link.stiffness for link in links] @ e
+    return np.asarray(p @ np.linalg.solve(tyre + p.T @ stiffness @ p, -GRAVITY * load))
+
+
+def apart(network: Network, alike: bool) -> list[Network]:
+    """Return a network for each of its ports, or itself."""
+    if alike:
+        return [network]
+    return [network._replace(share=tuple(row)) for row in np.diag(network.share).tolist() if any(row)]
+
+
+def _measured(networks: Sequence[Network], f: Real) -> Real:
+    """Return storage and loss stiffness (x, 2, n) of measured elements at frequencies (n,)."""
+    found = np.empty((0, 2, f.size))
+    for _, one in elements_of(networks, MeasuredStiffness):
+        rows = np.array([np.interp(f, one.frequency, one.storage), np.interp(f, one.frequency, one.loss)])
+        found = np.concatenate([found, rows[None]])
+    return found
+
+
+def _in_series(program: Program) -> Bool:
+    """Return whether each law (l,) is part of a series."""
+    found = np.zeros(len(program.laws.of_rate), dtype=bool)
+    for law, above in _above(program):
+        found[law] |= program.kind[above] == SERIES
+    return found
+
+
+def _squares(program: Program) -> Real:
+    """Return the product (l,) of the squared installation ratios of each law and all nodes above."""
+    found = np.ones(len(program.laws.of_rate))
+    for law, above in _above(program):
+        found[law] *= program.ratio[above] ** 2
+    return found
+
+
+def _above(program: Program) -> Iterator[tuple[int, int]]:
+    """Yield each law with its node, then with every node above."""
+    for node in np.flatnonzero(program.law >= 0).tolist():
+        own = node
+        for above in range(node, len(program.kind)):
+            if above == own or own in program.parts[above]:
+                yield int(program.law[node]), above
+                own = above

@@ -1,0 +1,110 @@
+"""Working point of force laws: the standard deviations that the linearised laws themselves cause."""
+
+from math import exp, log
+from typing import NamedTuple
+
+from ..compiled import compilable
+from ..quantities import Integer, Real
+from ..vehicles.networks import fill_curve
+from .gaussian import of_lines, of_power
+from .network_rows import BEFORE, CHANGE, DEVIATION, FORCE, MEAN, NETWORK, NEXT, OF_RATE, POWER, SLOPE, STEP
+
+MOST = 400
+"""Iterations after which the working point counts as not reached."""
+NEAR = 1e-8
+"""Relative change of every deviation, and of every mean by it, in the last iteration; the error is far smaller."""
+_FIRST_RATE, _FIRST_DEFLECTION = 0.2, 0.01  # m/s and m, standard deviations to begin with
+_LARGEST = 2.0  # change of ln s in an iteration
+_QUICK = 15  # iterations before steps become shorter
+
+
+class Points(NamedTuple):
+    """Working points of p designs; room for none if they are not asked for."""
+
+    state: Real  # (p, l, 8), of every law
+    position: Real  # (p, q), mean deflection of every port [m]
+    iterations: Integer  # (p,), -1 where the point is not reached
+
+
+@compilable(error_model="numpy")
+def begin(law: Integer, number: Real, by: Integer, values: Real, curve: Real, state: Real) -> None:
+    """Fill in the curves (l, 3, k + 1) at these coefficients and the first state (l, 8)."""
+    for i in range(law.shape[0]):
+        fill_curve(number[i], by[i], values, curve[i])
+        state[i, DEVIATION] = _FIRST_RATE if law[i, OF_RATE] else _FIRST_DEFLECTION
+        state[i, MEAN] = 0.0
+
+
+@compilable()
+def fill_values(variable: Integer, design: Real, values: Real) -> None:
+    """Put a design (v,) into the coefficients (c,)."""
+    for v in range(variable.size):
+        values[variable[v]] = design[v]
+
+
+@compilable()
+def relaxation(iteration: int) -> float:
+    """Return the share of a step that is taken: all of it at first, less where stiff stops make steps swing."""
+    if iteration < 3 * _QUICK:
+        return 1.0 if iteration < _QUICK else 0.5
+    return 0.15 if iteration < 7 * _QUICK else 0.04
+
+
+@compilable()
+def keep(points: Points, p: int, state: Real, position: Real, iterations: int) -> None:
+    """Keep the working point of a design if there is room."""
+    if points.iterations.size > 0:
+        points.state[p], points.position[p], points.iterations[p] = state, position, iterations
+
+
+@compilable(error_model="numpy")
+def linearise(law: Integer, count: Integer, curve: Real, values: Real, state: Real) -> None:
+    """Fill in force, slope and change of every law, with `count` (l,) knots, at its deviation and mean."""
+    for i in range(count.size):
+        mean, s = state[i, MEAN], state[i, DEVIATION]
+        force, slope, change = of_lines(curve[i], count[i], mean, s)
+        if law[i, POWER] >= 0:
+            own = of_power(values[law[i, POWER]], values[law[i, POWER + 1]], s)
+            slope, change = slope + own[0], change + own[1]
+        state[i, FORCE], state[i, SLOPE], state[i, CHANGE] = force, slope, change
+
+
+@compilable(error_model="numpy")
+def improve(law: Integer, square: Real, damping: Real, state: Real, iteration: int) -> float:
+    """Take the next deviations by those that result from the last; return the largest relative change.
+
+    With white road velocity s^2 c is constant: the logarithm of s has a slope of -e/2 by the elasticity e of the
+    total damping c. Beyond that the step is Anderson's of depth 1, a secant for a single law.
+    """
+    error, product, length = 0.0, 0.0, 0.0
+    for i in range(law.shape[0]):
+        step = log(state[i, NEXT] / state[i, DEVIATION])
+        error = max(error, abs(step))
+        step /= 1.0 + 0.5 * elasticity(law, square, damping, state, i)
+        difference = step - state[i, STEP]
+        product += difference * step
+        length += difference * difference
+        state[i, NEXT] = step
+    back = product / length if 0 < iteration < _QUICK and length > 0.0 else 0.0
+    for i in range(law.shape[0]):
+        x, step = log(state[i, DEVIATION]), state[i, NEXT]
+        change = step - back * (x - state[i, BEFORE] + step - state[i, STEP])
+        if not abs(change) < _LARGEST:
+            change = max(-_LARGEST, min(step, _LARGEST))
+        state[i, BEFORE], state[i, STEP] = x, step
+        state[i, DEVIATION] = exp(x + relaxation(iteration) * change)
+    return error
+
+
+@compilable(error_model="numpy")
+def elasticity(law: Integer, square: Real, damping: Real, state: Real, which: int) -> float:
+    """Return that of the total damping in parallel with a law of the rate, 0 for a law of the deflection."""
+    if not law[which, OF_RATE]:
+        return 0.0
+    network = law[which, NETWORK]
+    total, rise = damping[network], 0.0
+    for i in range(law.shape[0]):
+        if law[i, OF_RATE] and law[i, NETWORK] == network:
+            total += square[i] * state[i, SLOPE]
+            rise += square[i] * state[i, CHANGE]
+    return rise / total if total > 0.0 else 0.0
