@@ -16,9 +16,9 @@ def curve(law, **values):
     car = sc.QuarterCar(body_mass=300.0, wheel_mass=30.0, tyre_stiffness=2e5, strut=sc.parallel(sc.Spring(), law))
     coefficients = car.coefficients({"spring": 2e4} | {f"{law.name}.{name}": x for name, x in values.items()})
     laws = Program.of(car.networks, list(coefficients)).laws
-    knot, slope, jump = np.empty(9), np.empty(10), np.empty(9)
-    k = fill_curve(laws, 0, np.array(list(coefficients.values())), knot, slope, jump)
-    return knot[:k], slope[: k + 1], jump[:k]
+    found, k = np.empty(laws.number.shape[1:3]), laws.most[0]
+    fill_curve(laws.number[0], laws.by[0], np.array(list(coefficients.values())), found)
+    return found[0, :k], found[1, : k + 1], found[2, :k]
 
 
 @pytest.mark.parametrize(

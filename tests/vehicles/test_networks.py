@@ -29,4 +29,4 @@ def test_nodes_come_after_their_parts():
     assert program.coefficient.tolist()[:3] == [[1, -1], [2, -1], [3, 0]]
     assert program.ratio.tolist() == [1, 1, 1, 1, 0.7, 1, 1]
     assert program.root.tolist() == [6]
-    assert program.laws.jump_by.tolist() == [[4]]
+    assert program.laws.by[0, 2, 0].tolist() == [4, -1]  # the jump of the friction

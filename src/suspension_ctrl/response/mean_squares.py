@@ -41,13 +41,11 @@ def cases_of(
 def kind_of(load_cases: Sequence[LoadCase], variables: Sequence[str]) -> type[Case]:
     """Return the quickest class for all load cases."""
     vehicles = [case.vehicle for case in load_cases]
-    if all(len(one.contact_points) == len(one.struts) == 1 for one in vehicles):
-        names = {tuple(one.name for one in vehicle.strut_coefficients) for vehicle in vehicles}
-        plain = not any(vehicle.networks for vehicle in vehicles)
-        if plain and names == {tuple(variables)} == {("spring", "damper")}:
-            return OneStrut
-        return OnePort
-    return AnyStruts if any(vehicle.networks for vehicle in vehicles) else ManyStruts
+    one_port = all(len(one.contact_points) == len(one.struts) == 1 for one in vehicles)
+    if any(vehicle.networks for vehicle in vehicles):
+        return OnePort if one_port else AnyStruts
+    names = {tuple(one.name for one in vehicle.strut_coefficients) for vehicle in vehicles}
+    return OneStrut if one_port and names == {tuple(variables)} == {("spring", "damper")} else ManyStruts
 
 
 def case_of(
