@@ -79,13 +79,13 @@ def keyed(prefix: str, names: Mapping[str, str]) -> Iterator[None]:
 
 
 class Folder(NamedTuple):
-    """The folder of a file that names others."""
+    """The folder of a file that refers to other files."""
 
     path: Path = Path()
     allow_outside: bool = False
 
     def file(self, name: str) -> Path:
-        """Return the path of a file; ValueError if it is outside and must not."""
+        """Return the path of a file; ValueError if it is outside of the folder and not allowed."""
         path = self.path / name
         if not (self.allow_outside or Path(realpath(path)).is_relative_to(realpath(self.path))):
             needed = "beside this file or below it, unless outside is allowed"
@@ -93,7 +93,7 @@ class Folder(NamedTuple):
         return path
 
     def named(self, text: str) -> str:
-        """Return a path as seen from here; a name without an ending stays as it is."""
+        """Return the path of a file named in this folder; a name without an ending is returned unchanged."""
         return str(self.path / text) if Path(text).suffix else text
 
 
@@ -113,7 +113,7 @@ class Table(NamedTuple):
         return self._replace(content=flat)
 
     def inner(self, key: str, value: object) -> "Table":
-        """Return the table under a key; ValueError if the value is none."""
+        """Return the table under a key; ValueError if the value is not a table."""
         if not isinstance(value, dict):
             raise ValueError(f"{self.name}{key} must be a table, got {checks.shown(value)}")
         return Table(f"{self.name}{key}.", value, self.folder)

@@ -26,7 +26,7 @@ def bad(*values: object) -> bool:
 
 
 class Form(NamedTuple):
-    """How a value is read from a table, `BAD` after a mistake, and written."""
+    """Functions that read a value from a table, `BAD` after a mistake, and write it."""
 
     read: Callable[[Table, Mistakes], Any]
     write: Callable[[Any], dict[str, Any]]
@@ -68,7 +68,7 @@ KIND = {"kind": Key("kind", "kind", str)}
 
 
 def keys_of(record: Any) -> Mapping[str, Key]:
-    """Return the keys of the fields of a dataclass, but for those that no file has."""
+    """Return the keys of the fields of a dataclass, without fields that are not in files."""
     written = (one for one in fields(record) if one.metadata.get("key", "") is not None)
     return {one.key: one for one in map(_key, written)}
 

@@ -53,23 +53,20 @@ def read_table(
 
 
 def read_columns(path: str | PathLike[str], units: Mapping[str, str], most: int) -> dict[str, Real]:
-    """Return columns (n,) by name in `units`, converted from the units in the header: ``velocity [mm/s]``.
-
-    A ValueError names the file; `most` rows are allowed.
-    """
+    """Return columns (n <= `most`,) by name in `units`, converted from the header's: ``velocity [mm/s]``."""
     names, values = read_table(path)
     with naming(path):
         if len(values) > most:
             raise ValueError(f"rows of numbers must be {most} or less, got {len(values)}")
-        found = {text.partition("[")[0].strip(): i for i, text in enumerate(names)}
+        places = {text.partition("[")[0].strip(): i for i, text in enumerate(names)}
         columns: dict[str, Real] = {}
         for name, unit in units.items():
-            header = names[found[name]] if name in found else ""
+            header = names[places[name]] if name in places else ""
             given = re.fullmatch(r"[^[]+\[\s*([^]\s][^]]*)\]", header)
             if not given:
                 needed = f"with its unit in the header, as in '{name} [{unit}]'"
                 raise ValueError(f"columns must include {name} {needed}, got {checks.shown(header or names)}")
-            numbers = values[:, found[name]].tolist()
+            numbers = values[:, places[name]].tolist()
             columns[name] = np.array([quantity(name, f"{number!r} {given[1]}", unit) for number in numbers])
     return columns
 
