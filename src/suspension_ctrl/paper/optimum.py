@@ -84,7 +84,7 @@ def _of_each_wheel(problem: RideProblem, measure: Measure) -> list[Measure]:
 def pick_at_limit(
     problem: RideProblem, run: "Run", limit: float, objective: Measure, below: float = AT_LIMIT
 ) -> tuple[float, ...]:
-    """Return the design of least `objective` of a Pareto set with SWS within a share `below` under the limit [m]."""
+    """Return the design of least `objective` of a Pareto set with SWS up to a share `below` under the limit."""
     sws = run.objectives[:, problem.measures.index(SWS())]
     at_limit = ((1 - below) * limit <= sws) & (sws <= limit)
     candidates = np.flatnonzero(non_dominated(run.objectives) & at_limit)
