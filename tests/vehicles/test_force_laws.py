@@ -13,7 +13,8 @@ NAN = float("nan")
 
 def curve(law, **values):
     """Knots, slopes and jumps of a law in a quarter car with these coefficients beside the defaults."""
-    car = sc.QuarterCar(body_mass=300.0, wheel_mass=30.0, tyre_stiffness=2e5, strut=sc.parallel(sc.Spring("held"), law))
+    strut = sc.parallel(sc.Spring("held"), law)
+    car = sc.QuarterCar(body_mass=300.0, wheel_mass=30.0, tyre_stiffness=2e5, strut=strut)
     coefficients = car.coefficients({"held": 2e4} | {f"{law.name}.{name}": x for name, x in values.items()})
     laws = Program.of(car.networks, list(coefficients)).laws
     found, k = np.empty(laws.number.shape[1:3]), laws.most[0]
