@@ -1,30 +1,36 @@
-"""A vehicle driven over a profile or an event: its responses in time, exact for a road of straight pieces."""
+"""A vehicle driven over a profile or an event: its responses in time."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import TYPE_CHECKING, Any, overload
 
-import control
 import numpy as np
 from control import StateSpace
 from numpy.typing import ArrayLike
 
 from .. import checks
-from ..quantities import Complex, Real, column_headers, signal_unit
+from ..quantities import Real, column_headers, signal_unit
 from ..roads.events import Event
 from ..roads.profiles import Profile
 from ..roads.rigs import Rig
-from ..vehicles.assembly import ResponseName
+from ..vehicles.assembly import ResponseName, label
+from ..vehicles.force_laws import ForceLaw
+from ..vehicles.networks import elements_of
 from ..vehicles.vehicle import Setting, Vehicle
+from .lift_off import tell_lift_off
+from .motion.courses import Passage
+from .motion.equations import Motion, roads_of
+from .motion.hold import Model, Wheels, states_of
+from .motion.integration import responses_in_time
 
 if TYPE_CHECKING:
     import pandas as pd
 
 _POINTS = 4  # of the profile in a wave of the fastest mode, at least: it meets that by 0.81, sinc^2 of 1/4
-_STEPS = 200  # in the shortest wave of an event or mode: straight pieces then attenuate it by 8e-5
-_SETTLED = 1e-3  # share of the slowest mode that is left at the end of an event
-_LONGEST = 60.0  # s, after an event
-_SAME_TRACK = 1e-3  # m
+_HIGHEST = 1e4  # m, of a level road
 _ONE = ((0.0, 0.0),)  # contact point of one wheel
+
+Speed = float | ArrayLike
+"""A speed [m/s], or rows of time [s] and speed."""
 
 
 @overload
@@ -32,10 +38,12 @@ def simulate(
     closed: Vehicle,
     setting: Setting,
     profile: Profile | Event,
-    speed: float = ...,
+    speed: Speed = ...,
     *,
     periodic: bool = ...,
     responses: Sequence[ResponseName] | None = ...,
+    start: float | None = ...,
+    lift_off: bool = ...,
 ) -> "pd.DataFrame": ...
 
 
@@ -43,10 +51,11 @@ def simulate(
 def simulate(
     closed: StateSpace,
     profile: Profile | Event,
-    speed: float = ...,
+    speed: Speed = ...,
     contact_points: ArrayLike = ...,
     *,
     periodic: bool = ...,
+    start: float | None = ...,
 ) -> "pd.DataFrame": ...
 
 
@@ -115,152 +124,124 @@ def _drive_vehicle(
     vehicle: Vehicle,
     setting: Setting,
     profile: Profile | Event,
-    speed: float = 0.0,
+    speed: Speed = 0.0,
     *,
     periodic: bool = False,
     responses: Sequence[ResponseName] | None = None,
+    start: float | None = None,
+    lift_off: bool = False,
 ) -> "pd.DataFrame":
-    closed = vehicle.closed(setting, responses=responses)
-    return _drive(closed, profile, speed, vehicle.contact_points, periodic=periodic)
+    names = list(vehicle.responses if responses is None else responses)
+    if lift_off or next(elements_of(vehicle.networks, ForceLaw), None):
+        plain = vehicle.without_jerk(names)
+        motion = Motion.of(vehicle, vehicle.coefficients(setting), plain, lift_off)
+        table = _integrated(motion, plain, profile, speed, vehicle.contact_points, periodic, start)
+        table = _with_jerks(table, names, plain)
+    else:
+        closed = vehicle.closed(setting, responses=names)
+        table = _drive(closed, profile, speed, vehicle.contact_points, periodic=periodic, start=start)
+    tell_lift_off(vehicle, vehicle.coefficients(setting), table, lift_off)
+    return table
 
 
 def _drive(
     closed: StateSpace,
     profile: Profile | Event,
-    speed: float = 0.0,
+    speed: Speed = 0.0,
     contact_points: ArrayLike = _ONE,
     *,
     periodic: bool = False,
+    start: float | None = None,
 ) -> "pd.DataFrame":
-    import pandas as pd
-
-    if not isinstance(profile, Profile | Event):
-        raise ValueError(f"profile must be a Profile or an event, got {checks.shown(profile)}")
-    model = _Model.of(closed)
-    points = _checked_points(contact_points, model.roads)
+    names, points = closed.output_labels, _checked_points(contact_points, roads_of(closed))
+    if np.ndim(speed):
+        return _integrated(Motion.of_model(closed), names, profile, speed, points, periodic, start)
+    _check(profile, periodic, start)
+    model = Model.of(closed)
     if isinstance(profile, Event):
         periodic = profile.steady
-        wheels, dt = _Wheels.during(profile, points, speed, closed.poles())
+        wheels, dt = Wheels.during(profile, points, float(speed), closed.poles())
     else:
         checks.positive("speed", speed, "m/s")
-        profile = _refined(profile, _coarsest(closed, speed), periodic)
-        wheels, dt = _Wheels.on(profile, points, periodic), profile.step / speed
-    states = _states(model, wheels, dt, periodic)
-    responses = states @ model.c.T + wheels.elevation() @ model.d.T + wheels.rise() / dt @ model.e.T
-    columns = column_headers(closed.output_labels, {name: signal_unit(name) for name in closed.output_labels})
-    table, steps = pd.DataFrame(responses, columns=columns), np.arange(len(states))
-    table.insert(0, "time [s]", dt * steps)
+        profile = _refined(profile, _coarsest(closed, float(speed)), periodic)
+        wheels, dt = Wheels.on(profile, points, periodic), profile.step / speed
+    states = states_of(model, wheels, dt, periodic, start)
+    found = states @ model.c.T + wheels.elevation() @ model.d.T + wheels.rise() / dt @ model.e.T
+    steps = np.arange(len(states))
+    return _table(profile, names, dt * steps, wheels.start + speed * dt * steps, found)
+
+
+def _integrated(
+    motion: Motion,
+    names: Sequence[ResponseName],
+    profile: Profile | Event,
+    speed: Speed,
+    contacts: Real,
+    periodic: bool,
+    start: float | None,
+) -> "pd.DataFrame":
+    """Return the table of a vehicle that has no exact response."""
+    _check(profile, periodic, start)
+    if isinstance(profile, Event):
+        if np.ndim(speed):
+            raise ValueError(f"speed must be a number over an event, got {checks.shown(speed)}")
+        passage = Passage.over_event(profile, contacts, float(np.asarray(speed)))
+    else:
+        passage = Passage.over_profile(profile, contacts, _rows_of_speed(speed, periodic), periodic)
+    found = responses_in_time(motion, passage.course, start, passage.periodic)
+    return _table(profile, [label(name) for name in names], passage.time, passage.distance, found)
+
+
+def _table(
+    profile: Profile | Event, names: Sequence[str], time: Real, distance: Real, responses: Real
+) -> "pd.DataFrame":
+    """Return responses (k, m) with headers, behind time and distance (k,)."""
+    import pandas as pd
+
+    table = pd.DataFrame(responses, columns=column_headers(names, {name: signal_unit(name) for name in names}))
+    table.insert(0, "time [s]", time)
     if not isinstance(profile, Rig):
-        table.insert(1, "distance [m]", wheels.start + speed * dt * steps)
+        table.insert(1, "distance [m]", distance)
     return table
 
 
-class _Model(NamedTuple):
-    """x' = a x + b u, y = c x + d u + e u' under roads u; their rates u' drive no states."""
-
-    a: Real
-    b: Real
-    c: Real
-    d: Real
-    e: Real
-    roads: list[str]
-
-    @classmethod
-    def of(cls, closed: StateSpace) -> "_Model":
-        """Eliminate road rates G u' from the states: w = x - G u obeys w' = A w + (B + A G) u."""
-        if not (isinstance(closed, StateSpace) and closed.isctime(strict=True)):
-            got = f"{type(closed).__name__} with dt = {getattr(closed, 'dt', None)}"
-            raise ValueError(f"closed must be a state-space model in continuous time, got {got}")
-        roads = [name for name in closed.input_labels if not name.endswith("_rate")]
-        r = len(roads)
-        if closed.input_labels not in (roads, [*roads, *(f"{road}_rate" for road in roads)]):
-            raise ValueError(f"closed must be driven by roads and their rates, got {closed.input_labels}")
-        a, b, c, d = closed.A, closed.B, closed.C, closed.D
-        g, e = (m[:, r:] if m.shape[1] > r else np.zeros((len(m), r)) for m in (b, d))
-        return cls(a, b[:, :r] + a @ g, c, d[:, :r] + c @ g, e, roads)
+def _with_jerks(
+    table: "pd.DataFrame", names: Sequence[ResponseName], plain: Sequence[ResponseName]
+) -> "pd.DataFrame":
+    """Return the table with the difference quotient of the acceleration for each jerk."""
+    before = len(table.columns) - len(names)
+    for column, (name, one) in enumerate(zip(names, plain, strict=True)):
+        if name != one:
+            found = np.gradient(table.iloc[:, before + column], table["time [s]"])
+            header = column_headers([str(name)], {str(name): signal_unit(str(name))})[0]
+            table = table.drop(columns=table.columns[before + column])
+            table.insert(before + column, header, found)
+    return table
 
 
-class _Wheels(NamedTuple):
-    """The road under r wheels at k times."""
-
-    points: Real  # (k, r, 4), heights of the last two points that a wheel has reached and of the next two
-    share: Real  # (r,), share of a step by which the wheel is beyond the last
-    start: float  # first place of the origin [m]
-
-    @classmethod
-    def on(cls, profile: Profile, contacts: Real, periodic: bool) -> "_Wheels":
-        """Place the wheels on a profile; ValueError if it is too short or lacks a track."""
-        x, step, n = contacts[:, 0], profile.step, profile.distance.size
-        if (base := float(np.ptp(x))) > step * (n - 2):
-            got = f"{step * (n - 1):g} m"
-            raise ValueError(f"profile must be longer by a step than the wheelbase of {base:g} m, got {got}")
-        ahead = np.round((x if periodic else x - x.min()) / step, 9)  # a whole number of steps but for rounding
-        first = np.floor(ahead).astype(int)
-        times = np.arange(n if periodic else n - int(np.ceil(ahead.max())))
-        index = times[:, None, None] + first[:, None] + np.arange(-1, 3)
-        index = index % n if periodic else np.clip(index, 0, n - 1)
-        tracks = [_track(profile, y) for y in contacts[:, 1].tolist()]
-        heights = profile.height[index, np.array(tracks)[:, None]]
-        return cls(heights, ahead - first, float(profile.distance[0] - (0.0 if periodic else x.min())))
-
-    @classmethod
-    def during(cls, event: Event, contacts: Real, speed: float, poles: Complex) -> tuple["_Wheels", float]:
-        """Return the wheels during an event until the modes of a model have settled, and the time step [s]."""
-        end = float(event.knots(contacts, speed)[-1])
-        if not event.steady:
-            slowest = float(-poles.real.max(initial=-np.inf))
-            end += min(_LONGEST, -np.log(_SETTLED) / slowest) if slowest > 0 else _LONGEST
-        fastest = float(np.abs(poles[poles.imag != 0]).max(initial=0.0)) / (2 * np.pi)
-        steps = int(np.ceil(end * max(fastest, 1 / event.finest(speed)) * _STEPS))
-        dt = end / steps
-        time = dt * np.arange(-1, steps + 2, dtype=float)
-        height = event.elevation(time, contacts, speed)
-        windows = np.lib.stride_tricks.sliding_window_view(height, 4, axis=0)
-        return cls(windows, np.zeros(len(contacts)), -float(contacts[:, 0].max())), dt
-
-    def elevation(self) -> Real:
-        """Return the road's elevation (k, r) [m]."""
-        return (1 - self.share) * self.points[:, :, 1] + self.share * self.points[:, :, 2]
-
-    def rise(self) -> Real:
-        """Return how much the road rises in a step (k, r) [m], at a kink the mean of both sides."""
-        ahead = self.points[:, :, 2] - self.points[:, :, 1]
-        behind = self.points[:, :, 1] - self.points[:, :, 0]
-        return np.where(self.share == 0, (ahead + behind) / 2, ahead)
+def _check(profile: Profile | Event, periodic: bool, start: float | None) -> None:
+    """Raise ValueError about a profile or a start of the wrong kind."""
+    if not isinstance(profile, Profile | Event):
+        raise ValueError(f"profile must be a Profile or an event, got {checks.shown(profile)}")
+    if start is not None and (periodic or isinstance(profile, Event)):
+        raise ValueError(f"start must be None for a periodic response and over an event, got {checks.shown(start)}")
+    if start is not None:
+        checks.within("start", start, -_HIGHEST, _HIGHEST)
 
 
-def _states(model: _Model, wheels: _Wheels, dt: float, periodic: bool) -> Real:
-    """States (k, n) of the model at the times of the wheels, `dt` [s] apart."""
-    n, k = len(model.a), len(wheels.points)
-    taps = np.array([_taps(model, i, dt, share) for i, share in enumerate(wheels.share.tolist())])
-    drive = np.einsum("krj,rjn->nk", wheels.points[:, :, 1:], taps)  # contribution of a step
-    drive = np.pad(drive, ((0, 0), (0, 1)))  # for the states after the last step
-    forward = _straight(model.a, model.b[:, :1], dt)[0]
-    sampled = control.ss(forward, np.eye(n), np.eye(n), np.zeros((n, n)), dt)
-    if periodic:  # the first states recur after a period
-        after = control.forced_response(sampled, inputs=drive).outputs[:, -1]
-        at_first = np.linalg.solve(np.eye(n) - np.linalg.matrix_power(forward, k), after)
-    else:
-        at_first = np.linalg.solve(model.a, -model.b @ wheels.elevation()[0])
-    return control.forced_response(sampled, inputs=drive, initial_state=at_first).outputs.T[:-1]
-
-
-def _taps(model: _Model, wheel: int, dt: float, share: float) -> Real:
-    """Return what three points under a wheel add (3, n) to the states in a step from a `share` past the first."""
-    b = model.b[:, wheel : wheel + 1]
-    _, start, point = _straight(model.a, b, (1 - share) * dt)
-    onward, again, end = _straight(model.a, b, share * dt)
-    start, point = onward @ start, onward @ point + again
-    return np.hstack([(1 - share) * start, share * start + point + (1 - share) * end, share * end]).T
-
-
-def _straight(a: Real, b: Real, duration: float) -> tuple[Real, Real, Real]:
-    """Return the matrices of a first-order hold over a duration [s]: of the states, first and last input."""
-    from scipy.signal import cont2discrete
-
-    n, r = b.shape
-    forward, shifted, _, last, _ = cont2discrete((a, b, np.eye(n), np.zeros((n, r))), duration, "foh")
-    return forward, shifted - forward @ last, last
+def _rows_of_speed(speed: Speed, periodic: bool) -> Real:
+    """Return rows (s, 2) of time and speed from time 0 on; ValueError unless they ascend and are not negative."""
+    if not np.ndim(speed):
+        checks.positive("speed", speed, "m/s")
+        return np.array([[0.0, float(np.asarray(speed))]])
+    rows = np.asarray(speed, dtype=float)
+    if rows.ndim != 2 or rows.shape[1] != 2 or not np.isfinite(rows).all() or rows[0, 0] != 0:
+        raise ValueError(f"speed must be a number or rows of time [s], from 0 on, and speed [m/s], got {checks.shown(speed)}")
+    if (np.diff(rows[:, 0]) <= 0).any() or (rows[:, 1] < 0).any() or rows[-1, 1] == 0:
+        raise ValueError(f"speed must be at ascending times and >= 0 m/s, at last > 0, got {checks.shown(rows.tolist())}")
+    if periodic:
+        raise ValueError(f"speed must be a number for a periodic response, got {checks.shown(rows.tolist())}")
+    return rows
 
 
 def _checked_points(contact_points: ArrayLike, roads: list[str]) -> Real:
@@ -290,9 +271,3 @@ def _refined(profile: Profile, step: float, periodic: bool) -> Profile:
     return Profile(profile.distance[0] + profile.step * fine, np.transpose(tracks), profile.tracks)
 
 
-def _track(profile: Profile, y: float) -> int:
-    apart = np.abs(np.array(profile.tracks) - y)
-    if apart.min() > _SAME_TRACK:
-        needed = f"a track at y = {y:g} m, as by road.profile(..., tracks=({y:g}, ...))"
-        raise ValueError(f"profile must have {needed}, got tracks at {list(profile.tracks)} m")
-    return int(apart.argmin())

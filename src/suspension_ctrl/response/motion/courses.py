@@ -1,63 +1,97 @@
 """Courses: the elevation under each wheel over time, as cubics between knots."""
 
-import numpy as np
+from typing import NamedTuple
 
-from ...quantities import Real
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...quantities import Integer, Real
 from ...roads.events import Event
+from ...roads.profiles import Profile
 from .integrator import Course
+
+_SAME_TRACK = 1e-3  # m
 
 _SAME = 1e-9
 """Times so close to each other, as a share of the time between two rows, are one knot."""
-_PIECES = 16  # in the shortest wave of an event
+_PIECES = 16  # of the course in the shortest wave of an event, at least
+_ROWS, _FINE = 100, 1e-3  # rows in its shortest wave, and their distance [s], at most
+_BEYOND = 5.0  # s, driven after an event
+_APART = 5e-3  # s, longest distance of rows on a profile
+_STANDING = 1e-9  # m/s
 _THIRDS = np.array([0.0, 1.0, 2.0, 3.0]) / 3
 _THROUGH = np.linalg.inv(np.vander(_THIRDS, increasing=True))
 """From values at 0, 1/3, 2/3 and 1 to the cubic through them."""
 
 
-def over_profile(heights: Real, step: float, ahead: Real, speed: Real, rows: Real, periodic: bool) -> Course:
-    """Return the course of wheels `ahead` (r,) [m] of the first point over tracks (n, r), straight between points.
+class Passage(NamedTuple):
+    """A course with the times and places of its rows; a periodic one has a further row at its end."""
 
-    The speed is straight between its rows (k, 2) of time and speed, and stays after the last. The result has rows
-    at even times (m,) [s].
-    """
-    apart = rows[1] - rows[0]
-    last, period = rows[-1], len(heights)
-    times = [rows, speed[:, 0]]
-    reach = float(_distance(speed, last))
-    for lead in ahead.tolist():
+    course: Course
+    time: Real  # (k,) [s]
+    distance: Real  # (k,), of the origin [m]
+    periodic: bool
+
+    @classmethod
+    def over_profile(cls, profile: Profile, contacts: Real, speed: Real, periodic: bool) -> "Passage":
+        """Return the passage of wheels over a profile at a speed by rows (s, 2), see `driving.simulate`."""
+        x, n, step = contacts[:, 0], profile.distance.size, profile.step
+        start = 0.0 if periodic else x.min()
+        ahead = np.round((x - start) / step, 9) * step
+        length = n if periodic else n - 1 - np.ceil(np.round(ahead.max() / step, 9))
+        if length < 1:
+            needed, got = f"longer by a step than the wheelbase of {np.ptp(x):g} m", f"{step * (n - 1):g} m"
+            raise ValueError(f"profile must be {needed}, got {got}")
+        duration = float(time_at(speed, length * step))
+        steps = int(np.ceil(duration / min(step / speed[:, 1].max(), _APART) * (1 - 1e-9)))
+        if len(speed) == 1:  # rows at the points of the profile
+            steps = int(length) * max(1, int(np.ceil(step / speed[0, 1] / _APART * (1 - 1e-9))))
+        rows = duration / steps * np.arange(steps + 1)
+        heights = profile.height[:, [track_of(profile, y) for y in contacts[:, 1].tolist()]]
+        course = _over_heights(heights, step, ahead, speed, rows, periodic)
+        time = rows[:-1] if periodic else rows
+        return cls(course, time, profile.distance[0] - start + distance_at(speed, time), periodic)
+
+    @classmethod
+    def over_event(cls, event: Event, contacts: Real, speed: float) -> "Passage":
+        """Return the passage of wheels over an event and some seconds beyond; of a steady one, one period."""
+        end = float(event.knots(contacts, speed)[-1]) + (0.0 if event.steady else _BEYOND)
+        rows = np.linspace(0.0, end, int(np.ceil(end / min(event.finest(speed) / _ROWS, _FINE))) + 1)
+        time = rows[:-1] if event.steady else rows
+        course = over_event(event, contacts, speed, rows)
+        return cls(course, time, speed * time - contacts[:, 0].max(), event.steady)
+
+
+def over_event(event: Event, contacts: Real, speed: float, rows: Real) -> Course:
+    """Return the course over an event, cubics through four points each, with rows at even times (m,) [s]."""
+    fine = np.arange(0.0, rows[-1], event.finest(speed) / _PIECES)
+    fine = fine[fine <= event.knots(contacts, speed)[-1]]
+    knots = _distinct(np.concatenate([rows, event.knots(contacts, speed), fine]), rows)
+    times = knots[:-1, None] + np.diff(knots)[:, None] * _THIRDS
+    heights = event.elevation(times.ravel(), contacts, speed).reshape(*times.shape, -1)
+    return through(knots, heights, _rows(knots, rows))
+
+
+def _over_heights(heights: Real, step: float, ahead: Real, speed: Real, rows: Real, periodic: bool) -> Course:
+    """Return the course of wheels `ahead` (r,) [m] of the first point over heights (n, r), straight in between."""
+    times, reach = [rows, speed[:, 0]], float(distance_at(speed, rows[-1:])[0])
+    for lead in np.unique(ahead).tolist():
         points = np.arange(np.ceil(lead / step), np.floor((lead + reach) / step) + 1) * step - lead
-        times.append(_time(speed, np.maximum(points, 0.0)))
-    knots = _distinct(np.concatenate(times), last, apart)
+        times.append(time_at(speed, np.maximum(points, 0.0)))
+    knots, n = _distinct(np.concatenate(times), rows), len(heights)
     pieces = np.zeros((len(knots) - 1, len(ahead), 4))
     first, middle = knots[:-1], (knots[1:] + knots[:-1]) / 2
-    v, rate = _speed(speed, first), _acceleration(speed, middle)
     for wheel, lead in enumerate(ahead.tolist()):
-        place = (_distance(speed, middle) + lead) / step
-        index = np.floor(place).astype(int)
-        if not periodic:
-            index = np.clip(index, 0, period - 2)
-        low, high = (heights[i % period, wheel] for i in (index, index + 1))
+        index = np.floor((distance_at(speed, middle) + lead) / step).astype(int)
+        low, high = (heights[i % n if periodic else np.clip(i, 0, n - 1), wheel] for i in (index, index + 1))
         slope = (high - low) / step
-        pieces[:, wheel, 0] = low + slope * (_distance(speed, first) + lead - index * step)
-        pieces[:, wheel, 1] = slope * v
-        pieces[:, wheel, 2] = slope * rate / 2
-    return Course(knots, pieces, _rows(knots, rows, apart))
+        pieces[:, wheel, 0] = low + slope * (distance_at(speed, first) + lead - index * step)
+        pieces[:, wheel, 1] = slope * np.interp(first, *speed.T)
+        pieces[:, wheel, 2] = slope * _acceleration(speed)[_row_of(speed[:, 0], middle)] / 2
+    return Course(knots, pieces, _rows(knots, rows))
 
 
-def over_event(event: Event, contact_points: Real, speed: float, rows: Real) -> Course:
-    """Return the course over an event, cubics through four points each, with rows at even times (m,) [s]."""
-    apart = rows[1] - rows[0]
-    longest = min(event.finest(speed) / _PIECES, apart)
-    ends = [rows, event.knots(contact_points, speed)]
-    fine = np.arange(0.0, rows[-1], longest)
-    knots = _distinct(np.concatenate([*ends, fine]), rows[-1], apart)
-    span = np.diff(knots)
-    times = knots[:-1, None] + span[:, None] * _THIRDS
-    heights = event.elevation(times.ravel(), contact_points, speed).reshape(*times.shape, -1)
-    return through(knots, heights, _rows(knots, rows, apart))
-
-
-def through(knots: Real, heights: Real, row: Real) -> Course:
+def through(knots: Real, heights: Real, row: Integer) -> Course:
     """Return the cubics through heights (k, 4, r) at the thirds of each piece between knots (k + 1,)."""
     powers = np.diff(knots)[:, None] ** np.arange(4)
     pieces = np.einsum("pi,kir->krp", _THROUGH, heights) / powers[:, None, :]
@@ -75,44 +109,55 @@ def road_at_rows(course: Course) -> tuple[Real, Real]:
     return height[kept], rate[kept]
 
 
-def _distinct(times: Real, last: float, apart: float) -> Real:
-    """Return the distinct times (k,) from 0 to the last."""
-    times = np.sort(times[(times >= 0) & (times <= last * (1 + 1e-12))])
-    return times[np.append(True, np.diff(times) > _SAME * apart)]
+def _distinct(times: Real, rows: Real) -> Real:
+    """Return the distinct times (k,) from the first row to the last."""
+    times = np.sort(times[(times >= 0) & (times <= rows[-1])])
+    times = times[np.append(True, np.diff(times) > _SAME * rows[1])]
+    times[-1] = rows[-1]
+    return times
 
 
-def _rows(knots: Real, rows: Real, apart: float) -> Real:
+def _rows(knots: Real, rows: Real) -> Integer:
     """Return the row at each knot (k,), -1 for none."""
-    nearest = np.clip(np.round(knots / apart).astype(np.int64), 0, len(rows) - 1)
-    return np.where(np.abs(knots - rows[nearest]) <= 2 * _SAME * apart, nearest, -1)
+    nearest = np.clip(np.round(knots / rows[1]).astype(np.int64), 0, len(rows) - 1)
+    return np.where(np.abs(knots - rows[nearest]) <= 2 * _SAME * rows[1], nearest, -1)
 
 
-def _speed(speed: Real, time: Real) -> Real:
-    return np.interp(time, *speed.T)
+def distance_at(speed: Real, time: Real) -> Real:
+    """Return the distance driven at times (k,) at a speed straight between its rows (s, 2), constant after them."""
+    i = _row_of(speed[:, 0], time)
+    return np.asarray(_places(speed)[i] + (time - speed[i, 0]) * (speed[i, 1] + np.interp(time, *speed.T)) / 2)
 
 
-def _acceleration(speed: Real, time: Real) -> Real:
-    """Return the acceleration at times between the rows of the speed."""
-    slopes = np.append(np.diff(speed[:, 1]) / np.diff(speed[:, 0]), 0.0)
-    return np.asarray(slopes[np.searchsorted(speed[:, 0], time, side="right") - 1])
+def time_at(speed: Real, distance: ArrayLike) -> Real:
+    """Return the times (k,) at distances driven."""
+    places = _places(speed)
+    i = _row_of(places, distance)
+    rest, v = distance - places[i], speed[i, 1]
+    sum_of_speeds = v + np.sqrt(np.maximum(v**2 + 2 * _acceleration(speed)[i] * rest, 0.0))
+    return np.asarray(speed[i, 0] + 2 * rest / np.maximum(sum_of_speeds, _STANDING))
+
+
+def _row_of(ends: Real, x: ArrayLike) -> Integer:
+    """Return the last row (k,) that x has reached."""
+    return np.asarray(np.searchsorted(ends, x, side="right") - 1)
+
+
+def _acceleration(speed: Real) -> Real:
+    """Return the acceleration (s,) from each row on."""
+    return np.append(np.diff(speed[:, 1]) / np.diff(speed[:, 0]), 0.0)
 
 
 def _places(speed: Real) -> Real:
-    """Return the distance at the rows of the speed."""
+    """Return the distance (s,) at the rows of the speed."""
     steps = np.diff(speed[:, 0]) * (speed[1:, 1] + speed[:-1, 1]) / 2
     return np.concatenate([[0.0], np.cumsum(steps)])
 
 
-def _distance(speed: Real, time: Real) -> Real:
-    """Return the distance driven at times."""
-    i = np.searchsorted(speed[:, 0], time, side="right") - 1
-    since, places = time - speed[i, 0], _places(speed)
-    return np.asarray(places[i] + since * (speed[i, 1] + _speed(speed, time)) / 2)
-
-
-def _time(speed: Real, distance: Real) -> Real:
-    """Return the times at distances driven."""
-    i = np.searchsorted(_places(speed), distance, side="right") - 1
-    rest, v = distance - _places(speed)[i], speed[i, 1]
-    a = np.append(np.diff(speed[:, 1]) / np.diff(speed[:, 0]), 0.0)[i]
-    return np.asarray(speed[i, 0] + 2 * rest / (v + np.sqrt(np.maximum(v**2 + 2 * a * rest, 0.0))))
+def track_of(profile: Profile, y: float) -> int:
+    """Return the index of the track at a place across the road [m]."""
+    apart = np.abs(np.array(profile.tracks) - y)
+    if apart.min() > _SAME_TRACK:
+        needed = f"a track at y = {y:g} m, as by road.profile(..., tracks=({y:g}, ...))"
+        raise ValueError(f"profile must have {needed}, got tracks at {list(profile.tracks)} m")
+    return int(apart.argmin())

@@ -71,7 +71,7 @@ class Motion(NamedTuple):
     ) -> "Motion":
         """Return the equations for all coefficients by name; ValueError if an element has no response in time."""
         names = list(vehicle.responses if responses is None else responses)
-        loads, q = _loads(vehicle), len(vehicle.struts)
+        loads, q = loads_of(vehicle), len(vehicle.struts)
         if lift_off and not loads:
             raise ValueError("lift_off must be of a vehicle of masses and links with loads of all tyres, got another")
         every = list(dict.fromkeys([*names, *loads]))
@@ -147,7 +147,7 @@ def _lifting(equations: Equations, tyres: Tyres) -> Equations:
     )
 
 
-def _loads(vehicle: Vehicle) -> list[str]:
+def loads_of(vehicle: Vehicle) -> list[str]:
     """Return the loads of all tyres in their order, nothing if one is unknown."""
     loads = {str(meaning.where): name for name, meaning in vehicle.meanings.items() if meaning.kind == "load"}
     known = isinstance(vehicle, AssembledVehicle) and set(vehicle.tyres) <= set(loads)
