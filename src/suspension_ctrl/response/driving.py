@@ -1,6 +1,6 @@
 """A vehicle driven over a profile or an event: its responses in time."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
@@ -13,8 +13,7 @@ from ..roads.events import Event
 from ..roads.profiles import Profile
 from ..roads.rigs import Rig
 from ..vehicles.assembly import ResponseName, label
-from ..vehicles.force_laws import ForceLaw
-from ..vehicles.networks import elements_of
+from ..vehicles.networks import has_force_laws
 from ..vehicles.vehicle import Setting, Vehicle
 from .lift_off import tell_lift_off
 from .motion.courses import Passage
@@ -29,7 +28,7 @@ _POINTS = 4  # of the profile in a wave of the fastest mode, at least: it meets 
 _HIGHEST = 1e4  # m, of a level road
 _ONE = ((0.0, 0.0),)  # contact point of one wheel
 
-Speed = float | ArrayLike
+Speed = float | Sequence[Sequence[float]] | Real
 """A speed [m/s], or rows of time [s] and speed."""
 
 
@@ -116,7 +115,7 @@ def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
     >>> print(f"compression {-travel.min():.0f} mm, rebound {travel.max():.0f} mm")
     compression 59 mm, rebound 24 mm
     """
-    drive = _drive_vehicle if isinstance(closed, Vehicle) else _drive
+    drive: Callable[..., pd.DataFrame] = _drive_vehicle if isinstance(closed, Vehicle) else _drive
     return drive(closed, *arguments, **options)
 
 
@@ -132,7 +131,7 @@ def _drive_vehicle(
     lift_off: bool = False,
 ) -> "pd.DataFrame":
     names = list(vehicle.responses if responses is None else responses)
-    if lift_off or next(elements_of(vehicle.networks, ForceLaw), None):
+    if lift_off or has_force_laws(vehicle.networks):
         plain = vehicle.without_jerk(names)
         motion = Motion.of(vehicle, vehicle.coefficients(setting), plain, lift_off)
         table = _integrated(motion, plain, profile, speed, vehicle.contact_points, periodic, start)
@@ -157,18 +156,17 @@ def _drive(
     if np.ndim(speed):
         return _integrated(Motion.of_model(closed), names, profile, speed, points, periodic, start)
     _check(profile, periodic, start)
-    model = Model.of(closed)
+    model, v = Model.of(closed), _number(speed, profile)
     if isinstance(profile, Event):
         periodic = profile.steady
-        wheels, dt = Wheels.during(profile, points, float(speed), closed.poles())
+        wheels, dt = Wheels.during(profile, points, v, closed.poles())
     else:
-        checks.positive("speed", speed, "m/s")
-        profile = _refined(profile, _coarsest(closed, float(speed)), periodic)
-        wheels, dt = Wheels.on(profile, points, periodic), profile.step / speed
+        profile = _refined(profile, _coarsest(closed, v), periodic)
+        wheels, dt = Wheels.on(profile, points, periodic), profile.step / v
     states = states_of(model, wheels, dt, periodic, start)
     found = states @ model.c.T + wheels.elevation() @ model.d.T + wheels.rise() / dt @ model.e.T
-    steps = np.arange(len(states))
-    return _table(profile, names, dt * steps, wheels.start + speed * dt * steps, found)
+    time = dt * np.arange(len(states), dtype=float)
+    return _table(profile, names, time, wheels.start + v * time, found)
 
 
 def _integrated(
@@ -182,12 +180,13 @@ def _integrated(
 ) -> "pd.DataFrame":
     """Return the table of a vehicle that has no exact response."""
     _check(profile, periodic, start)
+    rows = np.array([[0.0, _number(speed, profile)]]) if not np.ndim(speed) else _rows_of(speed)
+    if len(rows) > 1 and (periodic or isinstance(profile, Rig) or (isinstance(profile, Event) and profile.steady)):
+        raise ValueError(f"speed must be a number for a steady state or a rig, got {checks.shown(speed)}")
     if isinstance(profile, Event):
-        if np.ndim(speed):
-            raise ValueError(f"speed must be a number over an event, got {checks.shown(speed)}")
-        passage = Passage.over_event(profile, contacts, float(np.asarray(speed)))
+        passage = Passage.over_event(profile, contacts, rows)
     else:
-        passage = Passage.over_profile(profile, contacts, _rows_of_speed(speed, periodic), periodic)
+        passage = Passage.over_profile(profile, contacts, rows, periodic)
     found = responses_in_time(motion, passage.course, start, passage.periodic)
     return _table(profile, [label(name) for name in names], passage.time, passage.distance, found)
 
@@ -224,23 +223,30 @@ def _check(profile: Profile | Event, periodic: bool, start: float | None) -> Non
     if not isinstance(profile, Profile | Event):
         raise ValueError(f"profile must be a Profile or an event, got {checks.shown(profile)}")
     if start is not None and (periodic or isinstance(profile, Event)):
-        raise ValueError(f"start must be None for a periodic response and over an event, got {checks.shown(start)}")
+        raise ValueError(
+            f"start must be None for a periodic response and over an event, got {checks.shown(start)}"
+        )
     if start is not None:
         checks.within("start", start, -_HIGHEST, _HIGHEST)
 
 
-def _rows_of_speed(speed: Speed, periodic: bool) -> Real:
-    """Return rows (s, 2) of time and speed from time 0 on; ValueError unless they ascend and are not negative."""
-    if not np.ndim(speed):
-        checks.positive("speed", speed, "m/s")
-        return np.array([[0.0, float(np.asarray(speed))]])
-    rows = np.asarray(speed, dtype=float)
+def _number(speed: Any, profile: Profile | Event) -> float:
+    """Return a speed [m/s]; ValueError unless it is above zero, on a test rig it does not matter."""
+    if isinstance(profile, Rig):
+        return 1.0
+    checks.positive("speed", speed, "m/s")
+    return float(speed)
+
+
+def _rows_of(speed: Any) -> Real:
+    """Return rows (s, 2) of time and speed; ValueError unless they begin at 0, ascend and are not negative."""
+    rows = checks.reals("speed must be", speed)
     if rows.ndim != 2 or rows.shape[1] != 2 or not np.isfinite(rows).all() or rows[0, 0] != 0:
-        raise ValueError(f"speed must be a number or rows of time [s], from 0 on, and speed [m/s], got {checks.shown(speed)}")
+        needed = "a number, or rows of time [s] from 0 on and speed [m/s]"
+        raise ValueError(f"speed must be {needed}, got {checks.shown(speed)}")
     if (np.diff(rows[:, 0]) <= 0).any() or (rows[:, 1] < 0).any() or rows[-1, 1] == 0:
-        raise ValueError(f"speed must be at ascending times and >= 0 m/s, at last > 0, got {checks.shown(rows.tolist())}")
-    if periodic:
-        raise ValueError(f"speed must be a number for a periodic response, got {checks.shown(rows.tolist())}")
+        got = checks.shown(rows.tolist())
+        raise ValueError(f"speed must be at ascending times, 0 m/s or more and at last more, got {got}")
     return rows
 
 
@@ -269,5 +275,3 @@ def _refined(profile: Profile, step: float, periodic: bool) -> Profile:
     fine = np.arange((points if periodic else points - 1) * parts + (not periodic)) / parts
     tracks = [np.interp(fine, np.arange(len(height)), track) for track in height.T]
     return Profile(profile.distance[0] + profile.step * fine, np.transpose(tracks), profile.tracks)
-
-

@@ -134,6 +134,11 @@ def elements_of(networks: Sequence[Network], kind: type[E]) -> Iterator[tuple[Ne
         yield from ((network, element) for element in network.strut.elements if isinstance(element, kind))
 
 
+def has_force_laws(networks: Sequence[Network]) -> bool:
+    """Whether a force law is among the elements of networks."""
+    return any(isinstance(element, ForceLaw) for network in networks for element in network.strut.elements)
+
+
 def _indexed(law: ForceLaw, prefix: str, index: Mapping[str, int]) -> tuple[Curve, list[int]]:
     return law.curve, [index[prefix + one.name] for one in law.coefficients]
 

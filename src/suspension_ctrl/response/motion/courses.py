@@ -3,10 +3,10 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ...quantities import Integer, Real
 from ...roads.events import Event
+from ...roads.obstacles import Obstacle
 from ...roads.profiles import Profile
 from .integrator import Course
 
@@ -42,34 +42,43 @@ class Passage(NamedTuple):
         if length < 1:
             needed, got = f"longer by a step than the wheelbase of {np.ptp(x):g} m", f"{step * (n - 1):g} m"
             raise ValueError(f"profile must be {needed}, got {got}")
-        duration = float(time_at(speed, length * step))
+        duration = float(time_at(speed, np.array(length * step)))
         steps = int(np.ceil(duration / min(step / speed[:, 1].max(), _APART) * (1 - 1e-9)))
         if len(speed) == 1:  # rows at the points of the profile
             steps = int(length) * max(1, int(np.ceil(step / speed[0, 1] / _APART * (1 - 1e-9))))
-        rows = duration / steps * np.arange(steps + 1)
+        rows = duration / steps * np.arange(steps + 1, dtype=float)
         heights = profile.height[:, [track_of(profile, y) for y in contacts[:, 1].tolist()]]
         course = _over_heights(heights, step, ahead, speed, rows, periodic)
         time = rows[:-1] if periodic else rows
         return cls(course, time, profile.distance[0] - start + distance_at(speed, time), periodic)
 
     @classmethod
-    def over_event(cls, event: Event, contacts: Real, speed: float) -> "Passage":
+    def over_event(cls, event: Event, contacts: Real, speed: Real) -> "Passage":
         """Return the passage of wheels over an event and some seconds beyond; of a steady one, one period."""
-        end = float(event.knots(contacts, speed)[-1]) + (0.0 if event.steady else _BEYOND)
-        rows = np.linspace(0.0, end, int(np.ceil(end / min(event.finest(speed) / _ROWS, _FINE))) + 1)
+        knots, finest = _knots(event, contacts, speed)
+        end = knots[-1] if event.steady else knots[-1] + _BEYOND
+        rows = np.linspace(0.0, end, int(np.ceil(end / min(finest / _ROWS, _FINE))) + 1)
         time = rows[:-1] if event.steady else rows
-        course = over_event(event, contacts, speed, rows)
-        return cls(course, time, speed * time - contacts[:, 0].max(), event.steady)
+        course = _over_elevation(event, contacts, speed, rows)
+        return cls(course, time, distance_at(speed, time) - contacts[:, 0].max(), event.steady)
 
 
-def over_event(event: Event, contacts: Real, speed: float, rows: Real) -> Course:
+def _knots(event: Event, contacts: Real, speed: Real) -> tuple[Real, float]:
+    """Return the knots of an event (k,) and its shortest wave [s]; along the road by the distance driven."""
+    if isinstance(event, Obstacle):
+        return time_at(speed, event.knots(contacts, 1.0)), event.finest(float(speed[:, 1].max()))
+    return event.knots(contacts, 0.0), event.finest(0.0)
+
+
+def _over_elevation(event: Event, contacts: Real, speed: Real, rows: Real) -> Course:
     """Return the course over an event, cubics through four points each, with rows at even times (m,) [s]."""
-    fine = np.arange(0.0, rows[-1], event.finest(speed) / _PIECES)
-    fine = fine[fine <= event.knots(contacts, speed)[-1]]
-    knots = _distinct(np.concatenate([rows, event.knots(contacts, speed), fine]), rows)
-    times = knots[:-1, None] + np.diff(knots)[:, None] * _THIRDS
-    heights = event.elevation(times.ravel(), contacts, speed).reshape(*times.shape, -1)
-    return through(knots, heights, _rows(knots, rows))
+    ends, finest = _knots(event, contacts, speed)
+    fine = np.arange(0.0, ends[-1], finest / _PIECES)
+    knots = _distinct(np.concatenate([rows, ends, speed[:, 0], fine]), rows)
+    times = (knots[:-1, None] + np.diff(knots)[:, None] * _THIRDS).ravel()
+    along = isinstance(event, Obstacle)  # at 1 m/s the time is the distance
+    heights = event.elevation(distance_at(speed, times) if along else times, contacts, 1.0)
+    return _through(knots, heights.reshape(len(knots) - 1, 4, -1), _rows(knots, rows))
 
 
 def _over_heights(heights: Real, step: float, ahead: Real, speed: Real, rows: Real, periodic: bool) -> Course:
@@ -91,20 +100,22 @@ def _over_heights(heights: Real, step: float, ahead: Real, speed: Real, rows: Re
     return Course(knots, pieces, _rows(knots, rows))
 
 
-def through(knots: Real, heights: Real, row: Integer) -> Course:
+def _through(knots: Real, heights: Real, row: Integer) -> Course:
     """Return the cubics through heights (k, 4, r) at the thirds of each piece between knots (k + 1,)."""
     powers = np.diff(knots)[:, None] ** np.arange(4)
     pieces = np.einsum("pi,kir->krp", _THROUGH, heights) / powers[:, None, :]
     return Course(knots, np.ascontiguousarray(pieces), row)
 
 
-def road_at_rows(course: Course) -> tuple[Real, Real]:
+def road_at_rows(course: Course, periodic: bool = False) -> tuple[Real, Real]:
     """Return elevation and rate of the road (m, r) at the rows, on a kink the mean rate of both sides."""
     c, span = course.pieces, np.diff(course.knots)[:, None]
     at_end = c[..., 0] + span * (c[..., 1] + span * (c[..., 2] + span * c[..., 3]))
     rate_at_end = c[..., 1] + span * (2 * c[..., 2] + span * 3 * c[..., 3])
     height = np.vstack([c[..., 0], at_end[-1:]])
-    rate = np.vstack([c[:1, :, 1], (c[1:, :, 1] + rate_at_end[:-1]) / 2, rate_at_end[-1:]])
+    behind = np.vstack([rate_at_end[-1:] if periodic else c[:1, :, 1], rate_at_end])
+    ahead = np.vstack([c[..., 1], c[:1, :, 1] if periodic else rate_at_end[-1:]])
+    rate = (behind + ahead) / 2
     kept = course.row >= 0
     return height[kept], rate[kept]
 
@@ -124,12 +135,12 @@ def _rows(knots: Real, rows: Real) -> Integer:
 
 
 def distance_at(speed: Real, time: Real) -> Real:
-    """Return the distance driven at times (k,) at a speed straight between its rows (s, 2), constant after them."""
+    """Return the distance driven at times (k,), the speed straight between its rows (s, 2), then constant."""
     i = _row_of(speed[:, 0], time)
     return np.asarray(_places(speed)[i] + (time - speed[i, 0]) * (speed[i, 1] + np.interp(time, *speed.T)) / 2)
 
 
-def time_at(speed: Real, distance: ArrayLike) -> Real:
+def time_at(speed: Real, distance: Real) -> Real:
     """Return the times (k,) at distances driven."""
     places = _places(speed)
     i = _row_of(places, distance)
@@ -138,7 +149,7 @@ def time_at(speed: Real, distance: ArrayLike) -> Real:
     return np.asarray(speed[i, 0] + 2 * rest / np.maximum(sum_of_speeds, _STANDING))
 
 
-def _row_of(ends: Real, x: ArrayLike) -> Integer:
+def _row_of(ends: Real, x: Real) -> Integer:
     """Return the last row (k,) that x has reached."""
     return np.asarray(np.searchsorted(ends, x, side="right") - 1)
 

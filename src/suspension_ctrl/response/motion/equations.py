@@ -8,11 +8,11 @@ import control
 import numpy as np
 
 from ...quantities import Real
-from ...vehicles.assembly import GRAVITY, ResponseName, label
+from ...vehicles.assembly import GRAVITY, Assembly, ResponseName
 from ...vehicles.feedback import around, gains_by_order
 from ...vehicles.handling import Mechanics
 from ...vehicles.networks import Program
-from ...vehicles.vehicle import AssembledVehicle, Vehicle
+from ...vehicles.vehicle import AssembledVehicle, Vehicle, assembled
 from .integrator import Equations
 from .trees import Numbers, Tree, numbers_of, tree_of
 
@@ -73,12 +73,12 @@ class Motion(NamedTuple):
         names = list(vehicle.responses if responses is None else responses)
         loads, q = loads_of(vehicle), len(vehicle.struts)
         if lift_off and not loads:
-            raise ValueError("lift_off must be of a vehicle of masses and links with loads of all tyres, got another")
+            raise ValueError("lift_off must be of a vehicle with masses and loads of all tyres, got another")
         every = list(dict.fromkeys([*names, *loads]))
         plant, program = checked_model(vehicle.plant(every)), Program.of(vehicle.networks, list(values))
         tree = tree_of(vehicle.networks, program, plant.nstates)
         numbers = numbers_of(program, tree, np.array(list(values.values())))
-        gains = gains_by_order(vehicle.parameters, values, q)
+        gains = gains_by_order(vehicle.strut_coefficients, values, q)
         for node in np.flatnonzero(tree.port >= 0):
             gains[2, tree.port[node], tree.port[node]] += numbers.inertance[node]
         equations, outputs = _matrices(around(plant, gains), len(vehicle.contact_points), q)
@@ -87,10 +87,10 @@ class Motion(NamedTuple):
         if loads:
             tension = outputs.rows([every.index(name) for name in loads])
             by_road = np.diag(tension.d)
-            static = static_loads(vehicle, gains[0])
+            static = static_loads(assembled(vehicle), gains[0])
             tyres = Tyres(vehicle.tyres, tension, static, equations.b / by_road, read.d / by_road)
             if tree.kind.size:
-                equations = equations._replace(constant=_payload(vehicle, plant))
+                equations = equations._replace(constant=_payload(assembled(vehicle).assembly, plant.nstates))
         return cls(_lifting(equations, tyres) if lift_off else equations, tree, numbers, read, tyres)
 
     @property
@@ -155,7 +155,7 @@ def loads_of(vehicle: Vehicle) -> list[str]:
 
 
 def static_loads(vehicle: AssembledVehicle, stiffness: Real) -> Real:
-    """Return the load of each tyre (t,) [N] on struts of this stiffness (q, q), with force laws without payload."""
+    """Return the load of each tyre (t,) [N] on struts of this stiffness (q, q), with networks without payload."""
     assembly = vehicle.assembly
     if assembly.networks:
         stiffness = stiffness + np.diag(np.where(stiffness.any(axis=1), 0.0, _NOMINAL))
@@ -163,12 +163,13 @@ def static_loads(vehicle: AssembledVehicle, stiffness: Real) -> Real:
     p, _ = assembly.elongations(assembly.struts)
     mechanics = Mechanics.of(assembly)
     held = mechanics._replace(stiffness=mechanics.stiffness + p.T @ stiffness @ p)
-    return np.asarray(held.static_loads(np.zeros((1, len(assembly.parameters))))[0])
+    return np.asarray(held.static_loads(np.zeros((1, len(assembly.strut_coefficients))))[0])
 
 
-def _payload(vehicle: Vehicle, plant: control.StateSpace) -> Real:
+def _payload(assembly: Assembly, states: int) -> Real:
     """Return the acceleration of the states (v,) by the weight of the payload."""
-    assembly, constant = vehicle.assembly, np.zeros(plant.nstates)
-    weight = sum((mass * assembly.shape(place) for mass, place in assembly.payload), np.zeros(len(assembly.coordinates)))
+    weight, constant = np.zeros(len(assembly.coordinates)), np.zeros(states)
+    for mass, place in assembly.payload:
+        weight += mass * assembly.shape(place)
     constant[1::2] = -GRAVITY * np.linalg.solve(assembly.mass_matrix, weight)
     return constant

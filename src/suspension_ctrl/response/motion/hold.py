@@ -86,7 +86,7 @@ class Wheels(NamedTuple):
 
 
 def states_of(model: Model, wheels: Wheels, dt: float, periodic: bool, start: float | None) -> Real:
-    """States (k, n) of the model at the times of the wheels, `dt` [s] apart; `start`: height of a level road [m]."""
+    """Return the states (k, n) at times `dt` [s] apart; `start` is the height of a level road before [m]."""
     n, k = len(model.a), len(wheels.points)
     taps = np.array([_taps(model, i, dt, share) for i, share in enumerate(wheels.share.tolist())])
     drive = np.einsum("krj,rjn->nk", wheels.points[:, :, 1:], taps)  # contribution of a step

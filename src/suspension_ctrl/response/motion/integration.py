@@ -7,7 +7,7 @@ from .courses import road_at_rows
 from .equations import Motion
 from .integrator import Course, drive
 
-TOLERANCE = 1e-7
+TOLERANCE = 3e-8
 """Error of a step as a share of the largest value of each state."""
 _RECURS = 1e-5  # change of a state from one period to the next, as a share of its largest value
 _LEAD = 20.0  # s, end of a long period that is driven first
@@ -16,7 +16,11 @@ _INSTANT = 1e-3  # s
 
 
 def responses_in_time(
-    motion: Motion, course: Course, start: float | None = None, periodic: bool = False, tolerance: float = TOLERANCE
+    motion: Motion,
+    course: Course,
+    start: float | None = None,
+    periodic: bool = False,
+    tolerance: float = TOLERANCE,
 ) -> Real:
     """Return the responses (k, m) at the rows of a course.
 
@@ -24,12 +28,12 @@ def responses_in_time(
     course is driven again until the states recur; its last knot has a row, which the result is without.
     """
     rows = _periodic(motion, course, tolerance) if periodic else _driven(motion, course, start, tolerance)
-    v, (height, rate) = len(motion.equations.a), road_at_rows(course)
+    v, (height, rate) = len(motion.equations.a), road_at_rows(course, periodic)
     states, tension = rows[:, :v], rows[:, motion.states :]
-    found, (names, load, static, _, by_tension) = motion.responses.of(states, height, rate, tension), motion.tyres
+    found, tyres = motion.responses.of(states, height, rate, tension), motion.tyres
     if motion.equations.static.size:
-        excess = load.of(states, height, rate, tension) - static
-        found -= np.maximum(excess, 0.0) @ by_tension.T
+        excess = tyres.tension.of(states, height, rate, tension) - tyres.static
+        found -= np.maximum(excess, 0.0) @ tyres.on_responses.T
     return found[:-1] if periodic else found
 
 
@@ -48,16 +52,18 @@ def _periodic(motion: Motion, course: Course, tolerance: float) -> Real:
     """Return states and tensions (k, n + q) of the steady response to a periodic course, its end included."""
     period, state = float(course.knots[-1]), np.full(motion.states, np.nan)
     if period > 2 * _LEAD:
-        first = int(np.searchsorted(course.knots, period - _LEAD))
-        row = np.append(np.full(len(course.knots) - first - 1, -1), 0)
-        lead = Course(course.knots[first:] - course.knots[first], course.pieces[first:], row)
+        begin = int(np.searchsorted(course.knots, period - _LEAD))
+        row = np.append(np.full(len(course.knots) - begin - 1, -1), 0)
+        lead = Course(course.knots[begin:] - course.knots[begin], course.pieces[begin:], row)
         state = _run(motion, lead, state, tolerance)[0, : motion.states]
     for _ in range(int(np.ceil(_LONGEST / period)) + 2):
         rows = _run(motion, course, state, tolerance)
         first, state = rows[0, : motion.states], rows[-1, : motion.states]
         if (np.abs(state - first) <= _RECURS * np.abs(rows[:, : motion.states]).max(axis=0)).all():
             return rows
-    raise ValueError(f"response must recur from period to period within {_LONGEST:g} s for a steady state, got none")
+    raise ValueError(
+        f"response must recur from period to period within {_LONGEST:g} s for a steady state, got none"
+    )
 
 
 def _run(motion: Motion, course: Course, start: Real, tolerance: float) -> Real:
@@ -65,5 +71,5 @@ def _run(motion: Motion, course: Course, start: Real, tolerance: float) -> Real:
     equations, tree, numbers, *_ = motion
     rows = np.empty((int(course.row.max()) + 1, motion.states + equations.f.shape[1]))
     if not drive(equations, tree, numbers, course, start, tolerance, rows):
-        raise ValueError("response must be finite and have an equilibrium at the start, got none: check the struts")
+        raise ValueError("struts must hold the vehicle in equilibrium and in motion, got others")
     return rows

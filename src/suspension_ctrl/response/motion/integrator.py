@@ -13,7 +13,7 @@ import numpy as np
 
 from ...compiled import compilable, compiled
 from ...quantities import Bool, Integer, Real
-from .passes import Scratch, beyond, deflect, gather, locate, scratch_of, spread
+from .passes import Scratch, deflect, excess, gather, locate, scratch_of, spread
 from .trees import Numbers, Tree
 
 _A = np.array(
@@ -30,9 +30,10 @@ _C = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
 _ERROR = np.array([71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40])
 _FLOOR = 1e-3  # m, m/s, rad: errors of smaller states are relative to this
 _SHORTEST = 1e-12  # s, of a step
-_ITERATIONS = 50  # at most
+_ITERATIONS = 200  # at most
 _NO_CHANGE = 1e-12  # m/s, of a law's rate
 _LOCATED = 1e-6  # of what a law moves in a step: where it leaves its segment
+_AT_REST = 1e-6  # m/s, m/s^2, largest derivative in equilibrium
 _SINGULAR = 1e-13  # of the largest singular value: none
 _TRIES = 100_000  # steps between two knots of the road, at most
 
@@ -40,7 +41,7 @@ _TRIES = 100_000  # steps between two knots of the road, at most
 class Equations(NamedTuple):
     """x' = a x + b z + g z' + f F + constant: v states of a vehicle, roads z and tensions F of the networks.
 
-    Behind these states come those of the tree. Ports are c x, deflections and their rates. The tension of tyre t is
+    Behind these states come those of the tree. Ports are c x, deflections and rates. The tension of tyre t is
     ``load x + by_road z + by_rate z'``. Where tyres may lift off it is at most the static load; what is beyond
     acts on the states by `push`.
     """
@@ -73,12 +74,12 @@ class Work(NamedTuple):
     stage: Real  # (7, n), derivatives
     ports: Real  # (2q,)
     tension: Real  # (q,), of the networks
-    before: Real  # (l + t,), excess of laws and tyres over their segments at the start of a step
-    after: Real  # (l + t,), at its end
+    before: Real  # (2 (l + t),), excess of laws and tyres above and below their segments at the start of a step
+    after: Real  # (2 (l + t),), at its end
     own: Real  # (t,), tension of each tyre beyond its static load
     lifted: Integer  # (t,), 1 for a tyre in the air
     z: Real  # (2, r), road and its rate
-    turned: Bool  # (l + t,), those that leave their segments
+    turned: Bool  # (2 (l + t),), the ends of segments that a step passes
     start: Real  # (n,), states at the start of a step
     end: Real  # (n,)
     last: Real  # (2, n), states and derivative at the end of a step that goes too far
@@ -89,10 +90,10 @@ class Work(NamedTuple):
 def work_of(e: Equations, tree: Tree) -> Work:
     """Return zeros."""
     n, r, q, t = e.a.shape[0] + tree.states, e.b.shape[1], e.f.shape[1], e.static.size
-    laws, lifted = np.zeros((2, tree.of_rate.size + t)), np.zeros(t, dtype=np.int64)
-    turned, states = np.zeros(tree.of_rate.size + t, dtype=np.bool_), np.zeros((5, n))
+    ends, lifted = 2 * (tree.of_rate.size + t), np.zeros(t, dtype=np.int64)
+    passed, turned, states = np.zeros((2, ends)), np.zeros(ends, dtype=np.bool_), np.zeros((5, n))
     stage, z, ports, tension, own = np.zeros((7, n)), np.zeros((2, r)), np.zeros(2 * q), np.zeros(q), np.zeros(t)
-    kept = (scratch_of(tree), stage, ports, tension, laws[0], laws[1], own, lifted, z, turned)
+    kept = (scratch_of(tree), stage, ports, tension, passed[0], passed[1], own, lifted, z, turned)
     return Work(*kept, states[0], states[1], states[2:4], states[4])
 
 
@@ -178,25 +179,24 @@ def _error(work: Work, h: float, tolerance: float) -> float:
 
 
 @compilable(error_model="numpy")
-def _compare(numbers: Numbers, work: Work, beyond_by: Real) -> None:
-    """Put in how far the laws and tyres are beyond their present segments (l + t,)."""
+def _compare(numbers: Numbers, work: Work, found: Real) -> None:
+    """Put in how far each law and tyre is above and below its present segment (2 (l + t),)."""
     laws = numbers.knots.size
     for i in range(laws):
-        beyond_by[i] = beyond(numbers, work.scratch, i)
+        found[2 * i], found[2 * i + 1] = excess(numbers, work.scratch, i)
     for t in range(work.own.size):
-        beyond_by[laws + t] = -work.own[t] if work.lifted[t] else work.own[t]
+        found[2 * (laws + t)] = -np.inf if work.lifted[t] else work.own[t]
+        found[2 * (laws + t) + 1] = -work.own[t] if work.lifted[t] else -np.inf
 
 
 @compilable(error_model="numpy")
 def _switch(numbers: Numbers, work: Work, i: int) -> None:
-    """Let a law go on with the next segment, a tyre leave the road or meet it again."""
-    laws, scratch = numbers.knots.size, work.scratch
-    if i >= laws:
-        work.lifted[i - laws] = 1 - work.lifted[i - laws]
+    """Let a law go on with the segment above or below, a tyre leave the road or meet it again."""
+    laws = numbers.knots.size
+    if i < 2 * laws:
+        work.scratch.segment[i // 2] += 1 if i % 2 == 0 else -1
     else:
-        segment = scratch.segment[i]
-        rises = segment < numbers.knots[i] and scratch.own[i] - numbers.knot[i, segment] >= beyond(numbers, scratch, i)
-        scratch.segment[i] += 1 if rises else -1
+        work.lifted[i // 2 - laws] = 1 - work.lifted[i // 2 - laws]
 
 
 @compilable(error_model="numpy")
@@ -339,17 +339,16 @@ def drive(
 
 @compilable(error_model="numpy")
 def _find_segments(e: Equations, tree: Tree, numbers: Numbers, course: Course, work: Work) -> None:
-    """Set the segments of laws and tyres at the start."""
+    """Set the segments of laws and tyres at the start, from those at 0 on, one by one."""
+    for i in range(numbers.knots.size):
+        locate(numbers, work.scratch, i)
     for _ in range(_ITERATIONS):
         _begin(e, tree, numbers, course, work, 0, 0.0)
         found = True
         for i in range(work.before.size):
             if work.before[i] > 0:
                 found = False
-                if i < numbers.knots.size:
-                    locate(numbers, work.scratch, i)
-                else:
-                    _switch(numbers, work, i)
+                _switch(numbers, work, i)
         if found:
             break
 
@@ -378,12 +377,15 @@ def settle(e: Equations, tree: Tree, numbers: Numbers, course: Course, work: Wor
         _stand(e, tree, numbers, course, work, work.start)
         _compare(numbers, work, work.after)
         found = True
-        for i in range(tree.of_rate.size):
-            if work.after[i] > 0 and not tree.of_rate[i]:
-                locate(numbers, work.scratch, i)
+        for i in range(2 * tree.of_rate.size):
+            if work.after[i] > 0 and not tree.of_rate[i // 2]:
+                locate(numbers, work.scratch, i // 2)
                 found = False
         if found:
-            return True
+            largest = 0.0
+            for i in range(n):
+                largest = max(largest, abs(work.stage[1, i]))
+            return largest < _AT_REST
     return False
 
 

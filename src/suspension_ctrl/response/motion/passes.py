@@ -52,12 +52,12 @@ def force_of(numbers: Numbers, law: int, segment: int, own: float) -> tuple[floa
 
 
 @compilable(error_model="numpy")
-def beyond(numbers: Numbers, scratch: Scratch, law: int) -> float:
-    """Return how far a law is beyond its present segment, negative inside."""
+def excess(numbers: Numbers, scratch: Scratch, law: int) -> tuple[float, float]:
+    """Return how far a law is above and below its present segment, negative inside."""
     segment, own = scratch.segment[law], scratch.own[law]
     above = own - numbers.knot[law, segment] if segment < numbers.knots[law] else -np.inf
     below = numbers.knot[law, segment - 1] - own if segment > 0 else -np.inf
-    return float(max(above, below))
+    return above, below
 
 
 @compilable(error_model="numpy")
@@ -150,9 +150,7 @@ def spread(tree: Tree, numbers: Numbers, scratch: Scratch, ports: Real, x: Real,
 
 
 @compilable(error_model="numpy")
-def _rate_of_first(
-    tree: Tree, numbers: Numbers, scratch: Scratch, i: int, own: float, x: Real, dx: Real
-) -> float:
+def _rate_of_first(tree: Tree, numbers: Numbers, scratch: Scratch, i: int, own: float, x: Real, dx: Real) -> float:
     """Return the rate of the first part of a series."""
     g, h, k, (a, b) = scratch.by_rate, scratch.force, scratch.stiffness, tree.parts[i]
     if tree.state[i, 1] >= 0:

@@ -61,13 +61,14 @@ def tree_of(networks: Sequence[Network], program: Program, states: int) -> Tree:
         for port in np.flatnonzero(network.share).tolist():
             _append(program, range(first, root + 1), port, states, nodes)
         first = root + 1
-    kind, parts, port, state, law, node, _ = zip(*nodes, strict=True) if nodes else [()] * 7
-    source = [program.law[i] for i, one in zip(node, law, strict=True) if one != _NONE]
-    pairs = [np.array(column, dtype=np.int64).reshape(-1, 2) for column in (parts, state)]
-    kind, port, law, node, source = (np.array(x, dtype=np.int64) for x in (kind, port, law, node, source))
-    added = int(np.count_nonzero(pairs[1] != _NONE))
+    table = np.array([[one.kind, *one.parts, one.port, *one.state, one.law, one.node] for one in nodes])
+    table = np.ascontiguousarray(table.astype(np.int64).reshape(-1, 8).T)
+    kind, port, law, node = table[0], table[3], table[6], table[7]
+    parts, state = np.ascontiguousarray(table[1:3].T), np.ascontiguousarray(table[4:6].T)
+    source = program.law[node[law != _NONE]]
     of_rate, curved = program.laws.of_rate[source], bool((program.laws.power[source] != _NONE).any())
-    return Tree(kind, pairs[0], port, pairs[1], added, law, of_rate, curved, node, source)
+    added = int(np.count_nonzero(state != _NONE))
+    return Tree(kind, parts, port, state, added, law, of_rate, curved, node, source)
 
 
 def _check_in_time(networks: Sequence[Network]) -> None:
