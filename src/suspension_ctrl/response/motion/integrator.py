@@ -113,7 +113,7 @@ def differentiate(e: Equations, tree: Tree, numbers: Numbers, work: Work, x: Rea
                 dx[i] -= e.push[i, t] * work.own[t]
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def _pull(e: Equations, tree: Tree, numbers: Numbers, work: Work, x: Real, dx: Real) -> None:
     """Put in the tensions of the networks and the derivatives of their states."""
     q, scratch = work.tension.size, work.scratch
@@ -131,7 +131,7 @@ def _pull(e: Equations, tree: Tree, numbers: Numbers, work: Work, x: Real, dx: R
             work.tension[tree.port[i]] += scratch.by_rate[i] * scratch.rate[i] + scratch.force[i]
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def _product(row: Real, x: Real) -> float:
     """Return the scalar product over the length of the row."""
     total = 0.0
@@ -140,7 +140,7 @@ def _product(row: Real, x: Real) -> float:
     return total
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def _place(course: Course, piece: int, time: float, z: Real) -> None:
     """Put in the road and its rate (2, r) at a time since the knot [s]."""
     for r in range(z.shape[1]):
@@ -165,7 +165,7 @@ def _step(
         differentiate(e, tree, numbers, work, end, stage[s])
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def _error(work: Work, h: float, tolerance: float) -> float:
     """Return the largest error of a state over what is allowed."""
     worst = 0.0
@@ -178,7 +178,7 @@ def _error(work: Work, h: float, tolerance: float) -> float:
     return worst if np.isfinite(worst) else np.inf
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def _compare(numbers: Numbers, work: Work, found: Real) -> None:
     """Put in how far each law and tyre is above and below its present segment (2 (l + t),)."""
     laws = numbers.knots.size
@@ -199,7 +199,7 @@ def _switch(numbers: Numbers, work: Work, i: int) -> None:
         work.lifted[i // 2 - laws] = 1 - work.lifted[i // 2 - laws]
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def _largest(excess: Real, counted: Bool) -> float:
     """Return the largest excess of those that count."""
     largest = -np.inf

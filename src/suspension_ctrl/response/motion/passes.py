@@ -30,7 +30,7 @@ class Scratch(NamedTuple):
     segment: Integer  # (l,), each law's present segment
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def scratch_of(tree: Tree) -> Scratch:
     """Return zeros."""
     nodes, laws = np.zeros((5, tree.kind.size)), tree.of_rate.size
@@ -38,7 +38,7 @@ def scratch_of(tree: Tree) -> Scratch:
     return Scratch(nodes[0], nodes[1], nodes[2], nodes[3], nodes[4], own, segment)
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def force_of(numbers: Numbers, law: int, segment: int, own: float) -> tuple[float, float]:
     """Return force and slope of a law, its segment prolonged beyond its knots."""
     force = numbers.base[law, segment] + numbers.slope[law, segment] * own
@@ -51,7 +51,7 @@ def force_of(numbers: Numbers, law: int, segment: int, own: float) -> tuple[floa
     return force, slope
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def excess(numbers: Numbers, scratch: Scratch, law: int) -> tuple[float, float]:
     """Return how far a law is above and below its present segment, negative inside."""
     segment, own = scratch.segment[law], scratch.own[law]
@@ -60,7 +60,7 @@ def excess(numbers: Numbers, scratch: Scratch, law: int) -> tuple[float, float]:
     return above, below
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def locate(numbers: Numbers, scratch: Scratch, law: int) -> None:
     """Set the segment of a law by its present value."""
     segment = 0
@@ -69,7 +69,7 @@ def locate(numbers: Numbers, scratch: Scratch, law: int) -> None:
     scratch.segment[law] = segment
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def deflect(tree: Tree, numbers: Numbers, scratch: Scratch, ports: Real, x: Real) -> None:
     """Take deflections from the ports (q,) and states down to the nodes and laws."""
     m = scratch.deflection
@@ -86,7 +86,7 @@ def deflect(tree: Tree, numbers: Numbers, scratch: Scratch, ports: Real, x: Real
             scratch.own[tree.law[i]] = own
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def gather(tree: Tree, numbers: Numbers, scratch: Scratch, x: Real) -> None:
     """Take forces, straight over the rates, from the elements up to the ports."""
     g, h, k = scratch.by_rate, scratch.force, scratch.stiffness
@@ -113,7 +113,7 @@ def gather(tree: Tree, numbers: Numbers, scratch: Scratch, x: Real) -> None:
         k[i] *= numbers.ratio[i] ** 2
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def _join(tree: Tree, scratch: Scratch, i: int, x: Real) -> None:
     """Put in the force of a series."""
     g, h, k, (a, b) = scratch.by_rate, scratch.force, scratch.stiffness, tree.parts[i]
@@ -129,7 +129,7 @@ def _join(tree: Tree, scratch: Scratch, i: int, x: Real) -> None:
     h[i], k[i] = share * h[a] + (1 - share) * h[b], share * k[a]
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def spread(tree: Tree, numbers: Numbers, scratch: Scratch, ports: Real, x: Real, dx: Real) -> float:
     """Take rates from the ports (q,) down to the laws and the states; return the largest change of a law's own."""
     v, change = scratch.rate, 0.0
@@ -149,7 +149,7 @@ def spread(tree: Tree, numbers: Numbers, scratch: Scratch, ports: Real, x: Real,
     return change
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def _rate_of_first(tree: Tree, numbers: Numbers, scratch: Scratch, i: int, own: float, x: Real, dx: Real) -> float:
     """Return the rate of the first part of a series."""
     g, h, k, (a, b) = scratch.by_rate, scratch.force, scratch.stiffness, tree.parts[i]
