@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 _ROUNDING = 1e-9
+_TOLD = 0.01  # share of time from which a warning is given
 
 
 class LiftOffWarning(UserWarning):
@@ -27,7 +28,7 @@ class LiftOff(NamedTuple):
 
 
 def tell_lift_off(vehicle: Vehicle, values: Mapping[str, float], table: "pd.DataFrame", allowed: bool) -> None:
-    """Put the tyres that lift off into ``table.attrs["lift_off"]``; warn if they are not allowed to."""
+    """Put the tyres that lift off into ``table.attrs["lift_off"]``; warn if they may not."""
     if not (loads := loads_of(vehicle)):
         return
     gains = gains_by_order(vehicle.strut_coefficients, values, len(vehicle.struts))
@@ -39,7 +40,7 @@ def tell_lift_off(vehicle: Vehicle, values: Mapping[str, float], table: "pd.Data
         off = (table[header] >= stands * (1 - _ROUNDING)).to_numpy() if header in table else None
         if off is not None and off.any():
             found[tyre] = LiftOff(float(off.mean()), float(table[place].iloc[int(off.argmax())]))
-            if not allowed:
+            if not allowed and found[tyre].share > _TOLD:
                 _warn(tyre, float(table[header].max()), stands, found[tyre], place)
     if found:
         table.attrs["lift_off"] = found

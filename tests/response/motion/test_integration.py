@@ -47,8 +47,7 @@ def test_a_start_on_a_level_road_is_exact_too():
     """30 mm above the road: values of another program, github Zach-K408/spring_damper_optimization @e3084bc8."""
     car = sc.QuarterCar(body_mass=500.0, wheel_mass=30.0, tyre_stiffness=200e3)
     road = sc.Profile(0.005 * np.arange(8000), np.full((8000, 1), -0.03))
-    with pytest.warns(UserWarning, match="the linear tyre would pull 6.00 kN where 5.20 kN stand on it"):
-        history = sc.simulate(car, (9e3, 980.0), road, 10.0, start=0.0)
+    history = sc.simulate(car, (9e3, 980.0), road, 10.0, start=0.0)
     acceleration, travel = history["body_acceleration [m/s^2]"], 1e3 * history["suspension_travel [m]"]
     assert [acceleration.min(), acceleration.max()] == pytest.approx([-3.876, 1.525], abs=1e-3)
     assert [travel.min(), travel.max()] == pytest.approx([-15.91, 42.58], abs=0.01)
