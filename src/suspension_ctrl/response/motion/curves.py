@@ -13,11 +13,11 @@ CREEP = 1e-3
 @compilable(error_model="numpy")
 def fill_law(laws: Laws, law: int, values: Real, knot: Real, slope: Real, base: Real, power: Real) -> int:
     """Fill in knots, slopes, forces at 0 (2k + 3,) and power (2,) of a curve without jumps; return the knots."""
-    most = laws.knot.shape[1]
-    at, rise, jump = np.empty(most), np.empty(most + 1), np.empty(most)
-    found, count = fill_curve(laws, law, values, at, rise, jump), 0
+    curve, count = np.empty(laws.number.shape[1:3]), 0
+    fill_curve(laws.number[law], laws.by[law], values, curve)
+    at, rise, jump = curve[0], curve[1], curve[2]
     slope[0] = rise[0]
-    for i in range(found):
+    for i in range(laws.most[law]):
         if jump[i] > 0:
             knot[count], slope[count + 1] = at[i] - CREEP, jump[i] / (2 * CREEP) + (rise[i] + rise[i + 1]) / 2
             count += 1

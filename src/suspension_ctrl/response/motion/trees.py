@@ -100,7 +100,7 @@ def _append(program: Program, own: range, port: int, states: int, nodes: list[_N
 @compilable(error_model="numpy")
 def numbers_of(program: Program, tree: Tree, values: Real) -> Numbers:
     """Return the numbers for coefficients (c,) of the vehicle."""
-    n, laws, most = tree.kind.size, tree.source.size, 2 * program.laws.knot.shape[1] + 2
+    n, laws, most = tree.kind.size, tree.source.size, 2 * program.laws.number.shape[2]
     ratio, value, inertance = np.ones(n), np.zeros(n), np.zeros(n)
     for i in range(n):
         a, b = tree.parts[i]
