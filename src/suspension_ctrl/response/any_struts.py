@@ -7,9 +7,9 @@ import numpy as np
 from ..compiled import compilable, compiled
 from ..quantities import Bool, Real
 from .many_struts import ManyStruts, add_product, eliminate, fill_loop, fill_stiffness, sum_of_squares
-from .mean_position import place
+from .mean_position import balance
 from .network_rows import IN_SERIES, NETWORK, NEXT, OF_RATE, STATES, Networks, fill_rows, fill_share
-from .working_point import MOST, NEAR, Points, begin, fill_values, improve, keep, linearise, relaxation
+from .working_point import MOST, NEAR, Points, begin, fill_values, improve, keep, linearise
 
 
 class AnyStruts(NamedTuple):
@@ -50,7 +50,10 @@ def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
         begin(law, number, by, values, curve, state)
         reached, iteration = count.size == 0, 0
         while iteration < MOST:
-            linearise(law, count, curve, values, state)
+            if anywhere:
+                balance(networks, curve, values, state, nodes, position)
+            else:
+                linearise(law, count, curve, values, state)
             fill_rows(node, ratio, law, measured, omega, values, state, rows)
             close_blocks(any_struts, designs[p], rows, room)
             if reached:
@@ -61,8 +64,7 @@ def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
                     fill_share(node, ratio, i, rows, share)
                 seen = density[law[i, OF_RATE]]
                 state[i, NEXT] = np.sqrt(deflection(any_struts, law[i, NETWORK], seen, share, room))
-            error = place(networks, values, state, nodes, position, relaxation(iteration)) if anywhere else 0.0
-            if max(error, improve(law, square, damping, state, iteration)) < NEAR:
+            if improve(law, square, damping, state, iteration) < NEAR:
                 reached = True
                 break
             iteration += 1

@@ -6,9 +6,22 @@ from ..compiled import compilable
 from ..quantities import Real
 from ..vehicles.networks import LAW, MEASURED, PARALLEL, RUBBER, SPRING
 from .network_rows import COEFFICIENT, DEVIATION, FORCE, KIND, LAW_OF, MEAN, OF_RATE, PART, SLOPE, Networks
+from .working_point import linearise
 
 AT_ZERO, STIFFNESS, POSITION = range(3)
 """Columns of a node at 0 Hz: force at deflection 0, stiffness, mean deflection."""
+
+
+_MOST, _QUICK, _NEAR = 100, 10, 1e-10  # steps, steps before shorter ones, change of a mean by the deviation
+
+
+@compilable(error_model="numpy")
+def balance(networks: Networks, curve: Real, values: Real, state: Real, nodes: Real, position: Real) -> None:
+    """Linearise the laws at the means of static equilibrium, by Newton's steps at these deviations."""
+    for step in range(_MOST):
+        linearise(networks.law, networks.laws.most, curve, values, state)
+        if place(networks, values, state, nodes, position, 1.0 if step < _QUICK else 0.3) < _NEAR:
+            break
 
 
 @compilable(error_model="numpy")

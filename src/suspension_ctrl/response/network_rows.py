@@ -27,6 +27,8 @@ class Networks(NamedTuple):
 
     node: Integer  # (m, 6), KIND, two PARTS, two COEFFICIENTS and the law of each node, see `Program`
     ratio: Real  # (m,), installation ratio of each node
+    total: Real  # (m,), product of the squared installation ratios of a node and all above
+    plain: bool  # whether all nodes are springs, dampers, inerters and laws in parallel
     root: Integer  # (t,), last node of each network
     measured: Real  # (x, 2, n), storage and loss stiffness of measured elements
     laws: Laws

@@ -1,6 +1,6 @@
 """Struts of a load case as data of compiled loops, see `network_rows`."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import control
@@ -9,7 +9,7 @@ from scipy.linalg import block_diag
 
 from ..quantities import Bool, Complex, Real
 from ..vehicles.assembly import GRAVITY, Network, ResponseName
-from ..vehicles.networks import LAW, SERIES, Program, elements_of
+from ..vehicles.networks import DAMPER, INERTER, LAW, PARALLEL, SERIES, SPRING, Program, elements_of
 from ..vehicles.struts import MeasuredStiffness
 from ..vehicles.vehicle import AssembledVehicle, Vehicle
 from .any_struts import AnyStruts
@@ -94,11 +94,13 @@ def networks_of(
     found = Networks(
         node=np.column_stack([program.kind, program.parts, program.coefficient, program.law]),
         ratio=program.ratio,
+        total=_totals(program),
+        plain=bool(np.isin(program.kind, (SPRING, DAMPER, INERTER, LAW, PARALLEL)).all()),
         root=program.root,
         measured=_measured(placed, f),
         laws=program.laws,
         law=np.column_stack([*flags, program.laws.power]).astype(np.int64),
-        square=_squares(program),
+        square=_totals(program)[program.law >= 0],
         setting=values,
         variable=np.array([names.index(name) for name in variables], dtype=np.int64),
         gain=np.array([by_name[name].gain for name in names]),
@@ -169,25 +171,20 @@ def _measured(networks: Sequence[Network], f: Real) -> Real:
 
 def _in_series(program: Program) -> Bool:
     """Return whether each law (l,) is part of a series."""
-    found = np.zeros(len(program.laws.of_rate), dtype=bool)
-    for law, above in _above(program):
-        found[law] |= program.kind[above] == SERIES
-    return found
+    series = [any(program.kind[above] == SERIES for above in _chain(program, i)) for i in range(len(program.kind))]
+    return np.array(series, dtype=bool)[program.law >= 0]
 
 
-def _squares(program: Program) -> Real:
-    """Return the product (l,) of the squared installation ratios of each law and all nodes above."""
-    found = np.ones(len(program.laws.of_rate))
-    for law, above in _above(program):
-        found[law] *= program.ratio[above] ** 2
-    return found
+def _totals(program: Program) -> Real:
+    """Return the product (m,) of the squared installation ratios of each node and all above."""
+    totals = [np.prod(program.ratio[_chain(program, i)]) ** 2 for i in range(len(program.kind))]
+    return np.array(totals, dtype=float)
 
 
-def _above(program: Program) -> Iterator[tuple[int, int]]:
-    """Yield each law with its node, then with every node above."""
-    for node in np.flatnonzero(program.law >= 0).tolist():
-        own = node
-        for above in range(node, len(program.kind)):
-            if above == own or own in program.parts[above]:
-                yield int(program.law[node]), above
-                own = above
+def _chain(program: Program, node: int) -> list[int]:
+    """Return a node and all above it."""
+    chain = [node]
+    for above in range(node + 1, len(program.kind)):
+        if chain[-1] in program.parts[above]:
+            chain.append(above)
+    return chain

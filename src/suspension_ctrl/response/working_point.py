@@ -1,6 +1,6 @@
 """Working point of force laws: the standard deviations that the linearised laws themselves cause."""
 
-from math import exp, log
+from math import exp, log, sqrt
 from typing import NamedTuple
 
 from ..compiled import compilable
@@ -67,6 +67,33 @@ def linearise(law: Integer, count: Integer, curve: Real, values: Real, state: Re
             own = of_power(values[law[i, POWER]], values[law[i, POWER + 1]], s)
             slope, change = slope + own[0], change + own[1]
         state[i, FORCE], state[i, SLOPE], state[i, CHANGE] = force, slope, change
+
+
+@compilable(error_model="numpy")
+def guess(
+    known: Real,
+    law: Integer,
+    count: Integer,
+    square: Real,
+    curve: Real,
+    values: Real,
+    damping: float,
+    state: Real,
+) -> None:
+    """Take first deviations by those `known` (3,) at another damping: white road velocity keeps s^2 c."""
+    x = 0.0
+    for _ in range(3):
+        for i in range(count.size):
+            state[i, DEVIATION] = known[law[i, OF_RATE]] * sqrt(square[i]) * exp(x)
+        linearise(law, count, curve, values, state)
+        total, rise = damping, 0.0
+        for i in range(count.size):
+            if law[i, OF_RATE]:
+                total += square[i] * state[i, SLOPE]
+                rise += square[i] * state[i, CHANGE]
+        if total <= 0.0:
+            break
+        x += (log(known[2] / total) - 2 * x) / (2 + rise / total)
 
 
 @compilable(error_model="numpy")
