@@ -33,6 +33,7 @@ def of_setting(vehicle, setting) -> np.ndarray:
     return np.array([list(vehicle.coefficients(setting).values())])
 
 
+@pytest.mark.filterwarnings("ignore::suspension_ctrl.response.lift_off.LiftOffWarning")  # by the pothole
 @pytest.mark.parametrize("name", CASES)
 def test_peaks_are_those_of_simulation(name):
     """To 0.1 %."""

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 from . import options as o
 
 if TYPE_CHECKING:
+    from ..response.linearisation import LinearisedVehicle
     from ..vehicles.vehicle import AssembledVehicle
 
 PAPERS = "yuen_ramli_2010"
@@ -32,6 +33,7 @@ def ride(
     Writes ride.csv and modes.csv to a folder; its path is the last line printed.
     """
     from ..paper import experiment as paper
+    from ..response.linearisation import linearised
     from ..response.load_case import LoadCase
     from ..response.responses import ride
     from ..tables import write_csv
@@ -47,16 +49,30 @@ def ride(
     case, (low, high) = LoadCase(vehicle=car, road=problem.road, speed=problem.speed), problem.band
     table = ride(car, values, case.road, speed=case.speed, weighting=problem.weighting, band=problem.band)
     table = (table if table.note.any() else table.drop(columns="note")).reset_index()
-    modes = car.modes(values)
+    linear = linearised(car, values, case.road, case.speed, band=problem.band)
+    modes = linear.modes()
     modes = modes[["name", *(column for column in modes.columns if column.endswith("]"))]]  # no amplitudes
     folder = results.results_folder(out)
     write_csv(folder / "ride.csv", table)
     write_csv(folder / "modes.csv", modes)
+    if linear.laws:
+        write_csv(folder / "laws.csv", linear.table().reset_index())
     terminal.note(f"{title}: {', '.join(f'{name} {value:g} {units[name]}' for name, value in values.items())}.")
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table)
     terminal.show("Modes", modes, dict.fromkeys(modes.columns[1:], 3))
+    show_laws(linear)
     print(folder)
+
+
+def show_laws(linear: "LinearisedVehicle") -> None:
+    """Show force laws at their working point, and the mean travel that they cause."""
+    from . import terminal
+
+    if linear.laws:
+        terminal.show("Force laws, linearised on this road: SI units", linear.table().reset_index())
+        travel = (f"{strut} {1e3 * mean:.1f} mm".strip() for strut, mean in linear.mean_travel.items())
+        terminal.note(f"Mean travel: {', '.join(travel)}.")
 
 
 def chosen_vehicle(

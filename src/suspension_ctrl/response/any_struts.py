@@ -48,27 +48,23 @@ def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
         fill_values(variable, designs[p], values)
         fill_damping(networks, values, damping)
         begin(law, number, by, values, curve, state)
-        reached, iteration = count.size == 0, 0
-        while iteration < MOST:
+        reached, iteration = False, 0
+        while not reached and iteration < MOST:
             if anywhere:
                 balance(networks, curve, values, state, nodes, position)
             else:
                 linearise(law, count, curve, values, state)
             fill_rows(node, ratio, law, measured, omega, values, state, rows)
             close_blocks(any_struts, designs[p], rows, room)
-            if reached:
-                break
             for i in range(count.size):
                 share[:] = square[i]
                 if law[i, IN_SERIES]:
                     fill_share(node, ratio, i, rows, share)
                 seen = density[law[i, OF_RATE]]
                 state[i, NEXT] = np.sqrt(deflection(any_struts, law[i, NETWORK], seen, share, room))
-            if improve(law, square, damping, state, iteration) < NEAR:
-                reached = True
-                break
+            reached = improve(law, square, damping, state, iteration) < NEAR
             iteration += 1
-        keep(points, p, state, position, iteration + 1 if reached else -1)
+        keep(points, p, state, position, iteration if reached else -1)
         found = outputs(any_struts, room)
         for term in range(struts.channel.size):
             result[p, term] = found[struts.channel[term]] if reached else np.nan

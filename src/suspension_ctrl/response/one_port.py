@@ -98,8 +98,8 @@ def solve(port: OnePort, designs: Real, points: Points) -> Real:
         fill_linear(gains, order, values, linear)
         begin(law, number, by, values, curve, state)
         guess(port.guess, law, count, square, curve, values, linear[1], state)
-        reached, iteration = count.size == 0, 0
-        while iteration < MOST:
+        reached, iteration = False, 0
+        while not reached and iteration < MOST:
             if anywhere:
                 balance(networks, curve, values, state, nodes, position)
             else:
@@ -111,14 +111,10 @@ def solve(port: OnePort, designs: Real, points: Points) -> Real:
                 fill_rows(node, ratio, law, measured, omega, values, state, rows)
                 fill_powers(linear, omega, root, rows, powers)
                 fill_gain(denominator, powers, gain)
-            if reached:
-                break
             fill_next(node, ratio, law, square, rows, excitation, gain, share, state)
-            if improve(law, square, linear[1:2], state, iteration) < NEAR:
-                reached = True
-                break
+            reached = improve(law, square, linear[1:2], state, iteration) < NEAR
             iteration += 1
-        keep(points, p, state, position, iteration + 1 if reached else -1)
+        keep(points, p, state, position, iteration if reached else -1)
         if networks.plain:
             fill_powers(whole, omega, root[:0], rows, powers)
         result[p] = 0.0 if reached else np.nan

@@ -8,6 +8,9 @@ import pytest
 import suspension_ctrl as sc
 from garage import DRIVER, FULL, HALF, QUARTER, ROAD, struts_of
 
+# Class E at 20 m/s is where linear tyres pull: the formulas judge the linear car all the same.
+pytestmark = pytest.mark.filterwarnings("ignore::suspension_ctrl.response.lift_off.LiftOffWarning")
+
 SETTING = {"spring": 22e3, "damper": 1500.0}
 SPEED, STEP, LENGTH = 20.0, 0.1, 60e3
 ROUGH = sc.Iso8608Road("E")
