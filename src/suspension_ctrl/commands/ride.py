@@ -41,7 +41,7 @@ def ride(
 
     masses = {"body_mass": body_mass, "wheel_mass": wheel_mass, "tyre_stiffness": tyre_stiffness}
     title, car, own = chosen_vehicle(vehicle, masses, allow_outside)
-    strut = {name: value for name, value in {"spring": spring, "damper": damper}.items() if value is not None}
+    strut = given({"spring": spring, "damper": damper})
     units = {one.name: one.unit for one in car.strut_coefficients}
     values = car.coefficients({**own, **o.by_name("setting", setting or "", units), **strut})
     settings = o.settings(weighting, band)
@@ -53,16 +53,20 @@ def ride(
     modes = linear.modes()
     modes = modes[["name", *(column for column in modes.columns if column.endswith("]"))]]  # no amplitudes
     folder = results.results_folder(out)
-    write_csv(folder / "ride.csv", table)
-    write_csv(folder / "modes.csv", modes)
-    if linear.laws:
-        write_csv(folder / "laws.csv", linear.table().reset_index())
+    tables = {"ride": table, "modes": modes} | ({"laws": linear.table().reset_index()} if linear.laws else {})
+    for name, one in tables.items():
+        write_csv(folder / f"{name}.csv", one)
     terminal.note(f"{title}: {', '.join(f'{name} {value:g} {units[name]}' for name, value in values.items())}.")
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table)
     terminal.show("Modes", modes, dict.fromkeys(modes.columns[1:], 3))
     show_laws(linear)
     print(folder)
+
+
+def given(values: Mapping[str, float | None]) -> dict[str, Any]:
+    """Return the values that are not None."""
+    return {name: value for name, value in values.items() if value is not None}
 
 
 def show_laws(linear: "LinearisedVehicle") -> None:
@@ -82,12 +86,12 @@ def chosen_vehicle(
     from ..vehicles.cars import QuarterCar
     from ..vehicles.files import load_vehicle
 
-    given: dict[str, Any] = {parameter: value for parameter, value in masses.items() if value is not None}
-    if not given:
+    parameters = given(masses)
+    if not parameters:
         file = load_vehicle(PAPERS if name is None else name, allow_outside=allow_outside)
         return file.name or str(name), file.vehicle, file.setting
     if name is not None:
         raise ValueError(f"vehicle must stand without {', '.join(masses)}, got {name!r} with one")
-    if missing := masses.keys() - given.keys():
+    if missing := masses.keys() - parameters.keys():
         raise ValueError(f"{', '.join(masses)} must stand together, got no {min(missing)}")
-    return "Quarter car", QuarterCar(**given), {}
+    return "Quarter car", QuarterCar(**parameters), {}
