@@ -30,7 +30,7 @@ def ride(
     """Print the ride and the modes of one vehicle.
 
     The vehicle is from a file, with its own struts, or a quarter car with given masses, tyre, spring and damper.
-    Writes ride.csv and modes.csv to a folder; its path is the last line printed.
+    Writes ride.csv, modes.csv and, of force laws, laws.csv to a folder; its path is the last line printed.
     """
     from ..paper import experiment as paper
     from ..response.linearisation import linearised
@@ -50,8 +50,7 @@ def ride(
     table = ride(car, values, case.road, speed=case.speed, weighting=problem.weighting, band=problem.band)
     table = (table if table.note.any() else table.drop(columns="note")).reset_index()
     linear = linearised(car, values, case.road, case.speed, band=problem.band)
-    modes = linear.modes()
-    modes = modes[["name", *(column for column in modes.columns if column.endswith("]"))]]  # no amplitudes
+    modes = linear.modes().filter(regex=r"^name$|\]$")  # no amplitudes
     folder = results.results_folder(out)
     tables = {"ride": table, "modes": modes} | ({"laws": linear.table().reset_index()} if linear.laws else {})
     for name, one in tables.items():
