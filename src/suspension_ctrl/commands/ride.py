@@ -1,11 +1,14 @@
 """Ride and modes of one vehicle on one road, printed and written as CSV."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import options as o
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from ..response.linearisation import LinearisedVehicle
     from ..vehicles.vehicle import AssembledVehicle
 
@@ -36,7 +39,6 @@ def ride(
     from ..response.linearisation import linearised
     from ..response.load_case import LoadCase
     from ..response.responses import ride
-    from ..tables import write_csv
     from . import results, terminal
 
     masses = {"body_mass": body_mass, "wheel_mass": wheel_mass, "tyre_stiffness": tyre_stiffness}
@@ -44,17 +46,14 @@ def ride(
     strut = given({"spring": spring, "damper": damper})
     units = {one.name: one.unit for one in car.strut_coefficients}
     values = car.coefficients({**own, **o.by_name("setting", setting or "", units), **strut})
-    settings = o.settings(weighting, band)
-    problem, _ = paper.chosen(None, road, speed, allow_outside=allow_outside, **settings)
+    problem, _ = paper.chosen(None, road, speed, allow_outside=allow_outside, **o.settings(weighting, band))
     case, (low, high) = LoadCase(vehicle=car, road=problem.road, speed=problem.speed), problem.band
     table = ride(car, values, case.road, speed=case.speed, weighting=problem.weighting, band=problem.band)
     table = (table if table.note.any() else table.drop(columns="note")).reset_index()
     linear = linearised(car, values, case.road, case.speed, band=problem.band)
     modes = linear.modes().filter(regex=r"^name$|\]$")  # no amplitudes
     folder = results.results_folder(out)
-    tables = {"ride": table, "modes": modes} | ({"laws": linear.table().reset_index()} if linear.laws else {})
-    for name, one in tables.items():
-        write_csv(folder / f"{name}.csv", one)
+    write_tables(folder, table, modes, linear)
     terminal.note(f"{title}: {', '.join(f'{name} {value:g} {units[name]}' for name, value in values.items())}.")
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table)
@@ -66,6 +65,15 @@ def ride(
 def given(values: Mapping[str, float | None]) -> dict[str, Any]:
     """Return the values that are not None."""
     return {name: value for name, value in values.items() if value is not None}
+
+
+def write_tables(folder: Path, table: "pd.DataFrame", modes: "pd.DataFrame", linear: "LinearisedVehicle") -> None:
+    """Write ride.csv, modes.csv and, if there are force laws, laws.csv."""
+    from ..tables import write_csv
+
+    laws = {"laws": linear.table().reset_index()} if linear.laws else {}
+    for name, one in {"ride": table, "modes": modes, **laws}.items():
+        write_csv(folder / f"{name}.csv", one)
 
 
 def show_laws(linear: "LinearisedVehicle") -> None:
