@@ -14,6 +14,7 @@ often they are met, not what follows.
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from math import e
 from typing import Any, ClassVar
 
 import numpy as np
@@ -192,7 +193,7 @@ class LargestPeak(Measure, word="largest"):
         def values(designs: Designs) -> Real:
             deviation, rate = pairs(designs)
             crossings = rate / (2 * np.pi * deviation) * self.distance / case.speed
-            g = np.sqrt(2 * np.log(np.maximum(crossings, np.e)))
+            g = np.sqrt(2 * np.log(np.maximum(crossings, e)))
             return np.asarray((deviation * (g + _EULER / g)).max(axis=1))
 
         return CaseMeasure(terms, values=values)
