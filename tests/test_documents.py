@@ -50,7 +50,9 @@ def test_several_mistakes_are_one_error_of_a_line_each(tmp_path):
 
 
 def test_without_mistakes_nothing_is_raised():
-    Mistakes().settle()
+    mistakes = Mistakes()
+    mistakes.settle()
+    assert len(mistakes) == 0
 
 
 def test_the_same_mistake_is_noted_once():

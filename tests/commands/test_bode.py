@@ -98,6 +98,16 @@ def assert_natural(out, modes):
     np.testing.assert_allclose(natural["natural frequency [Hz]"], swinging["frequency [Hz]"], rtol=1e-12)
 
 
+def test_bode_of_a_vehicle_with_force_laws(called, tmp_path):
+    """Its modes are those of the vehicle linearised on the road of the command, class C at 20 m/s."""
+    done = called("bode", "--vehicle", "volvo_xc90_full", "--road", "C", "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    natural = pd.read_csv(tmp_path / "out" / "natural_frequencies.csv")
+    file = load_vehicle("volvo_xc90_full")
+    modes = file.vehicle.linearised(file.setting, Iso8608Road("C"), 20.0).modes()
+    np.testing.assert_allclose(natural["natural frequency [Hz]"], modes["frequency [Hz]"], rtol=1e-12)
+
+
 def test_bode_of_designs_of_six_variables(called, tmp_path):
     """Columns in any order, others beside them."""
     design = [9e3, 1500.0, 12e3, 1800.0, 1e4, 2e4]

@@ -49,3 +49,12 @@ def test_optimum_of_another_vehicle(called, tmp_path):
         for header in ("ACC [m/s^2]", "DTL [N]"):
             least = part.loc[f"least {header.split()[0]} up to the limit", header]
             assert least <= within[header].min() * (1 + 1e-6)
+
+
+def test_optimum_of_force_laws(called, tmp_path):
+    """Coefficients in m/s and without a unit stand in the table as well."""
+    quick = ["--iterations", "1", "--population", "20", "--sws-limit", "0.03", "--out", tmp_path / "out"]
+    done = called("optimum", "--vehicle", "volvo_xc90_digressive", "--road", "D", "--speed", "15", *quick)
+    assert done.returncode == 0, done.stderr
+    table = pd.read_csv(tmp_path / "out" / "table5.csv")
+    assert {"front.damper.knee [m/s]", "rear.damper.rebound_over_bump"} <= set(table.columns)

@@ -61,3 +61,36 @@ def test_a_measure_of_ones_own_gets_the_spectra_of_each_working_point():
         linear = CAR.linearised({"spring": spring, "damper.rebound": rebound}, ROAD, 20.0, band=(0.1, 20.0))
         expected = sc.ride(linear, {}, ROAD, 20.0, band=(0.1, 20.0))["value"]["suspension_travel_rate"]
         assert found == pytest.approx(expected, rel=1e-3)  # 1000 parts of the band, by trapezoids
+
+
+def test_a_stop_is_struck_from_the_mean_travel():
+    """A car that its damper pulls down strikes as the linear car does whose gap is shorter by the mean travel."""
+    linear = CAR.linearised({"spring": 22e3}, ROAD, 20.0, band=(0.1, 20.0))
+    mean = linear.mean_travel[""]
+    assert mean < -1e-3
+
+    def strikes(car, setting, measure):
+        return sc.ride(car, setting, ROAD, 20.0, band=(0.1, 20.0), measures=["ACC", measure])["value"].iloc[1]
+
+    for kind, gap in ((sc.Bottoming, 0.03 + mean), (sc.Topping, 0.03 - mean)):
+        found = strikes(CAR, {"spring": 22e3}, kind(gap=0.03))
+        assert found == pytest.approx(strikes(linear, {}, kind(gap=gap)), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "strut",
+    [
+        sc.series(sc.Damper(value=1e3), sc.Spring(value=2e4)),
+        sc.parallel(sc.Damper(value=1e3), sc.PowerDamper("other", force=1e3, exponent=2.0)),
+    ],
+)
+def test_a_strut_without_a_spring_carries_nothing(strut):
+    car = sc.QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3, strut=strut)
+    with pytest.raises(ValueError, match=r"^struts must have a spring that carries the vehicle, got none"):
+        sc.ride(car, {}, ROAD, 20.0)
+
+
+def test_the_damping_of_roll_is_refused_with_other_struts():
+    car = sc.load_vehicle("volvo_xc90_full")
+    with pytest.raises(ValueError, match=r"^roll_damping must be of struts of a spring beside a damper"):
+        sc.ride(car.vehicle, car.setting, ROAD, 20.0, measures=["ACC", "roll_damping"])

@@ -48,6 +48,20 @@ def test_a_stop_in_series_with_a_mount():
     assert 22e3 * travel + stop.force == pytest.approx(0.0, abs=1e-5 * abs(stop.force))
 
 
+def test_dampers_in_series_that_are_not_odd_have_no_mean_travel():
+    """Beside an inerter their mean force is 0; an odd law has none."""
+
+    def travel(law, other):
+        strut = sc.parallel(sc.Spring(), sc.series(law, other))
+        car, setting = sc.QuarterCar(**CAR, strut=strut), {"spring": 22e3}
+        return sc.linearised(car, setting, ROAD, 20.0, band=(0.1, 20.0)).mean_travel[""]
+
+    odd, skew = sc.BilinearDamper(bump=900.0, rebound=900.0), sc.BilinearDamper(bump=500.0, rebound=1300.0)
+    assert np.isnan(travel(skew, sc.Damper("other", 3e3)))
+    assert travel(odd, sc.Damper("other", 3e3)) == pytest.approx(0.0, abs=1e-12)
+    assert travel(skew, sc.Inerter(value=100.0)) == pytest.approx(0.0, abs=1e-12)
+
+
 def test_a_spring_that_is_a_table_carries_the_payload():
     """A table of one slope is a spring: it sinks by the weight over the stiffness."""
     spring = sc.TableSpring(deflection=[-0.2, 0.0, 0.2], force=[-4400.0, 0.0, 4400.0])

@@ -118,3 +118,17 @@ def test_the_tension_of_a_fluid_damper_is_its_power_law():
 def test_a_tension_needs_the_coefficients(values, message):
     with pytest.raises(ValueError, match=f"^{message}$"):
         sc.BilinearDamper().tension(0.1, **values)
+
+
+@pytest.mark.parametrize(
+    ("law", "expected"),
+    [
+        (sc.TableSpring(deflection=[-0.1, 0.0, 0.1], force=[-3000.0, 0.0, 1000.0]), [20e3, 40e3]),
+        (sc.TableSpring(deflection=[-0.1, -0.05, 0.1], force=[-2000.0, -500.0, 1000.0]), [10e3, 20e3]),
+        (sc.BumpStop(gap=0.02, stiffness=1e5), [0.0, 0.0]),
+        (sc.Friction(force=50.0), [0.0, 0.0]),
+    ],
+)
+def test_the_static_stiffness_of_a_law_is_its_slope_at_the_origin(law, expected):
+    values = {one.name: np.array([1.0, 2.0]) * (one.default or 1.0) for one in law.coefficients}
+    np.testing.assert_allclose(np.broadcast_to(law.static_stiffness(values), 2), expected, rtol=1e-12)

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+import suspension_ctrl as sc
 from garage import (
     BENDING,
     DRIVER,
@@ -311,3 +312,30 @@ def test_a_problem_with_wheels_of_other_names_is_refused_at_birth_but_for_roll_d
 
 def struts_by_name(car: Vehicle) -> list[str]:
     return [one.name for one in car.strut_coefficients if one.default is None]
+
+
+def test_springs_that_are_laws_carry_the_vehicle():
+    """Tables of one slope are springs: loads and roll as with these."""
+    plain = sc.load_vehicle("jian_2022_full").vehicle
+    own = {name: getattr(plain, name) for name in plain.__dataclass_fields__ if "strut" not in name}
+    springs = {
+        axle: sc.TableSpring(deflection=[-0.2, 0.0, 0.2], force=[-0.2 * k, 0.0, 0.2 * k])
+        for axle, k in (("front", 10e3), ("rear", 13e3))
+    }
+    laws = sc.FullCar(
+        **own,
+        front_strut=sc.parallel(springs["front"], sc.Damper()),
+        rear_strut=sc.parallel(springs["rear"], sc.Damper()),
+    )
+    setting = {"front.damper": 2e3, "rear.damper": 2e3, "front_antiroll": 25e3}
+    values = [
+        laws.coefficients(setting),
+        plain.coefficients(setting | {"front.spring": 10e3, "rear.spring": 13e3}),
+    ]
+    payload = sc.Payload(mass=150.0, position=(-0.4, 0.3))
+    for part in (lambda car: car, payload.on):
+        found, expected = (
+            part(car).statics.static_loads(np.array([list(row.values())]))
+            for car, row in zip((laws, plain), values, strict=True)
+        )
+        np.testing.assert_allclose(found, expected, rtol=1e-12)

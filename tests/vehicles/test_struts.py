@@ -74,6 +74,16 @@ def test_a_fraction_is_the_dynamic_stiffness_of_the_elements(layout, scale, rati
     np.testing.assert_allclose(found, impedance(strut, values, s), rtol=1e-9)
 
 
+@settings(max_examples=40, deadline=None)
+@given(layout=st.sampled_from(sorted(LAYOUTS)), ratio=st.floats(0.5, 1.0), factor=st.floats(0.5, 2.0))
+def test_the_static_stiffness_is_the_dynamic_one_at_0_hz(layout, ratio, factor):
+    strut = sc.parallel(LAYOUTS[layout], sc.Damper("guide", 50.0), installation_ratio=ratio)
+    values = {name: factor * value for name, value in SETTING.items()} | {"guide": 50.0}
+    numerator, denominator = strut.fraction(values)
+    lowest = int(np.flatnonzero(denominator)[0])  # a series of dampers and inerters has a factor s in both
+    assert strut.static_stiffness(values) == pytest.approx(numerator[lowest] / denominator[lowest], rel=1e-12)
+
+
 def test_the_default_strut_is_a_spring_beside_a_damper():
     plain, given_one = sc.QuarterCar(**CAR), sc.QuarterCar(**CAR, strut=sc.parallel(sc.Spring(), sc.Damper()))
     assert plain == given_one
@@ -101,6 +111,7 @@ def test_axles_and_seats_have_struts_of_their_own():
         (lambda: sc.Spring("two words"), "name must be of letters"),
         (lambda: sc.Damper(value=-1.0), "damper must be finite and > 0 N s/m, got -1.0"),
         (lambda: sc.Spring(installation_ratio=0.0), "installation_ratio must be finite and > 0, got 0.0"),
+        (lambda: sc.Rubber(storage=-1.0), "storage must be finite and > 0 N/m, got -1.0"),
         (lambda: sc.Seat(mass=75.0, spring=1e4), "damper must be finite and > 0 N s/m, got None"),
     ],
 )

@@ -49,6 +49,6 @@ def optimum(
     write_csv(folder / "table5.csv", pd.concat(parts))
     for weighting, part in zip(WEIGHTINGS, parts, strict=True):
         shown = part.drop(columns="weighting").dropna(axis="columns", how="all")
-        digits = {name: next(d for unit, d in DECIMALS.items() if unit in name) for name in shown.columns[1:]}
+        digits = {name: next((d for unit, d in DECIMALS.items() if unit in name), 4) for name in shown.columns[1:]}
         terminal.show(f"Table 5, ACC weighted by {weighting}", shown, digits)
     print(folder)

@@ -8,6 +8,7 @@ import pandas as pd
 
 from ..quantities import Complex, Real, signal_unit
 from . import weightings
+from .linearisation import linear_at
 from .problem import RideProblem
 from .responses import frequency_responses, natural_frequencies, phase_degrees, response_psds
 
@@ -45,7 +46,8 @@ def design_curves(
 ) -> DesignCurves:
     """Return the curves of a design (d,) in the first load case; accelerations also weighted."""
     case = problem.cases[0]
-    closed = case.vehicle.closed(setting_of(problem, design), responses=responses)
+    vehicle, setting = linear_at(case, setting_of(problem, design), problem.band)
+    closed = vehicle.closed(setting, responses=responses)
     f = frequencies(problem.band, points)
     densities = response_psds(closed, f, case.cross_spectrum(f))
     if problem.weighting is not None:
@@ -73,7 +75,8 @@ def curve_table(curves: DesignCurves) -> pd.DataFrame:
 
 def oscillations(problem: RideProblem, label: str, design: Sequence[float]) -> pd.DataFrame:
     """Return design, mode, natural frequency [Hz] and damping ratio of the oscillating modes of a design."""
-    modes = problem.cases[0].vehicle.modes(setting_of(problem, design))
+    vehicle, setting = linear_at(problem.cases[0], setting_of(problem, design), problem.band)
+    modes = vehicle.modes(setting)
     found = modes[modes["damping ratio [-]"] < 1].assign(design=label)
     columns = ["design", "name", "frequency [Hz]", "damping ratio [-]"]
     return found[columns].rename(columns={"name": "mode", "frequency [Hz]": "natural frequency [Hz]"})

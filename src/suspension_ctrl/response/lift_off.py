@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..quantities import column_headers
-from ..vehicles.feedback import gains_by_order
 from ..vehicles.vehicle import Vehicle, assembled
 from .motion.equations import loads_of, static_loads
 
@@ -31,9 +30,8 @@ def tell_lift_off(vehicle: Vehicle, values: Mapping[str, float], table: "pd.Data
     """Put the tyres that lift off into ``table.attrs["lift_off"]``; warn if they may not."""
     if not (loads := loads_of(vehicle)):
         return
-    gains = gains_by_order(vehicle.strut_coefficients, values, len(vehicle.struts))
     place = "distance [m]" if "distance [m]" in table else "time [s]"
-    found, static = {}, static_loads(assembled(vehicle), gains[0]).tolist()
+    found, static = {}, static_loads(assembled(vehicle), values).tolist()
     for tyre, header, stands in zip(
         vehicle.tyres, column_headers(loads, dict.fromkeys(loads, "N")), static, strict=True
     ):

@@ -12,6 +12,7 @@ from ..compiled import compiled
 from ..quantities import Bool, FrozenMapping, Real, Record
 from ..vehicles.assembly import Assembly, Network, StrutCoefficient
 from ..vehicles.force_laws import ForceLaw
+from ..vehicles.networks import has_force_laws
 from ..vehicles.struts import Damper, Parallel, Spring, Strut
 from ..vehicles.vehicle import AssembledVehicle, Setting, Vehicle, assembled
 from . import any_struts, one_port
@@ -54,7 +55,8 @@ class LinearisedVehicle(Record, AssembledVehicle):
         By law its ``deviation`` and ``mean`` [m or m/s], its mean slope ``equivalent`` [N/m or N s/m] and mean
         ``force`` [N].
     mean_travel : mapping of str to float
-        Mean deflection of each strut [m], the change of ride height.
+        Mean deflection of each strut [m], the change of ride height; NaN of dampers in series that are not odd:
+        the end between them drifts.
     iterations : int
         Steps to the working point.
     """
@@ -138,6 +140,13 @@ def linearised(
     return LinearisedVehicle(
         vehicle=car, settled=_settled(car.assembly, values, []), laws={}, mean_travel=still, iterations=0
     )
+
+
+def linear_at(case: LoadCase, setting: Setting, band: tuple[float, float]) -> tuple[Vehicle, Setting]:
+    """Return the vehicle of a load case, its force laws linearised, and the setting with which it is closed."""
+    if not has_force_laws(case.vehicle.networks):
+        return case.vehicle, setting
+    return linearised(case.vehicle, setting, case.road, case.speed, band=band), {}
 
 
 def working_points(case: AnyCase, designs: Real) -> Points:

@@ -4,7 +4,7 @@ import numpy as np
 
 from ..compiled import compilable
 from ..quantities import Real
-from ..vehicles.networks import LAW, MEASURED, PARALLEL, RUBBER, SPRING
+from ..vehicles.networks import INERTER, LAW, MEASURED, PARALLEL, RUBBER, SPRING
 from .network_rows import COEFFICIENT, DEVIATION, FORCE, KIND, LAW_OF, MEAN, OF_RATE, PART, SLOPE, Networks
 from .working_point import linearise
 
@@ -13,6 +13,7 @@ AT_ZERO, STIFFNESS, POSITION = range(3)
 
 
 _MOST, _QUICK, _NEAR = 100, 10, 1e-10  # steps, steps before shorter ones, change of a mean by the deviation
+_ODD = 1e-6  # N, mean force up to which a law is odd
 
 
 @compilable(error_model="numpy")
@@ -20,7 +21,8 @@ def balance(networks: Networks, curve: Real, values: Real, state: Real, nodes: R
     """Linearise the laws at the means of static equilibrium, by Newton's steps at these deviations."""
     for step in range(_MOST):
         linearise(networks.law, networks.laws.most, curve, values, state)
-        if place(networks, values, state, nodes, position, 1.0 if step < _QUICK else 0.3) < _NEAR:
+        error = place(networks, values, state, nodes, position, 1.0 if step < _QUICK else 0.3)
+        if not error >= _NEAR:  # or NaN
             break
 
 
@@ -73,8 +75,9 @@ def fill_static(networks: Networks, values: Real, state: Real, nodes: Real) -> N
             if kind != PARALLEL and stiffness > 0.0:
                 force = (nodes[one, AT_ZERO] * l + nodes[other, AT_ZERO] * k) / stiffness
                 stiffness = k * l / stiffness
-            elif kind != PARALLEL:  # neither part holds a static force
-                force = force / 2
+            elif kind != PARALLEL:  # nothing holds the end between: beside an inerter the mean force is 0
+                inert = node[one, KIND] == INERTER or node[other, KIND] == INERTER
+                force = 0.0 if inert or abs(force) < _ODD else np.nan
         elif kind == LAW:
             which = node[i, LAW_OF]
             force = state[which, FORCE]

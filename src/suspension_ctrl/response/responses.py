@@ -10,7 +10,7 @@ from .. import checks
 from ..quantities import Complex, Real
 from ..vehicles.assembly import ResponseName, label
 from ..vehicles.vehicle import Setting, Vehicle
-from .linearisation import linearised
+from .linearisation import linear_at
 from .load_case import LoadCase, Road
 from .measures.measure import MeasureLike, measure_of
 from .measures.terms import CaseMeasure, Term
@@ -120,9 +120,7 @@ def ride(
 def _diverging(case: LoadCase, setting: Setting, terms: Iterable[Term]) -> set[ResponseName]:
     """Return the responses whose spectrum rises towards 0 Hz as 1/f or faster."""
     responses = list(dict.fromkeys(term.response for term in terms))
-    vehicle = case.vehicle
-    if vehicle.networks:
-        vehicle, setting = linearised(vehicle, setting, case.road, case.speed, band=(_LOWEST[1], 20.0)), {}
+    vehicle, setting = linear_at(case, setting, (_LOWEST[1], 20.0))
     integrals = vehicle.without_jerk(responses)
     closed = vehicle.closed(setting, responses=list(dict.fromkeys(integrals)))
     found = response_psds(closed, _LOWEST, case.cross_spectrum(_LOWEST))

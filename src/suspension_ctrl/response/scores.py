@@ -11,7 +11,7 @@ from ..compiled import call, compilable
 from ..quantities import Bool, Complex, Integer, Real
 from ..vehicles.feedback import gains_by_order
 from ..vehicles.vehicle import assembled
-from .linearisation import check_reached, linear_vehicles
+from .linearisation import check_reached, linear_vehicles, working_points
 from .load_case import LoadCase
 from .mean_squares import AnyCase, Case, cases_of
 from .measures.terms import CaseMeasure, Designs, Term
@@ -200,9 +200,16 @@ class Scores:
         def mean_squares(terms: Sequence[Term]) -> Real:
             return np.asarray(squares()[:, [self.terms[c].index(term.integral) for term in terms]])
 
-        return Designs(
-            designs, coefficients, lambda: self._spectra(c, designs, coefficients, kernel.cases[c]), mean_squares
-        )
+        def mean_travels() -> Real:
+            case = kernel.cases[c]
+            if isinstance(case, AnyCase):
+                return working_points(case, designs).position
+            return np.zeros((len(designs), len(self.cases[c].vehicle.struts)))
+
+        def spectra() -> Iterator[tuple[Real, Mapping[str, Real]]]:
+            return self._spectra(c, designs, coefficients, kernel.cases[c])
+
+        return Designs(designs, coefficients, spectra, mean_squares, mean_travels)
 
     def _spectra(
         self, c: int, designs: Real, coefficients: Real, squares: Case

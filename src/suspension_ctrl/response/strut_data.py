@@ -119,6 +119,9 @@ def _statics(networks: Networks, vehicle: Vehicle, setting: Mapping[str, float],
     _, nodes = nominal_state(networks)
     added = np.diag(nodes[networks.root, STIFFNESS] @ networks.ports)
     nominal = np.tensordot(values * (networks.order == 0), networks.gain, 1) + added
+    if (slack := np.diag(nominal) <= 0).any():
+        got = f"none at {vehicle.struts[int(slack.argmax())] or 'the wheel'}"
+        raise ValueError(f"struts must have a spring that carries the vehicle, got {got}")
     lowest = 0.0
     plant = vehicle.plant(vehicle.responses[:1])
     if not isinstance(plant, control.StateSpace):

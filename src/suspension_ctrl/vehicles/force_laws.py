@@ -5,10 +5,10 @@ power of the rate. Its knots, slopes and jumps depend on the coefficients of the
 """
 
 from abc import abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import nan, prod
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -48,6 +48,14 @@ class Curve(NamedTuple):
         c, a = (values[i] for i in self.power) if self.power else (0.0, 1.0)
         return force + c * np.abs(x) ** a * np.sign(x)
 
+    def slope_at_origin(self, values: Sequence[Any]) -> Any:
+        """Return the slope at 0, on a knot the mean of both sides; values may be arrays (p,)."""
+        slopes = [factor * prod(values[i] for i in by) for factor, by in self.slopes]
+        knots = [constant + factor * prod(values[i] for i in by) for constant, (factor, by) in self.knots]
+        below, on = (sum(np.asarray(knot < 0) for knot in knots), sum(np.asarray(knot == 0) for knot in knots))
+        first = int(np.max(below)) if knots else 0  # the sign of a knot is the same for all values above zero
+        return (slopes[first] + slopes[first + int(np.max(on))]) / 2 if knots else slopes[0]
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ForceLaw(Element):
@@ -55,6 +63,12 @@ class ForceLaw(Element):
 
     of_rate: ClassVar[bool]
     """Whether the force depends on the rate of the deflection, or on the deflection."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for one in self.values:
+            if one.default is not None:
+                checks.positive(one.name, one.default, one.unit)
 
     @property
     @abstractmethod
@@ -70,6 +84,13 @@ class ForceLaw(Element):
     def coefficients(self) -> tuple[Coefficient, ...]:
         """Coefficients, named ``<element>.<value>``."""
         return tuple(one._replace(name=f"{self.name}.{one.name}") for one in self.values)
+
+    def static_stiffness(self, values: Mapping[str, Any], /) -> Any:
+        """Return the slope at the origin at the wheel, on a knot the mean of both sides; 0 N/m of a damper."""
+        if self.of_rate:
+            return 0.0
+        own = [values[one.name] for one in self.coefficients]
+        return self.curve.slope_at_origin(own) * self.installation_ratio**2
 
     def tension(self, x: ArrayLike, /, **values: float) -> Real:
         """Return the force at rates or deflections, at a jump the mean of both sides.
@@ -264,9 +285,6 @@ class BumpStop(ForceLaw):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        for name, text in (("gap", "m"), ("stiffness", "N/m")):
-            if getattr(self, name) is not None:
-                checks.positive(name, getattr(self, name), text)
         if (self.compression is None) != (self.force is None) or (self.force is not None and self.stiffness):
             raise ValueError("stop must have a stiffness, or compression and force in its place, got others")
         if self.force is not None:
@@ -335,11 +353,6 @@ class Friction(ForceLaw):
     name: str = "friction"
     force: float | None = field(default=None, kw_only=True, metadata=unit("N"))
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.force is not None:
-            checks.positive("force", self.force, "N")
-
     @property
     def values(self) -> tuple[Coefficient, ...]:
         """The magnitude."""
@@ -383,12 +396,6 @@ class DigressiveDamper(ForceLaw):
     knee: float | None = field(default=None, kw_only=True, metadata=unit("m/s"))
     rebound_over_bump: float = field(default=1.0, kw_only=True, metadata=unit(""))
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        for one in self.values:
-            if one.default is not None:
-                checks.positive(one.name, one.default, one.unit)
-
     @property
     def values(self) -> tuple[Coefficient, ...]:
         """Slopes, knee and ratio."""
@@ -431,12 +438,6 @@ class BilinearDamper(ForceLaw):
     bump: float | None = field(default=None, kw_only=True, metadata=unit("N s/m"))
     rebound: float | None = field(default=None, kw_only=True, metadata=unit("N s/m"))
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        for one in self.values:
-            if one.default is not None:
-                checks.positive(one.name, one.default, one.unit)
-
     @property
     def values(self) -> tuple[Coefficient, ...]:
         """Both slopes."""
@@ -474,12 +475,6 @@ class PowerDamper(ForceLaw):
     name: str = "damper"
     force: float | None = field(default=None, kw_only=True, metadata=unit("N"))
     exponent: float | None = field(default=None, kw_only=True, metadata=unit(""))
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        for one in self.values:
-            if one.default is not None:
-                checks.positive(one.name, one.default, one.unit)
 
     @property
     def values(self) -> tuple[Coefficient, ...]:

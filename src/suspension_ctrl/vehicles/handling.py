@@ -81,7 +81,10 @@ def weighted_sum(weights: Real, arrays: Real) -> Real:
 
 
 class Mechanics(NamedTuple):
-    """Matrices of a vehicle with n coordinates, t tyres and v coefficients of struts."""
+    """Matrices of a vehicle with n coordinates, t tyres and v coefficients of struts.
+
+    A spring that is a force law has its slope about the static position.
+    """
 
     assembly: Assembly
     stiffness: Real  # (n, n), of tyres and supports
@@ -105,11 +108,23 @@ class Mechanics(NamedTuple):
 
     def stiffness_of(self, coefficients: Real) -> Real:
         """Return the stiffness matrices (p, n, n) of designs with these coefficients (p, v)."""
-        return self.stiffness + weighted_sum(coefficients, self.by_stiffness)
+        total = self.stiffness + weighted_sum(coefficients, self.by_stiffness)
+        names = [one.name for one in self.assembly.strut_coefficients]
+        p, _ = self.assembly.elongations(self.assembly.struts)
+        for network in self.assembly.networks:
+            own = dict(zip((name.removeprefix(network.prefix) for name in names), coefficients.T, strict=True))
+            stiffness = np.broadcast_to(network.strut.static_stiffness(own), len(coefficients))
+            total = total + np.multiply.outer(stiffness, p.T * network.share @ p)
+        return total
 
     def static_loads(self, coefficients: Real) -> Real:
         """Return the load (p, t) of each tyre on level ground [N]."""
-        displacement = np.linalg.solve(self.stiffness_of(coefficients), -GRAVITY * self.assembly.weights[:, None])
+        try:
+            displacement = np.linalg.solve(
+                self.stiffness_of(coefficients), -GRAVITY * self.assembly.weights[:, None]
+            )
+        except np.linalg.LinAlgError:
+            raise ValueError("struts must have a spring that carries the vehicle, got none") from None
         return np.asarray(-(self.tyre_loads @ displacement)[..., 0])
 
     def roll_gradient(self, coefficients: Real, geometry: RollGeometry) -> Real:

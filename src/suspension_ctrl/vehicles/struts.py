@@ -66,6 +66,10 @@ class Strut(Record, ABC):
     def fraction(self, values: Mapping[str, float], /) -> Fraction:
         """Return the dynamic stiffness at the wheel; ValueError if an element has none of this form."""
 
+    @abstractmethod
+    def static_stiffness(self, values: Mapping[str, Any], /) -> Any:
+        """Return the stiffness at the wheel at 0 Hz [N/m] about the static position; values may be arrays (p,)."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Element(Strut):
@@ -87,6 +91,10 @@ class Element(Strut):
         """Return the dynamic stiffness at the wheel; ValueError if the element has none of this form."""
         needed = "of springs, dampers and inerters alone: linearise force laws, put a Zener element for rubber"
         raise ValueError(f"strut must be {needed}, got {self.name}")
+
+    def static_stiffness(self, _values: Mapping[str, Any], /) -> Any:
+        """Return 0 N/m: the element holds no static force."""
+        return 0.0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -111,6 +119,10 @@ class LinearElement(Element):
         """Return the dynamic stiffness at the wheel."""
         gain = values[self.name] * self.installation_ratio**2
         return gain * np.eye(1, self.order + 1, self.order)[0], np.ones(1)
+
+    def static_stiffness(self, values: Mapping[str, Any], /) -> Any:
+        """Return the stiffness at the wheel of a spring, 0 N/m of others."""
+        return values[self.name] * self.installation_ratio**2 if self.order == 0 else 0.0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -230,6 +242,16 @@ class Rubber(Element):
     storage: float | None = field(default=None, kw_only=True, metadata=unit("N/m"))
     loss: float | None = field(default=None, kw_only=True, metadata=unit("N/m"))
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("storage", "loss"):
+            if getattr(self, name) is not None:
+                checks.positive(name, getattr(self, name), "N/m")
+
+    def static_stiffness(self, values: Mapping[str, Any], /) -> Any:
+        """Return the storage stiffness at the wheel."""
+        return values[f"{self.name}.storage"] * self.installation_ratio**2
+
     @property
     def coefficients(self) -> tuple[Coefficient, ...]:
         """Storage and loss stiffness."""
@@ -281,6 +303,10 @@ class MeasuredStiffness(Element):
             checks.not_negative("loss", value, "N/m")
         self._keep(**dict(zip(("frequency", "storage", "loss"), map(frozen_array, rows), strict=True)))
 
+    def static_stiffness(self, values: Mapping[str, Any], /) -> Any:
+        """Return the storage stiffness of the first row at the wheel."""
+        return values[f"{self.name}.scale"] * self.storage[0] * self.installation_ratio**2
+
     @property
     def coefficients(self) -> tuple[Coefficient, ...]:
         """The factor of the stiffness."""
@@ -308,6 +334,10 @@ class Parallel(Strut):
         numerator, denominator = reduce(_sum, (part.fraction(values) for part in self.parts))
         return numerator * self.installation_ratio**2, denominator
 
+    def static_stiffness(self, values: Mapping[str, Any], /) -> Any:
+        """Return the sum of the stiffnesses of the parts, at the wheel."""
+        return sum(part.static_stiffness(values) for part in self.parts) * self.installation_ratio**2
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Series(Parallel):
@@ -317,6 +347,13 @@ class Series(Parallel):
         """Return the dynamic stiffness at the wheel; ValueError if an element has none of this form."""
         denominator, numerator = reduce(_sum, (part.fraction(values)[::-1] for part in self.parts))
         return numerator * self.installation_ratio**2, denominator
+
+    def static_stiffness(self, values: Mapping[str, Any], /) -> Any:
+        """Return the stiffness of the parts one after the other, at the wheel; 0 N/m if one holds no force."""
+        parts = [np.asarray(part.static_stiffness(values), dtype=float) for part in self.parts]
+        soft = np.min(np.broadcast_arrays(*parts), axis=0) > 0
+        total = sum(1 / np.where(soft, part, 1.0) for part in parts)
+        return np.where(soft, self.installation_ratio**2 / total, 0.0)
 
 
 def _sum(one: Fraction, other: Fraction) -> Fraction:

@@ -71,5 +71,5 @@ def test_a_steady_state_recurs_with_force_laws_too():
 def test_struts_that_hold_nothing_are_refused():
     car = replace(QUARTER, strut=sc.TableDamper(velocity=[0.0, 1.0], force=[0.0, 1e3]))
     laden = sc.Payload(mass=10.0).on(car)
-    with pytest.raises(ValueError, match=r"^struts must hold the vehicle"):
+    with pytest.raises(ValueError, match=r"^struts must have a spring that carries the vehicle, got none$"):
         sc.simulate(laden, {}, profile_for(car, 51.2), 20.0)

@@ -39,7 +39,8 @@ _KM = 1000.0  # m
 class Bottoming(WheelMeasure, word="bottoming", unit="1/km"):
     """Expected strikes of the bump stop per kilometre: crossings of its gap by the travel in compression.
 
-    Of several struts the one that strikes most. The travel is Gaussian with mean 0, as without the stop.
+    Of several struts the one that strikes most. The travel is Gaussian, as without the stop; force laws, and
+    payload on them, move its mean from the static position.
 
     Parameters
     ----------
@@ -59,6 +60,7 @@ class Bottoming(WheelMeasure, word="bottoming", unit="1/km"):
 
     gap: float = field(default=0.0, metadata=unit("m"))
     kind: ClassVar[str] = "travel"
+    side: ClassVar[float] = -1.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -75,11 +77,14 @@ class Bottoming(WheelMeasure, word="bottoming", unit="1/km"):
 
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError if the vehicle lacks the place."""
-        terms, pairs = _moments(self.responses(case.vehicle))
+        vehicle, names = case.vehicle, self.responses(case.vehicle)
+        struts = [vehicle.struts.index(str(vehicle.meanings[name].where)) for name in names]
+        terms, pairs = _moments(names)
 
         def values(designs: Designs) -> Real:
             deviation, rate = pairs(designs)
-            a_second = rate / (2 * np.pi * deviation) * np.exp(-(self.gap**2) / (2 * deviation**2))
+            left = np.maximum(self.gap - self.side * designs.mean_travels()[:, struts], 0.0)
+            a_second = rate / (2 * np.pi * deviation) * np.exp(-(left**2) / (2 * deviation**2))
             return np.asarray(_KM / case.speed * a_second.max(axis=1))
 
         return CaseMeasure(terms, values=values)
@@ -104,6 +109,8 @@ class Topping(Bottoming, word="topping", unit="1/km"):
     >>> print(sc.Topping("rear", gap=0.08))
     topping rear 0.08
     """
+
+    side = 1.0
 
 
 class Lift(WheelMeasure, word="lift", unit="-"):

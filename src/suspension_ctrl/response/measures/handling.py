@@ -24,6 +24,9 @@ class RollDamping(Measure, word="roll_damping", unit="-"):
         """Return the measure in a load case; ValueError if the vehicle does not roll."""
         vehicle = assembled(case.vehicle)
         check_roll(self.word, vehicle.assembly)
+        if vehicle.networks:
+            others = ", ".join(one.name for network in vehicle.networks for one in network.strut.elements)
+            raise ValueError(f"{self.word} must be of struts of a spring beside a damper, got {others}")
         return CaseMeasure(values=lambda designs: vehicle.statics.roll_damping(designs.coefficients))
 
 

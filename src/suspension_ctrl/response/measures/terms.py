@@ -80,6 +80,7 @@ class Designs(NamedTuple):
     coefficients: Real
     spectra: Callable[[], Iterator[tuple[Real, Mapping[str, Real]]]]
     mean_squares: Callable[[Sequence[Term]], Real]
+    mean_travels: Callable[[], Real]
 
 
 class CaseMeasure(NamedTuple):

@@ -16,8 +16,6 @@ from ...vehicles.vehicle import AssembledVehicle, Vehicle, assembled
 from .integrator import Equations
 from .trees import Numbers, Tree, numbers_of, tree_of
 
-_NOMINAL = 1e4  # N/m, of a strut without a linear spring: shares the load of more than three wheels
-
 
 class Outputs(NamedTuple):
     """Outputs ``y = c x + d z + e z' + f F`` of v states, r roads, their rates and the tensions of q networks."""
@@ -87,7 +85,7 @@ class Motion(NamedTuple):
         if loads:
             tension = outputs.rows([every.index(name) for name in loads])
             by_road = np.diag(tension.d)
-            static = static_loads(assembled(vehicle), gains[0])
+            static = static_loads(assembled(vehicle), values)
             tyres = Tyres(vehicle.tyres, tension, static, equations.b / by_road, read.d / by_road)
             if tree.kind.size:
                 equations = equations._replace(constant=_payload(assembled(vehicle).assembly, plant.nstates))
@@ -154,16 +152,10 @@ def loads_of(vehicle: Vehicle) -> list[str]:
     return [loads[tyre] for tyre in vehicle.tyres] if known else []
 
 
-def static_loads(vehicle: AssembledVehicle, stiffness: Real) -> Real:
-    """Return the load of each tyre (t,) [N] on struts of this stiffness (q, q), with networks without payload."""
-    assembly = vehicle.assembly
-    if assembly.networks:
-        stiffness = stiffness + np.diag(np.where(stiffness.any(axis=1), 0.0, _NOMINAL))
-        assembly = replace(assembly, payload=())
-    p, _ = assembly.elongations(assembly.struts)
-    mechanics = Mechanics.of(assembly)
-    held = mechanics._replace(stiffness=mechanics.stiffness + p.T @ stiffness @ p)
-    return np.asarray(held.static_loads(np.zeros((1, len(assembly.strut_coefficients))))[0])
+def static_loads(vehicle: AssembledVehicle, values: Mapping[str, float]) -> Real:
+    """Return the load of each tyre (t,) [N] at these coefficients, with networks without payload."""
+    assembly = replace(vehicle.assembly, payload=()) if vehicle.networks else vehicle.assembly
+    return np.asarray(Mechanics.of(assembly).static_loads(np.array([list(values.values())]))[0])
 
 
 def _payload(assembly: Assembly, states: int) -> Real:
