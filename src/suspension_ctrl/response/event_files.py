@@ -6,20 +6,12 @@ from typing import Any
 
 from ..documents import Mistakes, Table
 from ..quantities import unit
+from ..roads.bumps import Ramp, SpeedBump, TrapezoidalBump
+from ..roads.edges import Cleat, Plank, Pothole, Step
 from ..roads.events import Event
-from ..roads.obstacles import (
-    Chirp,
-    Cleat,
-    Obstacle,
-    Plank,
-    Pothole,
-    Ramp,
-    Sine,
-    SpeedBump,
-    Step,
-    TrapezoidalBump,
-)
+from ..roads.obstacles import Obstacle
 from ..roads.rigs import RigChirp, RigSine
+from ..roads.waves import Chirp, Sine
 from ..schema.keys import KIND, Form, bad, keys_of
 from ..schema.reading import constructed, kind_of, read
 from ..schema.writing import content

@@ -9,10 +9,9 @@ import numpy as np
 from .. import checks
 from ..quantities import Real, unit
 from .events import Event
-from .obstacles import check_waves, swept
+from .waves import MOST_WAVES, check_waves, swept
 
 _MOTIONS = ("heave", "pitch", "roll", "warp")
-_MOST = 1e4  # waves
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -75,7 +74,7 @@ class RigSine(Rig):
     """
 
     frequency: float = field(metadata=unit("Hz"))
-    waves: float | None = field(default=None, metadata=unit("", 0.5, _MOST))
+    waves: float | None = field(default=None, metadata=unit("", 0.5, MOST_WAVES))
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -126,7 +125,7 @@ class RigChirp(Rig):
 
     lowest: float = field(metadata=unit("Hz"))
     highest: float = field(metadata=unit("Hz"))
-    waves: float = field(metadata=unit("", 0.5, _MOST))
+    waves: float = field(metadata=unit("", 0.5, MOST_WAVES))
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike
 
 from .. import checks, escaping
 from ..quantities import Real
-from .force_laws import ForceLaw, TableDamper
+from .dampers import TableDamper
+from .force_laws import ForceLaw
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -21,7 +21,8 @@ from .. import checks
 from ..documents import naming
 from ..quantities import Checked, Real, unit
 from ..tables import write_text
-from .force_laws import BumpStop, TableDamper, TableSpring
+from .dampers import TableDamper
+from .stops import BumpStop, TableSpring
 from .teimorbit import TeimOrbit
 
 Tabled = TableDamper | TableSpring | BumpStop

@@ -15,19 +15,11 @@ from ..schema.keys import BAD, KIND, Form, Key, bad, keys_of
 from ..schema.reading import kind_of, read
 from ..schema.writing import content
 from ..tables import read_columns
-from .force_laws import (
-    BilinearDamper,
-    BumpStop,
-    DigressiveDamper,
-    Friction,
-    PowerDamper,
-    ReboundStop,
-    TableDamper,
-    TableSpring,
-)
+from .dampers import BilinearDamper, DigressiveDamper, Friction, PowerDamper, TableDamper
 from .layouts import layout_of, names, strut_of
 from .property_files import KINDS as PROPERTIES
 from .property_files import Mounting, ending, property_columns
+from .stops import BumpStop, ReboundStop, TableSpring
 from .struts import ROWS, Damper, Element, Inerter, LinearElement, MeasuredStiffness, Rubber, Spring, Strut
 
 KINDS: dict[str, type[Element]] = {
