@@ -10,9 +10,7 @@ def test_a_contact_makes_a_table_of_a_plank_and_lifts_over_a_cleat_by_its_share(
     x = np.linspace(-0.1, 0.6, 701)
     plank, cleat = sc.Plank(height=0.03, length=0.3), sc.Cleat(height=0.02, length=0.025, contact_length=0.11)
     table = sc.TrapezoidalBump(height=0.03, length=0.4, ramp=0.1)
-    np.testing.assert_allclose(
-        sc.Plank(height=0.03, length=0.3).height_at(x), table.height_at(x), rtol=0, atol=1e-15
-    )
+    np.testing.assert_allclose(plank.height_at(x), table.height_at(x), rtol=0, atol=1e-15)
     assert cleat.height_at(x).max() == pytest.approx(0.02 * 0.025 / 0.11, rel=1e-12)
 
 
