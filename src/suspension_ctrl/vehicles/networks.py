@@ -13,6 +13,7 @@ from ..compiled import compilable
 from ..quantities import Bool, Integer, Real
 from .assembly import Network, StrutCoefficient
 from .force_laws import Curve, ForceLaw
+from .stops import BumpStop
 from .struts import (
     Damper,
     Element,
@@ -137,6 +138,20 @@ def elements_of(networks: Sequence[Network], kind: type[E]) -> Iterator[tuple[Ne
 def has_force_laws(networks: Sequence[Network]) -> bool:
     """Whether a force law is among the elements of networks."""
     return any(isinstance(element, ForceLaw) for network in networks for element in network.strut.elements)
+
+
+def gap_of_stop(networks: Sequence[Network], strut: int, kind: type[BumpStop]) -> tuple[str, float] | None:
+    """Return the coefficient of the gap of a strut's first stop, and its compression by that at the wheel.
+
+    Stops in series with other elements do not count: their gap is no travel of the wheel.
+    """
+    for network in networks:
+        parts = network.strut.parts if type(network.strut) is Parallel and network.share[strut] else ()
+        for part in parts:
+            if type(part) is kind:
+                ratio = network.strut.installation_ratio * part.installation_ratio
+                return f"{network.prefix}{part.name}.gap", ratio
+    return None
 
 
 def _indexed(law: ForceLaw, prefix: str, index: Mapping[str, int]) -> tuple[Curve, list[int]]:

@@ -52,6 +52,35 @@ def test_travel_crosses_its_mean_by_tyre_and_mass_alone():
         assert found.iloc[0] == pytest.approx(expected, rel=1e-3)
 
 
+def test_the_gap_is_that_of_the_stop_beside_the_spring():
+    """At the wheel: a stop with installation ratio 0.5 closes a gap of 30 mm by 60 mm of travel."""
+    stop, rebound = (
+        sc.BumpStop(gap=0.03, stiffness=1e5, installation_ratio=0.5),
+        sc.ReboundStop(gap=0.07, stiffness=1e5),
+    )
+    strut = sc.parallel(sc.Spring(), sc.Damper(), stop, rebound)
+    car = sc.QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3, strut=strut)
+    measures = ["bottoming", "bottoming 0.06", "topping", "topping 0.07"]
+    found = measured(*measures, car=car, road=sc.Iso8608Road("D"), band=(0.1, 20.0)).iloc[:4]
+    assert found.iloc[0] == pytest.approx(found.iloc[1], rel=1e-12)
+    assert found.iloc[2] == pytest.approx(found.iloc[3], rel=1e-12)
+    assert found.iloc[0] > 0
+    problem = sc.RideProblem(
+        car, sc.Iso8608Road("D"), speed=20.0, band=(0.1, 20.0), constraints=["bottoming <= 1"],
+        bounds={"bump_stop.gap": (0.02, 0.05)}, struts={"spring": 22e3, "damper": 1500.0},
+    )  # fmt: skip
+    values = problem.evaluate([[0.02], [0.03], [0.05]])[:, -1]
+    assert (np.diff(values) < 0).all()
+
+
+def test_a_strut_without_a_stop_needs_a_gap():
+    message = r"^bottoming must be given a gap where no BumpStop stands beside the spring, .* got none at strut$"
+    with pytest.raises(ValueError, match=message):
+        measured("bottoming")
+    with pytest.raises(ValueError, match=r"got none at front"):
+        measured("topping front", car=FULL, setting=struts_of(FULL), road=sc.Iso8608Road("D"), band=(0.1, 20.0))
+
+
 def test_a_tyre_lifts_for_the_share_of_time_that_is_counted(driven):
     static = (317.5 + 45.4) * 9.80665
     assert measured("lift")["lift"] == pytest.approx((driven[1] > static).mean(), rel=0.1)
@@ -79,6 +108,8 @@ def test_the_power_of_a_damper_is_that_of_the_tyre_and_road_and_of_driving(drive
     [
         (sc.Bottoming("front", gap=0.06), "bottoming front 0.06", "1/km"),
         (sc.Topping(gap=0.08), "topping 0.08", "1/km"),
+        (sc.Bottoming("front"), "bottoming front", "1/km"),
+        (sc.Topping(), "topping", "1/km"),
         (sc.Lift("rear"), "lift rear", "-"),
         (sc.LargestPeak("front_tyre_load", 1e4), "largest front_tyre_load 10000", "N"),
         (sc.DamperPower("front", name="heat"), "heat = damper_power front", "W"),

@@ -12,7 +12,7 @@ often they are met, not what follows.
 """
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from math import e
 from typing import Any, ClassVar
@@ -21,7 +21,9 @@ import numpy as np
 
 from ... import checks
 from ...quantities import Real, signal_unit, unit
-from ...vehicles.vehicle import assembled
+from ...vehicles.networks import gap_of_stop
+from ...vehicles.stops import BumpStop, ReboundStop
+from ...vehicles.vehicle import Vehicle, assembled
 from ..load_case import LoadCase
 from ..weightings import Weighting
 from .measure import Measure
@@ -29,7 +31,7 @@ from .peak import responses_at
 from .terms import NUMBER, CaseMeasure, Designs, Term, number_text, place_text
 from .vibration import WheelMeasure
 
-_GAP = re.compile(rf"(?:(\w+)\s+)?({NUMBER})")
+_GAP = re.compile(rf"([A-Za-z_]\w*)?\s*({NUMBER})?")
 _LARGEST = re.compile(rf"(\w+)\s+({NUMBER})")
 _EULER = 0.5772156649015329
 _KM = 1000.0  # m
@@ -46,8 +48,8 @@ class Bottoming(WheelMeasure, word="bottoming", unit="1/km"):
     ----------
     where : str
         An axle, a wheel or a seat: ``"front"``; all wheels by default.
-    gap : float
-        Travel in compression up to the stop, > 0 [m].
+    gap : float, optional
+        Travel in compression up to the stop, > 0 [m]; without it the gap of the `BumpStop` beside the spring.
     name, maximise
         As of `Measure`; the name is optional.
 
@@ -58,39 +60,60 @@ class Bottoming(WheelMeasure, word="bottoming", unit="1/km"):
     bottoming front 0.06 <= 1
     """
 
-    gap: float = field(default=0.0, metadata=unit("m"))
+    gap: float | None = field(default=None, metadata=unit("m"))
     kind: ClassVar[str] = "travel"
     side: ClassVar[float] = -1.0
+    stop: ClassVar[type[BumpStop]] = BumpStop
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        checks.positive("gap", self.gap, "m")
+        if self.gap is not None:
+            checks.positive("gap", self.gap, "m")
 
     @classmethod
     def read(cls, rest: str, **options: Any) -> Measure:
         """Return the measure of a text after its word; options name and maximise."""
         found = _GAP.fullmatch(rest)
         if not found:
-            needed = f"followed by the gap in m, as in '{cls.word} front 0.06'"
+            needed = f"followed by a place and a gap in m, as in '{cls.word} front 0.06'"
             raise ValueError(f"{cls.word} must be {needed}, got {checks.shown(rest)}")
-        return cls(found[1] or "", gap=float(found[2]), **options)
+        return cls(found[1] or "", gap=float(found[2]) if found[2] else None, **options)
 
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError if the vehicle lacks the place."""
         vehicle, names = case.vehicle, self.responses(case.vehicle)
         struts = [vehicle.struts.index(str(vehicle.meanings[name].where)) for name in names]
         terms, pairs = _moments(names)
+        gaps = self._gaps(vehicle, struts)
 
         def values(designs: Designs) -> Real:
             deviation, rate = pairs(designs)
-            left = np.maximum(self.gap - self.side * designs.mean_travels()[:, struts], 0.0)
+            left = np.maximum(gaps(designs.coefficients) - self.side * designs.mean_travels()[:, struts], 0.0)
             a_second = rate / (2 * np.pi * deviation) * np.exp(-(left**2) / (2 * deviation**2))
             return np.asarray(_KM / case.speed * a_second.max(axis=1))
 
         return CaseMeasure(terms, values=values)
 
+    def _gaps(self, vehicle: Vehicle, struts: Sequence[int]) -> Callable[[Real], Real]:
+        """Return a function from coefficients (p, c) to gaps of struts at the wheel (w,) or (p, w) [m]."""
+        if self.gap is not None:
+            given = np.full(len(struts), self.gap)
+            return lambda _coefficients: given
+        found = [gap_of_stop(vehicle.networks, strut, self.stop) for strut in struts]
+        if None in found:
+            lacking = vehicle.struts[struts[found.index(None)]] or "strut"
+            needed = f"given a gap where no {self.stop.__name__} stands beside the spring"
+            raise ValueError(
+                f"{self.word} must be {needed}, as in '{self.word} front 0.06', got none at {lacking}"
+            )
+        names = [one.name for one in vehicle.strut_coefficients]
+        index = [names.index(one[0]) for one in found if one]
+        ratio = np.array([one[1] for one in found if one])
+        return lambda coefficients: coefficients[:, index] / ratio
+
     def _rest(self) -> str:
-        return f"{place_text(self.where)} {number_text(self.gap)}".strip()
+        gap = "" if self.gap is None else number_text(self.gap)
+        return f"{place_text(self.where)} {gap}".strip()
 
 
 class Topping(Bottoming, word="topping", unit="1/km"):
@@ -100,8 +123,8 @@ class Topping(Bottoming, word="topping", unit="1/km"):
     ----------
     where, name, maximise
         As of `Bottoming`.
-    gap : float
-        Travel in extension up to the stop, > 0 [m].
+    gap : float, optional
+        Travel in extension up to the stop, > 0 [m]; without it the gap of the `ReboundStop` beside the spring.
 
     Examples
     --------
@@ -111,6 +134,7 @@ class Topping(Bottoming, word="topping", unit="1/km"):
     """
 
     side = 1.0
+    stop = ReboundStop
 
 
 class Lift(WheelMeasure, word="lift", unit="-"):
