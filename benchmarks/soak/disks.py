@@ -15,20 +15,26 @@ from pathlib import Path
 import pandas as pd
 from suspension_ctrl.study.store import FolderStore, StoredRun
 folder, name, runs = Path(sys.argv[1]), sys.argv[2], int(sys.argv[3])
+told = folder.with_name("told")
 run = StoredRun(pd.DataFrame({"evaluations": range(20)}), pd.DataFrame({"f1": [0.5] * 20}))
 refused = failed = 0
+end = time.monotonic() + 60
 while True:
     try:
         store = FolderStore(folder, {"plan": 1})
         break
     except BlockingIOError as error:
-        refused += "is in use by process" in str(error)
+        if "is in use by process" in str(error):
+            refused += 1
+            told.touch()
         time.sleep(0.05)
 for number in range(runs):
     try:
         store[f"{name}{number}"] = run
     except Exception:
         failed += 1
+while not (told.exists() or time.monotonic() > end):  # a machine under load may start the other one late
+    time.sleep(0.05)
 print(refused, failed, flush=True)
 """
 
