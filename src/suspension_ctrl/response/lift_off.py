@@ -16,7 +16,23 @@ _TOLD = 0.01  # share of time from which a warning is given
 
 
 class LiftOffWarning(UserWarning):
-    """A linear tyre pulls on the road; with ``lift_off=True`` it leaves it."""
+    """A linear tyre pulls on the road for more than 1 % of the time; with ``lift_off=True`` it leaves it.
+
+    Examples
+    --------
+    Take it for an error:
+
+    >>> import warnings
+    >>> import suspension_ctrl as sc
+    >>> car, profile = sc.load_vehicle("yuen_ramli_2010"), sc.Iso8608Road("F").profile(200.0, 0.1, seed=1)
+    >>> with warnings.catch_warnings():
+    ...     warnings.simplefilter("error", sc.LiftOffWarning)
+    ...     try:
+    ...         table = sc.simulate(car.vehicle, car.setting, profile, speed=20.0)
+    ...     except sc.LiftOffWarning as warning:
+    ...         print(str(warning).split(",")[0])
+    the linear tyre would pull 18.92 kN where 3.56 kN stand on it
+    """
 
 
 class LiftOff(NamedTuple):

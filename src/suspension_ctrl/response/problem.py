@@ -279,15 +279,19 @@ class RideProblem(Record):
         for names, what in ((list(self.objectives), "measures"), (texts, "constraints")):
             if len({*names, *self.bounds}) < len(names) + len(self.bounds):
                 raise ValueError(f"{what} must have names of their own, got {checks.shown(names)}")
-        scores = [Score(self._in_cases(one), self.worst_case, one.sign) for one in self.measures]
-        scores += [Score(self._in_cases(one), True, one.scale, one.offset) for one in self.constraints]
+        scores = [Score(self.in_cases(one), self.worst_case, one.sign) for one in self.measures]
+        scores += [Score(self.in_cases(one), True, one.scale, one.offset) for one in self.constraints]
         if not any(one.of_ride for one in (*self.measures, *(limit.measure for limit in self.constraints))):
             raise ValueError(f"measures must hold one of the ride, got {checks.shown(list(self.objectives))}")
+        return self.scores_of(scores)
+
+    def scores_of(self, scores: Sequence[Score]) -> Scores:
+        """Return scores of designs in the load cases."""
         middle = {name: (low + high) / 2 for name, (low, high) in self.bounds.items()}
         settings = [case.vehicle.coefficients({**self.struts, **middle}) for case in self.cases]
         return Scores(self.cases, scores, settings, self.variables, self.band)
 
-    def _in_cases(self, judged: Measure | Limit) -> tuple[CaseMeasure, ...]:
+    def in_cases(self, judged: Measure | Limit) -> tuple[CaseMeasure, ...]:
         """Return a measure or a limit in each load case."""
         return tuple(judged.in_case(case, self.weighting) for case in self.cases)
 

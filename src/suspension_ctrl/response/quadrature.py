@@ -9,6 +9,7 @@ from scipy.special import roots_legendre
 from .. import checks
 from ..quantities import Real
 
+_PARTS = 1000
 _LEAST = 16  # nodes of a panel for 1e-9 beside a slow pole, K/C of a soft and heavily damped strut
 
 
@@ -33,3 +34,9 @@ def _panel(x: Real, w: Real, start: float, end: float) -> tuple[Real, Real]:
     half = (end - start) / 2
     u = start + half * (1 + x)
     return u**2, w * half * 2 * u  # df = 2 u du
+
+
+def middles(band: tuple[float, float]) -> Real:
+    """Return the middles (1000,) of equal parts of a band, in which a user's own measure gets spectra [Hz]."""
+    low, high = band
+    return low + (high - low) * (np.arange(_PARTS) + 0.5) / _PARTS

@@ -16,12 +16,12 @@ from .load_case import LoadCase
 from .mean_squares import AnyCase, Case, cases_of
 from .measures.terms import CaseMeasure, Designs, Term
 from .ports import Ports, dynamic_stiffness, paths
+from .quadrature import middles
 
 RESOLVED = 1e-6
 """Largest relative change of a root mean square that twice the nodes may make."""
 NODES = (256, 384, 512, 768, 1024, 2048, 4096)
 """Numbers of nodes to choose from."""
-_PARTS = 1000  # equal parts of the band, in whose middles a user's own measure gets spectra
 
 
 class Score(NamedTuple):
@@ -147,6 +147,30 @@ class Scores:
                 scores[:, column] = score.scale * self._by_function(score, designs, kernel) + score.offset
         return scores
 
+    def by_case(self, case: int, design: Real, nodes: int) -> Real:
+        """Return each measure (s,) of one design (v,) in a load case, without its factor and its constant."""
+        designs, kernel = design[None], self.kernel(nodes)
+        found = self.roots(case, _reached(kernel.cases[case](designs), designs)[0])
+        for s, score in enumerate(self.scores):
+            if function := score.cases[case].values:
+                found[s] = function(self._designs(case, designs, kernel))[0]
+        return found
+
+    def roots(self, case: int, mean_squares: Real) -> Real:
+        """Return the root (s,) of the sum or the largest of mean squares (k,) of a load case's terms."""
+        products = self._squares[case][:, : mean_squares.size] * mean_squares
+        largest = [score.cases[case].largest for score in self.scores]
+        return np.sqrt(np.where(largest, products.max(axis=1, initial=0.0), products.sum(axis=1)))
+
+    def over_cases(self, score: int, values: Real) -> float:
+        """Return a score (1) over load cases from its values (c,) in them."""
+        one = self.scores[score]
+        sign = np.sign(one.scale)
+        if one.worst_case:
+            return float(sign * (sign * values).max())
+        power = 1 if one.by_function else 2
+        return float((self.shares @ values**power) ** (1 / power))
+
     def errors(self, designs: Real, nodes: int) -> list[Real]:
         """Return by case the largest change (k,) of each root mean square by twice the nodes."""
         both = zip(self.kernel(nodes).cases, self.kernel(2 * nodes).cases, strict=True)
@@ -215,8 +239,7 @@ class Scores:
         self, c: int, designs: Real, coefficients: Real, squares: Case
     ) -> Iterator[tuple[Real, Mapping[str, Real]]]:
         """Yield frequencies (n,) [Hz] and the spectra of all responses for each of designs (p, v)."""
-        case, known, (low, high) = self.cases[c], self.settings[c], self.band
-        f = low + (high - low) * (np.arange(_PARTS) + 0.5) / _PARTS
+        case, known, f = self.cases[c], self.settings[c], middles(self.band)
         if isinstance(squares, AnyCase):
             for linear in linear_vehicles(case.vehicle, list(known), squares, designs, coefficients):
                 h, names = paths(linear.closed(), f), linear.responses

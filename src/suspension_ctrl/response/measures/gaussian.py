@@ -15,7 +15,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from math import e
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -30,6 +30,9 @@ from .measure import Measure
 from .peak import responses_at
 from .terms import NUMBER, CaseMeasure, Designs, Term, number_text, place_text
 from .vibration import WheelMeasure
+
+if TYPE_CHECKING:
+    from ..trips import Trip
 
 _GAP = re.compile(rf"([A-Za-z_]\w*)?\s*({NUMBER})?")
 _LARGEST = re.compile(rf"(\w+)\s+({NUMBER})")
@@ -92,7 +95,13 @@ class Bottoming(WheelMeasure, word="bottoming", unit="1/km"):
             a_second = rate / (2 * np.pi * deviation) * np.exp(-(left**2) / (2 * deviation**2))
             return np.asarray(_KM / case.speed * a_second.max(axis=1))
 
-        return CaseMeasure(terms, values=values)
+        def in_trip(trip: "Trip", coefficients: Real) -> float:
+            gap = self.side * np.broadcast_to(gaps(coefficients[None]), (1, len(names))).T
+            beyond = self.side * trip.of(names) >= self.side * gap
+            strikes = (beyond & ~np.roll(beyond, 1, axis=1)).sum(axis=1)
+            return float(_KM / (case.speed * trip.duration) * strikes.max())
+
+        return CaseMeasure(terms, values=values, in_trip=in_trip)
 
     def _gaps(self, vehicle: Vehicle, struts: Sequence[int]) -> Callable[[Real], Real]:
         """Return a function from coefficients (p, c) to gaps of struts at the wheel (w,) or (p, w) [m]."""
@@ -172,7 +181,10 @@ class Lift(WheelMeasure, word="lift", unit="-"):
             static = vehicle.statics.static_loads(designs.coefficients)[:, index]
             return np.asarray(ndtr(-static / deviation).max(axis=1))
 
-        return CaseMeasure(terms, values=values)
+        def in_trip(trip: "Trip", _coefficients: Real) -> float:
+            return max(trip.lift_off[tyre].share if tyre in trip.lift_off else 0.0 for tyre in tyres)
+
+        return CaseMeasure(terms, values=values, in_trip=in_trip)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -219,7 +231,8 @@ class LargestPeak(Measure, word="largest"):
 
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError if the vehicle lacks the response."""
-        terms, pairs = _moments(responses_at(case.vehicle, self.response))
+        names = responses_at(case.vehicle, self.response)
+        terms, pairs = _moments(names)
 
         def values(designs: Designs) -> Real:
             deviation, rate = pairs(designs)
@@ -227,7 +240,15 @@ class LargestPeak(Measure, word="largest"):
             g = np.sqrt(2 * np.log(np.maximum(crossings, e)))
             return np.asarray((deviation * (g + _EULER / g)).max(axis=1))
 
-        return CaseMeasure(terms, values=values)
+        def in_trip(trip: "Trip", _coefficients: Real) -> float:
+            points, history = round(self.distance / (case.speed * trip.time_step)), trip.of(names)
+            parts = history.shape[1] // points
+            if not parts:
+                return np.nan
+            each = history[:, : parts * points].reshape(len(names), parts, points)
+            return float(max(each.max(axis=2).mean(axis=1).max(), -each.min(axis=2).mean(axis=1).min()))
+
+        return CaseMeasure(terms, values=values, in_trip=in_trip)
 
     def _rest(self) -> str:
         return f"{self.response} {number_text(self.distance)}"
@@ -279,7 +300,11 @@ class DamperPower(WheelMeasure, word="damper_power", unit="W"):
         def values(designs: Designs) -> Real:
             return np.asarray((designs.coefficients @ dampers * designs.mean_squares(terms)).max(axis=1))
 
-        return CaseMeasure(terms, values=values)
+        def in_trip(trip: "Trip", coefficients: Real) -> float:
+            squares = np.array([trip.mean_square(term) for term in terms])
+            return float((coefficients @ dampers * squares).max())
+
+        return CaseMeasure(terms, values=values, in_trip=in_trip)
 
 
 def _moments(responses: Sequence[str]) -> Any:

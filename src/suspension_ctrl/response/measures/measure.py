@@ -175,7 +175,9 @@ class OwnMeasure(Measure):
 
     def in_case(self, _case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in any load case."""
-        return CaseMeasure(values=self._of_designs)
+        if _positional(self.function) == 1:
+            return CaseMeasure(values=self._of_designs)
+        return CaseMeasure(values=self._of_designs, in_trip=lambda trip, _: float(self.function(*trip.spectra())))
 
     def _of_designs(self, designs: Designs) -> Real:
         """Return the values (p,) of designs; ValueError unless they are finite numbers."""

@@ -1,6 +1,7 @@
 """Peaks of responses in an event."""
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,6 +11,7 @@ from ... import checks
 from ...quantities import Real, signal_unit
 from ...vehicles.assembly import joined
 from ...vehicles.vehicle import Vehicle
+from ..driving import simulate
 from ..load_case import LoadCase
 from ..peaks import peaks
 from ..weightings import Weighting
@@ -94,7 +96,13 @@ class Peak(Measure, word="peak"):
             sides = {"max": [highest], "min": [-lowest], "both": [highest, -lowest]}[self.side]
             return np.asarray(np.concatenate(sides, axis=1).max(axis=1))
 
-        return CaseMeasure(values=values)
+        def in_event(vehicle: Vehicle, setting: Mapping[str, float], lift_off: bool) -> float:
+            table = simulate(vehicle, setting, event, speed, responses=responses, lift_off=lift_off)
+            history = table[table.columns[-len(responses) :]].to_numpy()
+            highest, lowest = history.max(), history.min()
+            return float({"max": highest, "min": -lowest, "both": max(highest, -lowest)}[self.side])
+
+        return CaseMeasure(values=values, in_event=in_event)
 
     def _rest(self) -> str:
         return " ".join([*([] if self.side == "both" else [self.side]), self.response, self.event])

@@ -2,15 +2,19 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import control
 
 from ... import checks
 from ...quantities import Real, Record
 from ...vehicles.assembly import Position, ResponseName, label
+from ...vehicles.vehicle import Vehicle
 from .. import weightings
 from ..weightings import Weighting
+
+if TYPE_CHECKING:
+    from ..trips import Trip
 
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 """Regular expression of a number."""
@@ -86,12 +90,16 @@ class Designs(NamedTuple):
 class CaseMeasure(NamedTuple):
     """A measure in a load case: the root of the sum of its mean squares or of the largest, or a function.
 
-    A function may ask the designs for the mean squares of the terms.
+    A function of designs may ask them for the mean squares of the terms. Beside it stands a function of a trip and
+    the coefficients (c,), or of a vehicle in an event with its setting, without or with tyres that lift off. A
+    measure that depends on neither has none.
     """
 
     terms: tuple[Term, ...] = ()
     largest: bool = False
     values: Callable[[Designs], Real] | None = None
+    in_trip: "Callable[[Trip, Real], float] | None" = None
+    in_event: Callable[[Vehicle, Mapping[str, float], bool], float] | None = None
 
 
 def checked_point(values: object) -> Position:

@@ -1,0 +1,110 @@
+"""Certificates: measures of a design linearised and simulated side by side."""
+
+import html
+import textwrap
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from itertools import groupby
+from typing import TYPE_CHECKING, NamedTuple
+
+from ..quantities import Record, unit
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+_HEADER = ("measure", "unit", "linearised", "simulated", "low", "high", "equivalent")
+_WIDTHS = (22, 6, 11, 10, 10, 10, 11)
+_COLUMNS = 80
+
+
+class Certified(NamedTuple):
+    """A measure in a load case, or over all of them; NaN where there is no value."""
+
+    case: str  # number of the load case, "all"
+    measure: str
+    unit: str
+    linearised: float
+    simulated: float  # mean over the seeds
+    low: float  # of the 95 % interval of that mean
+    high: float
+    equivalent: float  # simulated with an equivalent spring or damper in place of each force law
+    note: str = ""
+
+    @property
+    def outside(self) -> bool:
+        """Whether the linearised value is outside the interval."""
+        return self.linearised < self.low or self.linearised > self.high
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Certificate(Record):
+    """Measures of a design, linearised and simulated, by load case.
+
+    Parameters
+    ----------
+    title : str
+        Number and length of the roads.
+    design : mapping of str to float
+        Variables of the design.
+    cases : tuple of str
+        Road, speed and share of each load case.
+    rows : tuple of Certified
+    limits : tuple of str
+        Limits of the problem with their verdicts by the simulated values.
+    length : float
+        Length of each road [m].
+    seeds : tuple of int
+        Seeds of the roads.
+    """
+
+    title: str
+    design: Mapping[str, float]
+    cases: tuple[str, ...]
+    rows: tuple[Certified, ...]
+    limits: tuple[str, ...]
+    length: float = field(metadata=unit("m"))
+    seeds: tuple[int, ...]
+
+    def to_frame(self) -> "pd.DataFrame":
+        """Return a row for each load case and measure, ``outside`` where linearisation leaves the interval."""
+        import pandas as pd
+
+        rows = [(*one[:-1], one.outside, one.note) for one in self.rows]
+        table = pd.DataFrame(rows, columns=[*Certified._fields[:-1], "outside", "note"])
+        return table.set_index(["case", "measure"])
+
+    def __repr__(self) -> str:
+        return "\n".join(line[:_COLUMNS].rstrip() for line in self._lines())
+
+    def _repr_html_(self) -> str:
+        table = self.to_frame().reset_index().to_html(index=False, float_format="{:.4g}".format, na_rep="")
+        return f"<p>{html.escape(self.title)}</p>{table}"
+
+    def _lines(self) -> Iterator[str]:
+        yield self.title
+        values = ", ".join(f"{name} {value:g}" for name, value in self.design.items())
+        yield from textwrap.wrap(f"Design: {values}", _COLUMNS, subsequent_indent="    ")
+        titles = {str(n): f"Case {n}, {case}" for n, case in enumerate(self.cases, start=1)}
+        for number, rows in groupby(self.rows, key=lambda row: row.case):
+            yield from ["", titles.get(number, "All load cases"), _line(_HEADER)]
+            yield from map(_line, map(_cells, rows))
+        yield from ["", *self.limits] if self.limits else []
+        if any(one.outside for one in self.rows):
+            yield "* outside the 95 % interval of the simulated mean"
+        yield from dict.fromkeys(f"{one.measure}: {one.note}" for one in self.rows if one.note)
+
+
+def _cells(row: Certified) -> list[str]:
+    """Return the texts of a row."""
+    values = (row.linearised, row.simulated, row.low, row.high, row.equivalent)
+    numbers = ["" if value != value else f"{value:.4g}" for value in values]
+    numbers[0] += "*" if row.outside else " "
+    return [row.measure, row.unit, *numbers]
+
+
+def _line(cells: tuple[str, ...] | list[str]) -> str:
+    """Return a line of the table, names to the left and numbers to the right."""
+    name, *others = cells
+    width = _WIDTHS[0]
+    name = name if len(name) <= width else f"{name[: width - 3]}..."
+    return name.ljust(width) + "".join(cell.rjust(one) for cell, one in zip(others, _WIDTHS[1:], strict=True))
