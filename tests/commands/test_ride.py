@@ -90,3 +90,15 @@ strut.damper.file = "../front.dpr"
     assert "strut.damper.file must be beside this file or below it, unless outside is allowed" in done.stderr
     done = called("ride", "--vehicle", "car.toml", "--allow-outside")
     assert (done.returncode, "No such file or directory: " in done.stderr) == (1, True)
+
+
+def test_springs_laws_and_mean_travel_are_tables_of_80_columns(called, tmp_path):
+    done = called("ride", "--vehicle", "volvo_xc90_full", "--road", "C", "--band", "0.1,20", "--out", "out")
+    assert done.returncode == 0, done.stderr
+    shown = done.stdout.partition("Ride: ")[2]
+    assert max(map(len, shown.splitlines())) <= 80
+    for title in ("Springs at the working point", "Force laws", "Mean travel"):
+        assert f"\n{title}" in shown
+    springs = pd.read_csv(tmp_path / "out" / "springs.csv").set_index("name")
+    laws = pd.read_csv(tmp_path / "out" / "laws.csv").set_index("law")
+    assert springs["spring rate [N/m]"]["front.spring"] == laws.equivalent["front.spring"]

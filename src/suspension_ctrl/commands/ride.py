@@ -1,7 +1,6 @@
 """Ride and modes of one vehicle on one road, printed and written as CSV."""
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import options as o
@@ -30,15 +29,17 @@ def ride(
     weighting: o.Weighting = None,
     out: o.Out = None,
 ) -> None:
-    """Print the ride and the modes of one vehicle.
+    """Print the ride, the modes and the springs of one vehicle.
 
     The vehicle is from a file, with its own struts, or a quarter car with given masses, tyre, spring and damper.
-    Writes ride.csv, modes.csv and, of force laws, laws.csv to a folder; its path is the last line printed.
+    Writes ride.csv, modes.csv, springs.csv and, of force laws, laws.csv to a folder; its path is the last line
+    printed.
     """
     from ..paper import experiment as paper
     from ..response.linearisation import linearised
     from ..response.load_case import LoadCase
     from ..response.responses import ride
+    from ..tables import write_csv
     from . import results, terminal
 
     masses = {"body_mass": body_mass, "wheel_mass": wheel_mass, "tyre_stiffness": tyre_stiffness}
@@ -51,14 +52,14 @@ def ride(
     table = ride(car, values, case.road, speed=case.speed, weighting=problem.weighting, band=problem.band)
     table = (table if table.note.any() else table.drop(columns="note")).reset_index()
     linear = linearised(car, values, case.road, case.speed, band=problem.band)
-    modes = linear.modes().filter(regex=r"^name$|\]$")  # no amplitudes
+    tables = {"ride": table, **tables_of(linear)}
     folder = results.results_folder(out)
-    write_tables(folder, table, modes, linear)
+    for name, one in tables.items():
+        write_csv(folder / f"{name}.csv", one)
     terminal.note(f"{title}: {', '.join(f'{name} {value:g} {units[name]}' for name, value in values.items())}.")
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table)
-    terminal.show("Modes", modes, dict.fromkeys(modes.columns[1:], 3))
-    show_laws(linear)
+    show_tables(tables, linear)
     print(folder)
 
 
@@ -67,23 +68,28 @@ def given(values: Mapping[str, float | None]) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value is not None}
 
 
-def write_tables(folder: Path, table: "pd.DataFrame", modes: "pd.DataFrame", linear: "LinearisedVehicle") -> None:
-    """Write ride.csv, modes.csv and, if there are force laws, laws.csv."""
-    from ..tables import write_csv
+def tables_of(linear: "LinearisedVehicle") -> "dict[str, pd.DataFrame]":
+    """Return the tables of modes and springs and, if there are force laws, of laws."""
+    from ..vehicles.rates import rates_of
 
+    modes = linear.modes().filter(regex=r"^name$|\]$")  # no amplitudes
     laws = {"laws": linear.table().reset_index()} if linear.laws else {}
-    for name, one in {"ride": table, "modes": modes, **laws}.items():
-        write_csv(folder / f"{name}.csv", one)
+    return {"modes": modes, "springs": rates_of(linear, linear.coefficients()), **laws}
 
 
-def show_laws(linear: "LinearisedVehicle") -> None:
-    """Show force laws at their working point, and the mean travel that they cause."""
+def show_tables(tables: "Mapping[str, pd.DataFrame]", linear: "LinearisedVehicle") -> None:
+    """Show modes and springs, and force laws at their working point with the mean travel that they cause."""
+    import pandas as pd
+
     from . import terminal
 
+    terminal.show("Modes", tables["modes"], dict.fromkeys(tables["modes"].columns[1:], 3))
+    terminal.show("Springs" + " at the working point" * bool(linear.laws), tables["springs"])
     if linear.laws:
-        terminal.show("Force laws, linearised on this road: SI units", linear.table().reset_index())
-        travel = (f"{strut} {1e3 * mean:.1f} mm".strip() for strut, mean in linear.mean_travel.items())
-        terminal.note(f"Mean travel: {', '.join(travel)}.")
+        terminal.show("Force laws, linearised on this road: SI units", tables["laws"])
+        travel = [(strut or "strut", 1e3 * mean) for strut, mean in linear.mean_travel.items()]
+        table = pd.DataFrame(travel, columns=["strut", "mean travel [mm]"])
+        terminal.show("Mean travel", table, {"mean travel [mm]": 1})
 
 
 def chosen_vehicle(
