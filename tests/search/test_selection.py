@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from suspension_ctrl.search.deap_adapter import as_individuals, select_with_deap
-from suspension_ctrl.search.selection import crowding_distances, front_ranks, rising_order, select_survivors
+from suspension_ctrl.search.selection import lexicographic, ranks_and_crowding, select_survivors
 
 LARGEST = np.finfo(float).max
 
@@ -66,11 +66,10 @@ def test_ranks_are_deaps_and_the_least_crowded_stay(case):
     """Where points share an objective, crowding distances depend on their order: ours are held to one another."""
     objectives, size = case
     index, crowding = select_survivors(objectives, size)
-    rank = front_ranks(objectives)
+    rank, distance = ranks_and_crowding(objectives, len(objectives))
     np.testing.assert_array_equal(
         rank[[i.index for front in deaps_fronts(objectives) for i in front]], np.sort(rank)
     )
-    distance = crowding_distances(objectives, rank)
     np.testing.assert_array_equal(crowding, distance[index])
     preferred = np.lexsort((np.arange(rank.size), -distance, rank))
     np.testing.assert_array_equal(index, np.sort(preferred[:size]))
@@ -78,7 +77,7 @@ def test_ranks_are_deaps_and_the_least_crowded_stay(case):
 
 @given(arrays(float, st.tuples(st.integers(1, 30), st.integers(2, 4)), elements=st.floats(-1e3, 1e3), unique=True))
 def test_crowding_distances_are_deaps_where_no_values_are_equal(objectives):
-    distance = crowding_distances(objectives, front_ranks(objectives))
+    _, distance = ranks_and_crowding(objectives, len(objectives))
     for front in deaps_fronts(objectives):
         expected = [individual.fitness.crowding_dist for individual in front]
         np.testing.assert_allclose(distance[[i.index for i in front]], expected, rtol=1e-12)
@@ -117,18 +116,39 @@ def test_of_equal_individuals_the_earlier_stays():
     np.testing.assert_array_equal(select_survivors(objectives, 2)[0], [1, 2])
 
 
-@given(
-    st.sampled_from(
+def ties(rows: st.SearchStrategy[int]) -> st.SearchStrategy[np.ndarray]:
+    """Keys (k, n) with few and many ties, spans beyond the largest number and without a reciprocal."""
+    elements = st.sampled_from(
         [
             st.integers(0, 3).map(float),
             st.floats(-LARGEST, LARGEST),
             st.floats(-1e-320, 1e-320),
             st.sampled_from([0.0, -0.0, 1e-300, 1.0]),
         ]
-    ).flatmap(lambda elements: arrays(float, st.integers(1, 200), elements=elements))
-)
-def test_sorts_as_numpys_stable_sort_does(values):
-    """Few and many ties, spans beyond the largest number and without a reciprocal."""
-    before = values.copy()
-    np.testing.assert_array_equal(rising_order(values), np.argsort(before, kind="stable"))
-    np.testing.assert_array_equal(values, before)
+    )
+    return elements.flatmap(lambda one: arrays(float, st.tuples(rows, st.integers(1, 200)), elements=one))
+
+
+@given(ties(st.integers(1, 3)))
+def test_sorts_as_numpys_lexicographic_sort_does(keys):
+    before = keys.copy()
+    np.testing.assert_array_equal(lexicographic(keys, np.argsort(keys[0])), np.lexsort(before[::-1]))
+    np.testing.assert_array_equal(keys, before)
+
+
+@settings(max_examples=300)
+@given(levels())
+def test_fronts_beyond_those_needed_are_behind_them(case):
+    """Whatever number they have; the fronts needed, and their crowding distances, do not depend on the size."""
+    objectives, size = case
+    (rank, distance), (every, distances) = (ranks_and_crowding(objectives, k) for k in (size, len(objectives)))
+    needed = every <= np.sort(every)[size - 1]
+    np.testing.assert_array_equal(rank[needed], every[needed])
+    np.testing.assert_array_equal(distance[needed], distances[needed])
+    assert (rank[~needed] > every[needed].max()).all()
+
+
+@pytest.mark.parametrize("worst", [np.inf, np.nan])
+def test_values_that_are_not_finite_end_the_ranking_all_the_same(worst):
+    rank, _ = ranks_and_crowding(np.full((5, 3), worst), 5)
+    assert rank.min() == 0

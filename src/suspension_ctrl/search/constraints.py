@@ -67,7 +67,7 @@ def ideal_with(ideal: Real, values: Real, has_feasible: bool) -> Real:
     """
     feasible = feasible_objectives(values, ideal.size)
     if len(feasible):
-        least: Real = feasible.min(axis=0)
+        least: Real = np.ascontiguousarray(feasible.T).min(axis=1)  # numpy is slow along short rows
         return np.minimum(ideal, least) if has_feasible else least
     return ideal if has_feasible else np.minimum(ideal, values[:, : ideal.size].min(axis=0, initial=np.inf))
 

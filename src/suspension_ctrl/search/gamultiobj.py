@@ -28,7 +28,7 @@ from .kinds import box
 from .operators import sample_uniform
 from .population import Generational, State
 from .problem import Minimisable
-from .selection import crowding_distances, front_ranks
+from .selection import ranks_and_crowding
 
 _SUCCESS = 0.2
 """Share of surviving mutants above which the step grows (I. Rechenberg, "Evolutionsstrategie", 1973)."""
@@ -150,8 +150,7 @@ def select_controlled(
     At most `pareto_fraction` of them is from the first front if there are others: K. Deb, T. Goel, "Controlled
     elitist non-dominated sorting genetic algorithms for better convergence", EMO 2001.
     """
-    rank = front_ranks(objectives)
-    crowding = crowding_distances(objectives, rank)
+    rank, crowding = ranks_and_crowding(objectives, len(objectives))
     preferred = np.lexsort((-crowding, rank))
     best = np.count_nonzero(rank == 0)
     limit = min(best, ceil(pareto_fraction * size))

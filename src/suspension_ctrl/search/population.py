@@ -109,9 +109,8 @@ class State(Population):
     @classmethod
     def of(cls, designs: Real, values: Real, ideal: Real, evaluations: int, **memory: ArrayLike) -> "State":
         """Return the state of a population with these values (n, m + c)."""
-        objectives, constraints = np.split(values, [ideal.size], axis=1)
         return cls(
-            designs=designs, objectives=objectives, constraints=constraints,
+            designs=designs, objectives=values[:, : ideal.size], constraints=values[:, ideal.size :],
             ideal=frozen_array(ideal), evaluations=evaluations,
             memory=FrozenMapping({name: np.array(value) for name, value in memory.items()}),
         )  # fmt: skip

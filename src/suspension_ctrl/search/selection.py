@@ -1,4 +1,4 @@
-"""Survivor selection of NSGA-II on arrays: fronts by moocore, crowding distances as in DEAP's ``selNSGA2``.
+"""Survivor selection of NSGA-II on arrays: fronts and crowding distances as in DEAP's ``selNSGA2``.
 
 Ties of objectives or of crowding distances are broken by the order in the population.
 """
@@ -7,7 +7,7 @@ import moocore
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import compiled
+from ..compiled import compilable, compiled
 from ..quantities import Integer, Real
 
 _FEW = 24
@@ -21,58 +21,103 @@ def select_survivors(objectives: Real, size: int) -> tuple[Integer, Real]:
     Pratap, S. Agarwal, T. Meyarivan, "A fast and elitist multiobjective genetic algorithm: NSGA-II", IEEE Trans.
     Evol. Comput. 6(2), 2002.
     """
-    rank = front_ranks(objectives)
+    rank, crowding = ranks_and_crowding(objectives, size)
     last = int(np.searchsorted(np.cumsum(np.bincount(rank)), size))
-    index = np.flatnonzero(rank <= last)
-    rank = rank.take(index)
-    crowding = crowding_distances(objectives.take(index, axis=0), rank)
-    surplus = index.size - size
+    front = np.flatnonzero(rank == last)
+    surplus = np.count_nonzero(rank <= last) - size
     if surplus:
-        front = np.flatnonzero(rank == last)
-        survives = np.ones(index.size, dtype=bool)
-        survives[front[rising_order(-crowding.take(front))[-surplus:]]] = False
-        index, crowding = index[survives], crowding[survives]
-    return index, crowding
+        distance = crowding.take(front)
+        limit = np.partition(distance, surplus - 1)[surplus - 1]
+        below, tied = front[distance < limit], front[distance == limit]
+        rank[below], rank[tied[below.size - surplus :]] = last + 1, last + 1
+    index = np.flatnonzero(rank <= last)
+    return index, crowding.take(index)
 
 
-def front_ranks(objectives: Real) -> NDArray[np.int32]:
-    """Return the number of the front (n,), from 0, of each row of objectives (n, m)."""
-    order = np.argsort(objectives[:, 0])  # moocore sorts by the last objective, which is quick if presorted
-    rank = np.empty(order.size, dtype=np.int32)
-    rank[order] = moocore.pareto_rank(objectives.take(order, axis=0)[:, ::-1])
-    return rank
+def ranks_and_crowding(objectives: Real, size: int) -> tuple[NDArray[np.int32], Real]:
+    """Return the front (n,), from 0, and the crowding distance (n,) of each row of objectives (n, m).
 
-
-def crowding_distances(objectives: Real, rank: NDArray[np.int32]) -> Real:
-    """Return the mean over objectives (n, m) of the gap of both neighbours in a front over its range, (n,)."""
+    Fronts beyond the first `size` rows may have one number. The crowding distance is the mean over objectives of
+    the gap between both neighbours in a front over the range of the front.
+    """
+    columns = np.ascontiguousarray(objectives.T)
+    orders = np.array([lexicographic(column[np.newaxis], np.argsort(column)) for column in columns])
+    if len(columns) == 3:
+        rank = swept_fronts(columns, orders[1], lexicographic(columns, orders[0].copy()), size)
+    else:
+        rank = np.empty(len(objectives), dtype=np.int32)
+        rank[orders[0]] = moocore.pareto_rank(columns[::-1, orders[0]].T)  # it sorts by the last objective
     distance = np.zeros(rank.size)
-    m, fronts = objectives.shape[1], int(rank.max()) + 1
-    for value in np.ascontiguousarray(objectives.T):
-        add_gaps(value, rising_order(value), rank, fronts, m, distance)
-    return distance
+    for value, order in zip(columns, orders, strict=True):
+        add_gaps(value, order, rank, int(rank.max()) + 1, len(columns), distance)
+    return rank, distance
 
 
-def rising_order(values: Real) -> Integer:
-    """Return ``np.argsort(values, kind="stable")``, four times as fast if few values are equal."""
-    order = np.argsort(values)
-    return order if settle_ties(values, order) else np.argsort(values, kind="stable")
+def lexicographic(keys: Real, order: Integer) -> Integer:
+    """Return ``np.lexsort(keys[::-1])`` of keys (k, n) from an order (n,) of the first; few ties cost little."""
+    return order if settle_ties(keys, order) else np.lexsort(keys[::-1])
 
 
 @compiled()
-def settle_ties(value: Real, order: Integer) -> bool:
-    """Sort the indices of equal values in a rising `order` (n,), in place; return False if there are too many."""
-    begin = 0
-    for k in range(1, order.size):
-        if value[order[k]] != value[order[begin]]:
-            begin = k
+def settle_ties(keys: Real, order: Integer) -> bool:
+    """Sort an order (n,) by the first of keys (k, n) by the others and by index; return False for many ties."""
+    begin, value = 0, np.nan
+    for k in range(order.size):
+        one, place = order[k], k
+        if keys[0, one] != value:
+            begin, value = k, keys[0, one]
+            continue
         if k - begin >= _FEW:
             return False
-        individual, place = order[k], k
-        while place > begin and order[place - 1] > individual:
+        while place > begin and follows(keys, order[place - 1], one):
             order[place] = order[place - 1]
             place -= 1
-        order[place] = individual
+        order[place] = one
     return True
+
+
+@compilable()
+def follows(keys: Real, a: int, b: int) -> bool:
+    """Whether the individual a comes after b by keys (k, n), then by index."""
+    for key in keys:
+        if key[a] != key[b]:
+            return bool(key[a] > key[b])
+    return a > b
+
+
+@compiled()
+def swept_fronts(columns: Real, by_second: Integer, order: Integer, size: int) -> NDArray[np.int32]:
+    """Return the front (n,) of each of three objectives (3, n), one number for all beyond the first `size`.
+
+    In a lexicographic `order` (n,) nobody dominates one before. A Fenwick tree has the least third objective of
+    those before by the second, which rises in `by_second` (n,).
+    """
+    first, second, third = columns[0], columns[1], columns[2]
+    level, rank = np.empty((2, order.size), dtype=np.int32)
+    for k in range(order.size):
+        i, before = by_second[k], by_second[k - 1]
+        level[i] = level[before] if k > 0 and second[i] == second[before] else k + 1
+    left, front, ranked = order.copy(), 0, 0
+    while ranked < size and left.size > 0:
+        tree = np.full(order.size + 1, np.nan)  # nobody yet
+        kept, last = 0, -1
+        for i in left:
+            dominated, place = False, level[i]
+            while place > 0:
+                dominated |= tree[place] <= third[i]
+                place &= place - 1
+            twin = last >= 0 and first[i] == first[last] and second[i] == second[last] and third[i] == third[last]
+            if dominated and not twin:
+                left[kept] = i
+                kept += 1
+                continue
+            rank[i], last, place = front, i, level[i]
+            while place <= order.size:
+                tree[place] = tree[place] if tree[place] <= third[i] else third[i]
+                place += place & -place
+        ranked, left, front = ranked + left.size - kept, left[:kept], front + 1
+    rank[left] = front
+    return rank
 
 
 @compiled()
