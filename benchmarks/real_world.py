@@ -6,6 +6,7 @@ fronts anew. Tables go to a folder, whose path is the last line printed.
 
 from collections.abc import Callable, Iterator
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -31,9 +32,10 @@ SIX = "RE21,RE23,RE33,RE34,RE37,RE41"
 """A truss, a vessel of sheets of whole sixteenths, a brake, two crashes and a rocket; 2, 3 and 4 objectives."""
 
 CLIPPED = "moead-dra-clipped"
-"""MOEA/D-DRA without own scales, as objectives are scaled already, and with variables clipped to their bounds."""
+"""MOEA/D-DRA without own scales, for scaled objectives, and with variables clipped to their bounds."""
 
-PAIRS = (("nsga2", "pymoo nsga2"), ("moead-dra", "pymoo moead"), (CLIPPED, "pymoo moead"))
+PAIRS = (("nsga2", "pymoo nsga2"), ("moead-dra", "pymoo moead"))
+SCALED_PAIRS = (*PAIRS, (CLIPPED, "pymoo moead"))
 
 Real = NDArray[np.float64]
 Search = Callable[[Problem, int], Real]
@@ -81,21 +83,28 @@ def searches(population: int, evaluations: int) -> dict[str, Search]:
         return job.objectives(job.run())
 
     optimisers = ours(population) | {CLIPPED: MoeadDra(population=population, normalise=False, repair_reach=0.0)}
-    found: dict[str, Search] = {name: partial(minimised, optimisers[name]) for name, _ in PAIRS}
+    found: dict[str, Search] = {name: partial(minimised, optimisers[name]) for name, _ in SCALED_PAIRS}
     for name, prepare in (("nsga2", with_pymoo.nsga2), ("moead", with_pymoo.moead)):
         found[f"pymoo {name}"] = partial(theirs, prepare)
     return found
 
 
-def scaled(name: str) -> tuple[Problem, ReferenceFront]:
-    """Return a problem in objectives scaled to its known front, and that front.
+def pairs(scaled: bool) -> tuple[tuple[str, str], ...]:
+    """Return the pairs of algorithms to compare."""
+    return SCALED_PAIRS if scaled else PAIRS
 
-    MOEA/D of pymoo does not scale objectives, and does not know kinds of variables: these are left to the formula.
+
+def for_all(name: str, *, scaled: bool) -> tuple[Problem, ReferenceFront]:
+    """Return a problem and its known front, if asked for with objectives scaled to that front.
+
+    pymoo does not know kinds of variables: these are left to the formula.
     """
-    problem, front = engineering.problem(name), known.reference(name)
+    problem, front = engineering.problem(name).replace(kinds={}), known.reference(name)
+    if not scaled:
+        return problem, front
     one = np.ones(front.ideal.size)
     unit = ReferenceFront(front.objectives, 0 * one, one, front.volume)
-    return problem.replace(evaluate=lambda designs: front.scaled(problem.evaluate(designs)), kinds={}), unit
+    return problem.replace(evaluate=lambda designs: front.scaled(problem.evaluate(designs))), unit
 
 
 def recorded(problem: Problem) -> tuple[Problem, list[Real]]:
@@ -110,13 +119,16 @@ def recorded(problem: Problem) -> tuple[Problem, list[Real]]:
 
 
 def beside_pymoo(
-    names: tuple[str, ...], population: int, evaluations: int, seeds: int
+    names: tuple[str, ...], population: int, evaluations: int, seeds: int, *, scaled: bool
 ) -> Iterator[dict[str, Any]]:
     """Yield hypervolumes over those of the known fronts, a row per problem, algorithm, seed and set."""
     for name in names:
-        problem, front = scaled(name)
+        problem, front = for_all(name, scaled=scaled)
+        all_searches = searches(population, evaluations)
+        taking_part = dict.fromkeys(chain.from_iterable(pairs(scaled)))
         for seed in range(seeds):
-            for algorithm, search in searches(population, evaluations).items():
+            for algorithm in taking_part:
+                search = all_searches[algorithm]
                 watched, seen = recorded(problem)
                 final, objectives = search(watched, seed), np.concatenate(seen)
                 for kind, found in (("population", final), ("archive", objectives)):
@@ -158,17 +170,22 @@ def peers(
     population: Number = 100,
     evaluations: Number = 10_000,
     seeds: Number = 11,
+    scaled: Annotated[
+        bool,
+        Option("--scaled", help="Give all the scale of the known front."),
+    ] = False,
     out: Folder = None,
 ) -> None:
     """Compare both algorithms with pymoo's, by the statistics of a study."""
     names = chosen("problems", problems, engineering.NAMES)
     checks.at_least("seeds", seeds, 2)
     folder = results.results_folder(out)
-    rows = beside_pymoo(names, population, evaluations, seeds)
-    table = pd.DataFrame(terminal.progress(rows, len(names) * 2 * 5 * seeds))
+    rows = beside_pymoo(names, population, evaluations, seeds, scaled=scaled)
+    runs = len(names) * seeds * len(set(chain.from_iterable(pairs(scaled))))
+    table = pd.DataFrame(terminal.progress(rows, 2 * runs))  # a row for the population and one for the archive
     files.write_csv(folder / "runs.csv", table)
     compared = pd.concat(
-        inference.pairwise(table, ["problem", "set"], ["relative_hypervolume"], pair) for pair in PAIRS
+        inference.pairwise(table, ["problem", "set"], ["relative_hypervolume"], pair) for pair in pairs(scaled)
     )
     files.write_table(folder / "differences", compared)
     columns = ["first", "set", "problem", "median_first", "median_second", "p_holm", "a12", "effect"]

@@ -22,19 +22,22 @@ def test_hypervolumes_by_problem_and_algorithm(tmp_path, capsys):
 
 
 @pytest.mark.filterwarnings("ignore")  # pymoo's, of its own future
-def test_pymoo_beside_ours_with_as_many_evaluations(tmp_path):
+@pytest.mark.parametrize(("scaled", "algorithms"), [(False, 4), (True, 5)])
+def test_pymoo_beside_ours_with_as_many_evaluations(tmp_path, scaled, algorithms):
     pytest.importorskip("pymoo")
-    real_world.peers(problems="RE21", seeds=3, **SIZES, out=tmp_path)
+    real_world.peers(problems="RE21", seeds=3, **SIZES, scaled=scaled, out=tmp_path)
     runs = pd.read_csv(tmp_path / "runs.csv")
-    assert len(runs) == 5 * 3 * 2
+    assert len(runs) == algorithms * 3 * 2
     assert set(runs.evaluations) == {200}
     compared = pd.read_csv(tmp_path / "differences.csv")
-    assert [tuple(pair) for pair in compared[["first", "second"]].to_numpy()[::2]] == list(real_world.PAIRS)
+    assert [tuple(pair) for pair in compared[["first", "second"]].to_numpy()[::2]] == list(
+        real_world.pairs(scaled)
+    )
 
 
 def test_scaled_problem_has_the_volume_of_its_own_front():
     """The same search gives the same share, whatever the scale."""
-    problem, front = real_world.scaled("RE33")
+    problem, front = real_world.for_all("RE33", scaled=True)
     designs = np.array([[60.0, 90.0, 2000.0, 12.0], [70.0, 100.0, 2500.0, 15.0]])
     plain, known = engineering.problem("RE33"), fronts.reference("RE33")
     share = front.relative_hypervolume(problem.evaluate(designs))
