@@ -13,8 +13,8 @@ from suspension_ctrl.response.gaussian import of_lines, of_power
 
 
 def curve_of(knots, slopes, jumps):
-    found = np.zeros((3, len(slopes)))
-    found[0, : len(knots)], found[1], found[2, : len(jumps)] = knots, slopes, jumps
+    found = np.zeros((1, 3, len(slopes)))
+    found[0, 0, : len(knots)], found[0, 1], found[0, 2, : len(jumps)] = knots, slopes, jumps
     return found
 
 
@@ -41,7 +41,7 @@ def test_moments_of_lines_are_integrals(knots, slopes, jumps, mean, s):
     """E[F] and E[(x - m) F]/s^2 by adaptive quadrature between the knots, to 1e-10 of the largest force."""
     k = len(knots)
     law = (np.array(knots), slopes[: k + 1], jumps[:k])
-    f, slope, _ = of_lines(curve_of(*law), k, mean, s)
+    f, slope, _ = of_lines(curve_of(*law), 0, k, mean, s)
     density = norm(mean, s)
     edges = np.unique(np.clip([mean - 12 * s, *knots, 0.0, mean + 12 * s], mean - 12 * s, mean + 12 * s))
 
@@ -62,8 +62,8 @@ def test_moments_of_lines_are_integrals(knots, slopes, jumps, mean, s):
 def test_the_change_of_the_slope_is_its_derivative(knot, slopes, s):
     """Central differences over ln s: their error is of the order of 1e-4 squared."""
     law = curve_of([-knot, knot], slopes, [50.0, 50.0])
-    low, high = (of_lines(law, 2, 0.0, s * np.exp(h))[1] for h in (-1e-4, 1e-4))
-    assert of_lines(law, 2, 0.0, s)[2] == pytest.approx(
+    low, high = (of_lines(law, 0, 2, 0.0, s * np.exp(h))[1] for h in (-1e-4, 1e-4))
+    assert of_lines(law, 0, 2, 0.0, s)[2] == pytest.approx(
         (high - low) / 2e-4, rel=1e-6, abs=1e-5 * (max(slopes) + 50 / s)
     )
 
@@ -72,8 +72,8 @@ def test_the_change_of_the_slope_is_its_derivative(knot, slopes, s):
 def test_closed_forms(s):
     """Coulomb sqrt(2/pi) F/s; bilinear (c+ + c-)/2 and (c+ - c-) s/sqrt(2 pi); quadratic, cubic."""
     root = np.sqrt(2 / np.pi)
-    assert of_lines(curve_of([0.0], [0.0, 0.0], [2 * 40.0]), 1, 0.0, s)[:2] == pytest.approx((0, root * 40 / s))
-    bilinear = of_lines(curve_of([0.0], [750.0, 2250.0], [0.0]), 1, 0.0, s)
+    assert of_lines(curve_of([0.0], [0.0, 0.0], [2 * 40.0]), 0, 1, 0.0, s)[:2] == pytest.approx((0, root * 40 / s))
+    bilinear = of_lines(curve_of([0.0], [750.0, 2250.0], [0.0]), 0, 1, 0.0, s)
     assert bilinear[:2] == pytest.approx((1500 * s / np.sqrt(2 * np.pi), 1500.0))
     assert of_power(3e3, 2.0, s) == pytest.approx((2 * root * 3e3 * s, 2 * root * 3e3 * s), rel=1e-14)
     assert of_power(3e3, 3.0, s) == pytest.approx((3 * 3e3 * s**2, 6 * 3e3 * s**2), rel=1e-14)
@@ -86,6 +86,6 @@ def test_ever_finer_tables_of_a_quadratic_damper_converge_to_its_closed_form():
     for n in (20, 40, 80, 160):
         v = np.linspace(-4.0, 4.0, 2 * n + 1)
         slopes = np.diff(2e3 * v * np.abs(v)) / np.diff(v)
-        found = of_lines(curve_of(v[1:-1], slopes, np.zeros(2 * n - 1)), 2 * n - 1, 0.0, 0.4)[1]
+        found = of_lines(curve_of(v[1:-1], slopes, np.zeros(2 * n - 1)), 0, 2 * n - 1, 0.0, 0.4)[1]
         errors.append(abs(found - of_power(2e3, 2.0, 0.4)[0]))
     np.testing.assert_allclose(np.log2(np.divide(errors[:-1], errors[1:])), 2.0, atol=0.1)

@@ -14,7 +14,7 @@ def curve(law, **values):
     coefficients = car.coefficients({"held": 2e4} | {f"{law.name}.{name}": x for name, x in values.items()})
     laws = Program.of(car.networks, list(coefficients)).laws
     found, k = np.empty(laws.number.shape[1:3]), laws.most[0]
-    fill_curve(laws.number[0], laws.by[0], np.array(list(coefficients.values())), found)
+    fill_curve(laws, 0, np.array(list(coefficients.values())), found)
     return found[0, :k], found[1, : k + 1], found[2, :k]
 
 

@@ -8,8 +8,22 @@ from ..compiled import compilable, compiled
 from ..quantities import Bool, Real
 from .many_struts import ManyStruts, add_product, eliminate, fill_loop, fill_stiffness, sum_of_squares
 from .mean_position import balance
-from .network_rows import IN_SERIES, NETWORK, NEXT, OF_RATE, STATES, Networks, fill_rows, fill_share
-from .working_point import MOST, NEAR, Points, begin, fill_values, improve, keep, linearise
+from .network_rows import (
+    DAMPING,
+    DIRECT,
+    IN_SERIES,
+    NETWORK,
+    NEXT,
+    OF_RATE,
+    STATES,
+    STIFFNESS,
+    Networks,
+    fill_direct,
+    fill_rows,
+    fill_share,
+    stiffness_at,
+)
+from .working_point import MOST, NEAR, Points, begin, fill_damping, fill_values, improve, keep, linearise
 
 
 class AnyStruts(NamedTuple):
@@ -17,7 +31,7 @@ class AnyStruts(NamedTuple):
 
     struts: ManyStruts
     networks: Networks
-    nominal: Real  # (t, 2, n), dynamic stiffness in place of each network
+    nominal: Real  # (t, 2), stiffness and damping in place of each network
     density: Real  # (2, n), quadrature weights of deflections and of rates
     wheels: Real  # (t,), number of ports of each network
 
@@ -33,11 +47,9 @@ class AnyStruts(NamedTuple):
 def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
     """Return the mean squares (p, k) of designs (p, v), and fill in their working points if there is room."""
     struts, networks, density = any_struts.struts, any_struts.networks, any_struts.density
-    node, ratio, law, square = networks.node, networks.ratio, networks.law, networks.square
-    measured, variable, omega = networks.measured, networks.variable, struts.omega
-    count, number, by = networks.laws.most, networks.laws.number, networks.laws.by
-    values, n, m = networks.setting.copy(), omega.size, ratio.size
-    rows, share = np.empty((m, 2, n)), np.empty(n)
+    law, square, count, number = networks.law, networks.square, networks.laws.most, networks.laws.number
+    values, omega, n, m = networks.setting.copy(), struts.omega, struts.omega.size, networks.row.size
+    direct, rows, share = np.empty((m, DIRECT)), np.zeros((1 + networks.row.max(), 2, n)), np.empty(n)
     curve, state, nodes = np.empty(number.shape[:3]), np.empty((count.size, STATES)), np.empty((m, 3))
     position, damping = np.zeros(networks.sag.size), np.empty(networks.root.size)
     entries = (struts.sizes[:, 0] * (2 * struts.sizes[:, 0] + struts.sizes[:, 1])).sum()
@@ -45,21 +57,22 @@ def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
     anywhere = points.iterations.size > 0 or (law[:, OF_RATE] == 0).any()
     result = np.empty((designs.shape[0], struts.channel.size))
     for p in range(designs.shape[0]):
-        fill_values(variable, designs[p], values)
+        fill_values(networks.variable, designs, p, values)
         fill_damping(networks, values, damping)
-        begin(law, number, by, values, curve, state)
+        begin(law, networks.laws, values, curve, state)
         reached, iteration = False, 0
         while not reached and iteration < MOST:
             if anywhere:
                 balance(networks, curve, values, state, nodes, position)
             else:
                 linearise(law, count, curve, values, state)
-            fill_rows(node, ratio, law, measured, omega, values, state, rows)
-            close_blocks(any_struts, designs[p], rows, room)
+            fill_direct(networks, values, state, direct)
+            fill_rows(networks, omega, values, direct, rows)
+            close_blocks(any_struts, designs[p], direct, rows, room)
             for i in range(count.size):
                 share[:] = square[i]
                 if law[i, IN_SERIES]:
-                    fill_share(node, ratio, i, rows, share)
+                    fill_share(networks, omega, i, direct, rows, share)
                 seen = density[law[i, OF_RATE]]
                 state[i, NEXT] = np.sqrt(deflection(any_struts, law[i, NETWORK], seen, share, room))
             reached = improve(law, square, damping, state, iteration) < NEAR
@@ -72,21 +85,14 @@ def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
 
 
 @compilable()
-def fill_damping(networks: Networks, values: Real, damping: Real) -> None:
-    """Fill in the damping (t,) of linear dampers in parallel with each network."""
-    gains, order, port = networks.gain, networks.order, networks.port
-    for t in range(port.size):
-        damping[t] = 0.0
-        for c in range(order.size):
-            if order[c] == 1:
-                damping[t] += gains[c, port[t], port[t]] * values[c]
-
-
-@compilable()
-def close_blocks(any_struts: AnyStruts, design: Real, rows: Real, room: Real) -> None:
+def close_blocks(any_struts: AnyStruts, design: Real, direct: Real, rows: Real, room: Real) -> None:
     """Solve the strut loops of all blocks: stiffness (q q), then loop (q (q + s)) of each block after another."""
     struts, root, nominal = any_struts.struts, any_struts.networks.root, any_struts.nominal
+    own = any_struts.networks.row
     added, row, entry, start = np.empty(design.size), 0, 0, 0
+    for t in range(root.size):
+        direct[root[t], STIFFNESS] -= nominal[t, 0]
+        direct[root[t], DAMPING] -= nominal[t, 1]
     for v in range(design.size):
         added[v] = design[v] - struts.origin[v]
     for b in range(struts.sizes.shape[0]):
@@ -95,7 +101,7 @@ def close_blocks(any_struts: AnyStruts, design: Real, rows: Real, room: Real) ->
         present = fill_stiffness(added, struts, entry, stiffness)
         for t in range(root.size):
             gain = struts.gain[added.size + t, entry : entry + q * q]
-            add_network(gain, rows[root[t]], nominal[t], present, stiffness)
+            add_network(gain, struts.omega, direct, root[t], rows[own[root[t]]], present, stiffness)
         feedback, sources = struts.rows[row : row + q * q], struts.rows[row + q * q : row + q * (q + s)]
         fill_loop(q, s, present, stiffness, feedback, sources, loop)
         eliminate(q, q + s, loop)
@@ -106,15 +112,17 @@ def close_blocks(any_struts: AnyStruts, design: Real, rows: Real, room: Real) ->
 
 
 @compilable(fastmath={"contract", "nsz"})
-def add_network(gain: Real, row: Real, nominal: Real, present: Bool, stiffness: Real) -> None:
-    """Add the row (2, n) of a network, less its nominal one, to the stiffness (q q, 2, n) by its gains (q q,)."""
+def add_network(
+    gain: Real, omega: Real, direct: Real, node: int, row: Real, present: Bool, stiffness: Real
+) -> None:
+    """Add the dynamic stiffness of a node with its row (2, n) to the stiffness (q q, 2, n) by its gains (q q,)."""
     for i in range(gain.size):
         if gain[i] != 0.0:
             present[i] = True
-            for part in range(2):
-                total, given, taken = stiffness[i, part], row[part], nominal[part]
-                for t in range(total.size):
-                    total[t] += gain[i] * (given[t] - taken[t])
+            for t in range(omega.size):
+                re, im = stiffness_at(direct, node, omega[t], row, t)
+                stiffness[i, 0, t] += gain[i] * re
+                stiffness[i, 1, t] += gain[i] * im
 
 
 @compilable()

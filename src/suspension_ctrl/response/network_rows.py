@@ -1,16 +1,20 @@
 """Networks of struts at the quadrature nodes: dynamic stiffness, and the share of a force law in the deflection.
 
-A row (2, n) holds real and imaginary parts at n frequencies.
+The dynamic stiffness of a node is that of its `direct` elements, which are in parallel with it, plus a row (2, n) of
+real and imaginary parts at n frequencies: of its elements in series and of those known by a table.
 """
 
 from typing import NamedTuple
 
 from ..compiled import compilable
 from ..quantities import Bool, Integer, Real
-from ..vehicles.networks import DAMPER, INERTER, LAW, MEASURED, PARALLEL, RUBBER, SPRING, Laws
+from ..vehicles.networks import INERTER, LAW, MEASURED, PARALLEL, RUBBER, Laws
 
 KIND, PART, COEFFICIENT, LAW_OF = 0, 1, 3, 5
 """Columns of a node; a second part and coefficient follow the first."""
+DIRECT = 4
+STIFFNESS, DAMPING, INERTANCE, LOSS = range(DIRECT)
+"""Columns of the direct elements of a node; the first three are SPRING, DAMPER and INERTER of `Program`."""
 OF_RATE, IN_SERIES, NETWORK, POWER = range(4)
 """Columns of a law; the exponent of a power follows its factor."""
 STATES = 8
@@ -27,8 +31,7 @@ class Networks(NamedTuple):
 
     node: Integer  # (m, 6), KIND, two PARTS, two COEFFICIENTS and the law of each node, see `Program`
     ratio: Real  # (m,), installation ratio of each node
-    total: Real  # (m,), product of the squared installation ratios of a node and all above
-    plain: bool  # whether all nodes are springs, dampers, inerters and laws in parallel
+    row: Integer  # (m,), row of each node, 0 of a node with direct elements alone
     root: Integer  # (t,), last node of each network
     measured: Real  # (x, 2, n), storage and loss stiffness of measured elements
     laws: Laws
@@ -46,82 +49,94 @@ class Networks(NamedTuple):
 
 
 @compilable(error_model="numpy")
-def fill_rows(
-    node: Integer, ratio: Real, law: Integer, measured: Real, omega: Real, values: Real, state: Real, rows: Real
-) -> None:
-    """Fill in the dynamic stiffness (m, 2, n) of every node, as its deflection is at the node above it."""
+def fill_direct(networks: Networks, values: Real, state: Real, direct: Real) -> None:
+    """Fill in the direct elements (m, 4) of every node, as its deflection is at the node above it."""
+    node, ratio, law = networks.node, networks.ratio, networks.law
     for i in range(ratio.size):
-        kind, square, first, second = node[i, KIND], ratio[i] ** 2, node[i, COEFFICIENT], node[i, COEFFICIENT + 1]
-        if kind >= PARALLEL:
-            join(kind == PARALLEL, rows[node[i, PART]], rows[node[i, PART + 1]], square, rows[i])
-        elif kind == MEASURED:
-            scale(square * values[first], measured[second], rows[i])
-        elif kind == LAW:
-            value, of_rate = square * state[node[i, LAW_OF], SLOPE], law[node[i, LAW_OF], OF_RATE] > 0
-            fill_element(0.0 if of_rate else value, value if of_rate else 0.0, 0.0, 0.0, omega, rows[i])
-        else:
-            value, loss = square * values[first], square * values[second] if kind == RUBBER else 0.0
-            stiffness = value if kind in (SPRING, RUBBER) else 0.0
-            inertance = value if kind == INERTER else 0.0
-            fill_element(stiffness, value if kind == DAMPER else 0.0, inertance, loss, omega, rows[i])
+        kind, square = node[i, KIND], ratio[i] * ratio[i]
+        for j in range(DIRECT):
+            direct[i, j] = 0.0
+            if kind == PARALLEL:
+                direct[i, j] = square * (direct[node[i, PART], j] + direct[node[i, PART + 1], j])
+        if kind == LAW:
+            which = node[i, LAW_OF]
+            direct[i, DAMPING if law[which, OF_RATE] else STIFFNESS] = square * state[which, SLOPE]
+        elif kind == RUBBER:
+            direct[i, STIFFNESS] = square * values[node[i, COEFFICIENT]]
+            direct[i, LOSS] = square * values[node[i, COEFFICIENT + 1]]
+        elif kind <= INERTER:
+            direct[i, kind] = square * values[node[i, COEFFICIENT]]
 
 
-@compilable(fastmath={"contract", "nsz"})
-def fill_element(stiffness: float, damping: float, inertance: float, loss: float, omega: Real, row: Real) -> None:
-    """Fill in a row (2, n) of one element."""
-    re, im = row[0], row[1]
-    for i in range(omega.size):
-        re[i] = stiffness - inertance * (omega[i] * omega[i])
-        im[i] = loss + damping * omega[i]
+@compilable(error_model="numpy")
+def fill_rows(networks: Networks, omega: Real, values: Real, direct: Real, rows: Real) -> None:
+    """Fill in the rows (1 + x, 2, n) of all nodes by their direct elements; the first is 0."""
+    node, ratio, row, measured = networks.node, networks.ratio, networks.row, networks.measured
+    for i in range(row.size):
+        kind, square, one, other = node[i, KIND], ratio[i] * ratio[i], node[i, PART], node[i, PART + 1]
+        if row[i] > 0 and kind == MEASURED:
+            scale(square * values[node[i, COEFFICIENT]], measured[node[i, COEFFICIENT + 1]], rows[row[i]])
+        elif row[i] > 0 and kind == PARALLEL:
+            add(square, rows[row[one]], rows[row[other]], rows[row[i]])
+        elif row[i] > 0:
+            join(square, omega, direct, one, other, rows[row[one]], rows[row[other]], rows[row[i]])
 
 
 @compilable(fastmath={"contract", "nsz"})
 def scale(factor: float, given: Real, row: Real) -> None:
     """Fill in a row (2, n) times a factor."""
-    re, im, real, imaginary = row[0], row[1], given[0], given[1]
-    for i in range(re.size):
-        re[i], im[i] = factor * real[i], factor * imaginary[i]
+    for i in range(row.shape[1]):
+        row[0, i], row[1, i] = factor * given[0, i], factor * given[1, i]
+
+
+@compilable(fastmath={"contract", "nsz"})
+def add(factor: float, one: Real, other: Real, row: Real) -> None:
+    """Fill in the sum of two rows (2, n) times a factor."""
+    for i in range(row.shape[1]):
+        row[0, i], row[1, i] = factor * (one[0, i] + other[0, i]), factor * (one[1, i] + other[1, i])
+
+
+@compilable(inline="always")
+def stiffness_at(direct: Real, node: int, w: float, row: Real, i: int) -> tuple[float, float]:
+    """Return real and imaginary part of the dynamic stiffness of a node at a frequency w, the i-th."""
+    re = direct[node, STIFFNESS] - direct[node, INERTANCE] * (w * w) + row[0, i]
+    return re, direct[node, LOSS] + direct[node, DAMPING] * w + row[1, i]
 
 
 @compilable(fastmath={"contract", "nsz"}, error_model="numpy")
-def join(parallel: bool, one: Real, other: Real, square: float, row: Real) -> None:
-    """Fill in the sum of two rows (2, n), or in series a b/(a + b), times the square of an installation ratio."""
-    a, b, c, d, re, im = one[0], one[1], other[0], other[1], row[0], row[1]
-    if parallel:
-        for i in range(re.size):
-            re[i] = square * (a[i] + c[i])
-            im[i] = square * (b[i] + d[i])
-        return
-    for i in range(re.size):
-        real, imaginary = a[i] + c[i], b[i] + d[i]
-        scale = square / (real * real + imaginary * imaginary)
-        upper, across = a[i] * c[i] - b[i] * d[i], a[i] * d[i] + b[i] * c[i]
-        re[i] = scale * (upper * real + across * imaginary)
-        im[i] = scale * (across * real - upper * imaginary)
+def join(
+    square: float, omega: Real, direct: Real, one: int, other: int, upper: Real, lower: Real, row: Real
+) -> None:
+    """Fill in a b/(a + b) of two nodes in series with rows (2, n), times the square of an installation ratio."""
+    for i in range(omega.size):
+        a, b = stiffness_at(direct, one, omega[i], upper, i)
+        c, d = stiffness_at(direct, other, omega[i], lower, i)
+        real, imaginary, re, im = a + c, b + d, a * c - b * d, a * d + b * c
+        factor = square / (real * real + imaginary * imaginary)
+        row[0, i], row[1, i] = factor * (re * real + im * imaginary), factor * (im * real - re * imaginary)
 
 
 @compilable(error_model="numpy")
-def fill_share(node: Integer, ratio: Real, law: int, rows: Real, share: Real) -> None:
-    """Fill in |own deflection over deflection of the port|^2 (n,) of a law, by the rows of all nodes."""
-    own = -1
+def fill_share(networks: Networks, omega: Real, law: int, direct: Real, rows: Real, share: Real) -> None:
+    """Fill in |own deflection over deflection of the port|^2 (n,) of a law in series."""
+    node, ratio, row, own = networks.node, networks.ratio, networks.row, -1
+    share[:] = networks.square[law]
     for i in range(ratio.size):
-        one, other, square = node[i, PART], node[i, PART + 1], ratio[i] ** 2
+        one, other = node[i, PART], node[i, PART + 1]
         if node[i, LAW_OF] == law:
             own = i
-            share[:] = square
         elif own >= 0 and own in (one, other):
-            if node[i, KIND] == PARALLEL:
-                for j in range(share.size):
-                    share[j] *= square
-            else:
-                split(rows[own], rows[other if own == one else one], square, share)
+            if node[i, KIND] != PARALLEL:
+                beside = other if own == one else one
+                split(omega, direct, own, beside, rows[row[own]], rows[row[beside]], share)
             own = i
 
 
 @compilable(fastmath={"contract", "nsz"}, error_model="numpy")
-def split(own: Real, other: Real, square: float, share: Real) -> None:
-    """Multiply a share (n,) by that of one of two parts in series, of dynamic stiffness `own` and `other`."""
-    a, b, c, d = own[0], own[1], other[0], other[1]
-    for i in range(share.size):
-        real, imaginary = a[i] + c[i], b[i] + d[i]
-        share[i] *= square * (c[i] * c[i] + d[i] * d[i]) / (real * real + imaginary * imaginary)
+def split(omega: Real, direct: Real, own: int, other: int, upper: Real, lower: Real, share: Real) -> None:
+    """Multiply a share (n,) by that of one of two nodes in series with rows (2, n)."""
+    for i in range(omega.size):
+        a, b = stiffness_at(direct, own, omega[i], upper, i)
+        c, d = stiffness_at(direct, other, omega[i], lower, i)
+        real, imaginary = a + c, b + d
+        share[i] *= (c * c + d * d) / (real * real + imaginary * imaginary)

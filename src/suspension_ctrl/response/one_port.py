@@ -6,24 +6,20 @@ import numpy as np
 
 from ..compiled import compilable, compiled
 from ..quantities import Complex, Integer, Real
-from ..vehicles.networks import INERTER, LAW
 from .mean_position import balance
 from .network_rows import (
-    COEFFICIENT,
+    DIRECT,
     IN_SERIES,
-    KIND,
-    LAW_OF,
     NEXT,
     OF_RATE,
-    SLOPE,
     STATES,
     Networks,
-    fill_element,
+    fill_direct,
     fill_rows,
     fill_share,
 )
 from .ports import Ports
-from .working_point import MOST, NEAR, Points, begin, fill_values, guess, improve, keep, linearise
+from .working_point import MOST, NEAR, Points, begin, fill_damping, fill_values, guess, improve, keep, linearise
 
 _USUAL = 10.0  # damping by the root of the stiffness: damping ratios of some 0.3 of bodies of some 300 kg
 
@@ -79,111 +75,121 @@ def _square_of_line(a: Complex, b: Complex) -> Real:
     return np.stack([np.abs(a) ** 2, cross.real, -cross.imag, np.abs(b) ** 2])
 
 
+class Room(NamedTuple):
+    """Work arrays of a batch of designs, for the design at hand."""
+
+    values: Real  # (c,), coefficients
+    curve: Real  # (l, 3, k + 1), of every law
+    state: Real  # (l, 8), of every law
+    nodes: Real  # (m, 3), at 0 Hz
+    position: Real  # (1,), mean deflection of the port
+    damping: Real  # (1,), of dampers beside the network
+    direct: Real  # (m, 4), direct elements of every node
+    rows: Real  # (1 + x, 2, n), of nodes with parts in series
+    gain: Real  # (4, n), |1 + c D|^-2 times 1, Re D, Im D and |D|^2
+    share: Real  # (n,), of a law in the deflection
+
+
+@compilable()
+def room_for(networks: Networks, n: int) -> Room:
+    """Return work arrays at n frequencies."""
+    laws, nodes, number = networks.law.shape[0], networks.row.size, networks.laws.number
+    curve, state = np.empty((laws, 3, number.shape[2])), np.empty((laws, STATES))
+    rows, gain = np.zeros((1 + networks.row.max(), 2, n)), np.empty((4, n))
+    values, direct, position, damping = networks.setting.copy(), np.empty((nodes, DIRECT)), np.zeros(1), np.empty(1)
+    return Room(values, curve, state, np.empty((nodes, 3)), position, damping, direct, rows, gain, np.empty(n))
+
+
 @compilable(error_model="numpy")
 def solve(port: OnePort, designs: Real, points: Points) -> Real:
     """Return the mean squares (p, k) of designs (p, v), and fill in their working points if there is room."""
-    networks, omega, excitation, denominator = port.networks, port.omega, port.excitation, port.denominator
-    numerators, term, power = port.numerators, port.term, port.power
-    node, ratio, law, square = networks.node, networks.ratio, networks.law, networks.square
-    measured, root, gains, order = networks.measured, networks.root, networks.gain, networks.order
-    count, number, by = networks.laws.most, networks.laws.number, networks.laws.by
-    variable, values, n, m = networks.variable, networks.setting.copy(), omega.size, ratio.size
-    rows, powers, gain, share = np.empty((m, 2, n)), np.ones((4, n)), np.empty(n), np.empty(n)
-    curve, state, nodes = np.empty(number.shape[:3]), np.empty((count.size, STATES)), np.empty((m, 3))
-    linear, whole, position, total = np.empty(3), np.empty(3), np.zeros(1), networks.total
-    anywhere = points.iterations.size > 0 or (law[:, OF_RATE] == 0).any()
+    networks, room = port.networks, room_for(port.networks, port.omega.size)
+    statics = points.iterations.size > 0 or (networks.law[:, OF_RATE] == 0).any()
     result = np.empty((designs.shape[0], port.terms))
     for p in range(designs.shape[0]):
-        fill_values(variable, designs[p], values)
-        fill_linear(gains, order, values, linear)
-        begin(law, number, by, values, curve, state)
-        guess(port.guess, law, count, square, curve, values, linear[1], state)
-        reached, iteration = False, 0
-        while not reached and iteration < MOST:
-            if anywhere:
-                balance(networks, curve, values, state, nodes, position)
-            else:
-                linearise(law, count, curve, values, state)
-            if networks.plain:
-                add_elements(node, total, law, values, state, linear, whole)
-                fill_gain_of_elements(denominator, omega, whole, gain)
-            else:
-                fill_rows(node, ratio, law, measured, omega, values, state, rows)
-                fill_powers(linear, omega, root, rows, powers)
-                fill_gain(denominator, powers, gain)
-            fill_next(node, ratio, law, square, rows, excitation, gain, share, state)
-            reached = improve(law, square, linear[1:2], state, iteration) < NEAR
-            iteration += 1
-        keep(points, p, state, position, iteration if reached else -1)
-        if networks.plain:
-            fill_powers(whole, omega, root[:0], rows, powers)
-        result[p] = 0.0 if reached else np.nan
-        add_terms(numerators, term, power, gain, powers, result[p])
+        fill_values(networks.variable, designs, p, room.values)
+        iterations = settle(port, room, statics)
+        keep(points, p, room.state, room.position, iterations)
+        for term in range(port.terms):
+            result[p, term] = 0.0 if iterations > 0 else np.nan
+        add_terms(port.numerators, port.term, port.power, room.gain, p, result)
     return result
 
 
 @compilable(error_model="numpy")
-def fill_next(
-    node: Integer,
-    ratio: Real,
-    law: Integer,
-    square: Real,
-    rows: Real,
-    excitation: Real,
-    gain: Real,
-    share: Real,
-    state: Real,
-) -> None:
-    """Fill in the deviations that result for every law."""
-    for i in range(square.size):
-        share[:] = square[i]
-        if law[i, IN_SERIES]:
-            fill_share(node, ratio, i, rows, share)
-        state[i, NEXT] = np.sqrt(weighted(gain, excitation[law[i, OF_RATE]], share))
+def settle(port: OnePort, room: Room, statics: bool) -> int:
+    """Close the loop at the working point of a design; return the iterations, -1 if it is not reached."""
+    networks, law, curve, values, state = port.networks, port.networks.law, room.curve, room.values, room.state
+    count, square, direct, plain = networks.laws.most, networks.square, room.direct, room.rows.shape[0] == 1
+    fill_damping(networks, values, room.damping)
+    begin(law, networks.laws, values, curve, state)
+    guess(port.guess, law, count, square, curve, values, room.damping[0], state)
+    for iteration in range(MOST):
+        if statics:
+            balance(networks, curve, values, state, room.nodes, room.position)
+        else:
+            linearise(law, count, curve, values, state)
+        fill_direct(networks, values, state, direct)
+        add_beside(networks, values, direct)
+        if not plain or count.size == 0:
+            fill_rows(networks, port.omega, values, direct, room.rows)
+            close(port, room)
+            fill_next(port, room)
+        else:
+            fill_next_by_port(port, direct, state)
+        if improve(law, square, room.damping, state, iteration) < NEAR:
+            if plain and count.size > 0:
+                close(port, room)
+            return iteration + 1
+    return -1
 
 
 @compilable()
-def add_terms(numerators: Real, term: Integer, power: Integer, gain: Real, powers: Real, found: Real) -> None:
-    """Add the integrals of the numerators to their terms (k,)."""
-    for q in range(power.size):
-        found[term[q]] += weighted(gain, numerators[q], powers[power[q]])
-
-
-@compilable()
-def fill_linear(gains: Real, order: Integer, values: Real, linear: Real) -> None:
-    """Fill in stiffness, damping and inertance (3,) in parallel with the network."""
-    linear[:] = 0.0
+def add_beside(networks: Networks, values: Real, direct: Real) -> None:
+    """Add the springs, dampers and inerters beside the network to its direct elements."""
+    last, gain, order = networks.root[0], networks.gain, networks.order
     for i in range(order.size):
-        linear[order[i]] += gains[i, 0, 0] * values[i]
+        direct[last, order[i]] += gain[i, 0, 0] * values[i]
 
 
-@compilable()
-def add_elements(
-    node: Integer, total: Real, law: Integer, values: Real, state: Real, linear: Real, whole: Real
-) -> None:
-    """Fill in stiffness, damping and inertance (3,) of a strut without series, the linear part included."""
-    whole[:] = linear
-    for i in range(total.size):
-        kind = node[i, KIND]
-        if kind == LAW:
-            which = node[i, LAW_OF]
-            whole[1 if law[which, OF_RATE] else 0] += total[i] * state[which, SLOPE]
-        elif kind <= INERTER:
-            whole[kind] += total[i] * values[node[i, COEFFICIENT]]  # SPRING, DAMPER, INERTER are 0, 1, 2
+@compilable(error_model="numpy")
+def fill_next(port: OnePort, room: Room) -> None:
+    """Fill in the deviations that result for every law, by the closed loop."""
+    networks, share, state = port.networks, room.share, room.state
+    for i in range(state.shape[0]):
+        share[:] = networks.square[i]
+        if networks.law[i, IN_SERIES]:
+            fill_share(networks, port.omega, i, room.direct, room.rows, share)
+        state[i, NEXT] = np.sqrt(weighted(room.gain, port.excitation, networks.law[i, OF_RATE], share))
 
 
-@compilable(fastmath={"contract", "nsz"})
-def fill_powers(linear: Real, omega: Real, root: Integer, rows: Real, powers: Real) -> None:
-    """Fill in Re D, Im D and |D|^2 (rows 1 to 3) of linear elements (3,) and of networks by their last nodes."""
-    fill_element(linear[0], linear[1], linear[2], 0.0, omega, powers[1:3])
-    re, im, square = powers[1], powers[2], powers[3]
-    for last in root:
-        real, imaginary = rows[last, 0], rows[last, 1]
-        for i in range(re.size):
-            re[i] += real[i]
-            im[i] += imaginary[i]
-    for i in range(re.size):
-        square[i] = re[i] * re[i] + im[i] * im[i]
+@compilable(error_model="numpy")
+def fill_next_by_port(port: OnePort, direct: Real, state: Real) -> None:
+    """Fill in the deviations that result for every law of a network without series."""
+    networks = port.networks
+    deflection, rate = port_squares(port.denominator, port.omega, port.excitation, direct, networks.root[0])
+    for i in range(state.shape[0]):
+        seen = rate if networks.law[i, OF_RATE] else deflection
+        state[i, NEXT] = np.sqrt(networks.square[i] * seen)
+
+
+@compilable(fastmath={"reassoc", "contract", "nsz"}, error_model="numpy")
+def port_squares(denominator: Real, omega: Real, excitation: Real, direct: Real, last: int) -> tuple[float, float]:
+    """Return the mean squares of deflection and rate of a port on direct elements."""
+    k, c, b, h = direct[last, 0], direct[last, 1], direct[last, 2], direct[last, 3]
+    deflection, rate, half = 0.0, 0.0, omega.size // 2
+    for i in range(half):  # one division for two frequencies, as in `OneStrut`
+        j = half + i
+        w, v = omega[i], omega[j]
+        one = squared_loop(denominator, k - b * (w * w), h + c * w, i)
+        other = squared_loop(denominator, k - b * (v * v), h + c * v, j)
+        inverse = 1.0 / (one * other)
+        deflection += inverse * (other * excitation[0, i] + one * excitation[0, j])
+        rate += inverse * (other * excitation[1, i] + one * excitation[1, j])
+    for i in range(2 * half, omega.size):
+        one = squared_loop(denominator, k - b * (omega[i] * omega[i]), h + c * omega[i], i)
+        deflection, rate = deflection + excitation[0, i] / one, rate + excitation[1, i] / one
+    return deflection, rate
 
 
 @compiled(inline="always")
@@ -193,39 +199,38 @@ def squared_loop(denominator: Real, re: float, im: float, i: int) -> float:
     return lines + denominator[3, i] * (re * re + im * im)
 
 
-@compilable(fastmath={"contract", "nsz"}, error_model="numpy")
-def fill_gain_of_elements(denominator: Real, omega: Real, whole: Real, gain: Real) -> None:
-    """Fill in |1 + c D|^-2 of stiffness, damping and inertance (3,)."""
-    k, c, b = whole[0], whole[1], whole[2]
-    half = gain.size // 2
-    for i in range(half):  # one division for two frequencies, as in `OneStrut`
-        w, v = omega[i], omega[half + i]
-        one = squared_loop(denominator, k - b * (w * w), c * w, i)
-        other = squared_loop(denominator, k - b * (v * v), c * v, half + i)
-        inverse = 1.0 / (one * other)
-        gain[i], gain[half + i] = inverse * other, inverse * one
-    if 2 * half < gain.size:
-        w = omega[2 * half]
-        gain[2 * half] = 1.0 / squared_loop(denominator, k - b * (w * w), c * w, 2 * half)
+@compilable(error_model="numpy")
+def close(port: OnePort, room: Room) -> None:
+    """Fill in the gains of the loop with the last node of the network."""
+    last = port.networks.root[0]
+    fill_gain(port.denominator, port.omega, room.direct, last, room.rows, port.networks.row[last], room.gain)
 
 
 @compilable(fastmath={"contract", "nsz"}, error_model="numpy")
-def fill_gain(denominator: Real, powers: Real, gain: Real) -> None:
-    """Fill in |1 + c D|^-2 by Re D and Im D."""
-    re, im, half = powers[1], powers[2], gain.size // 2
-    for i in range(half):
-        one = squared_loop(denominator, re[i], im[i], i)
-        other = squared_loop(denominator, re[half + i], im[half + i], half + i)
-        inverse = 1.0 / (one * other)
-        gain[i], gain[half + i] = inverse * other, inverse * one
-    if 2 * half < gain.size:
-        gain[2 * half] = 1.0 / squared_loop(denominator, re[2 * half], im[2 * half], 2 * half)
+def fill_gain(denominator: Real, omega: Real, direct: Real, last: int, rows: Real, r: int, gain: Real) -> None:
+    """Fill in |1 + c D|^-2 times 1, Re D, Im D and |D|^2 (4, n)."""
+    k, c, b, h = direct[last, 0], direct[last, 1], direct[last, 2], direct[last, 3]
+    for i in range(omega.size):
+        w = omega[i]
+        re, im = k - b * (w * w) + rows[r, 0, i], h + c * w + rows[r, 1, i]
+        one = 1.0 / squared_loop(denominator, re, im, i)
+        gain[0, i], gain[1, i], gain[2, i], gain[3, i] = one, one * re, one * im, one * (re * re + im * im)
 
 
 @compilable(fastmath={"reassoc", "contract", "nsz"})
-def weighted(gain: Real, density: Real, power: Real) -> float:
-    """Return the sum of the products of three rows (n,)."""
+def weighted(gain: Real, excitation: Real, of_rate: int, share: Real) -> float:
+    """Return the mean square of the port's deflection or rate, times a share (n,)."""
     total = 0.0
-    for i in range(gain.size):
-        total += gain[i] * density[i] * power[i]
+    for i in range(share.size):
+        total += gain[0, i] * excitation[of_rate, i] * share[i]
     return total
+
+
+@compilable(fastmath={"reassoc", "contract", "nsz"})
+def add_terms(numerators: Real, term: Integer, power: Integer, gain: Real, p: int, result: Real) -> None:
+    """Add the integrals of the numerators (r, n) to the terms of a design (p, k)."""
+    for q in range(power.size):
+        total = 0.0
+        for i in range(gain.shape[1]):
+            total += gain[power[q], i] * numerators[q, i]
+        result[p, term[q]] += total

@@ -7,16 +7,16 @@ import control
 import numpy as np
 from scipy.linalg import block_diag
 
-from ..quantities import Bool, Complex, Real
+from ..quantities import Bool, Complex, Integer, Real
 from ..vehicles.assembly import GRAVITY, Network, ResponseName
-from ..vehicles.networks import DAMPER, INERTER, LAW, PARALLEL, SERIES, SPRING, Program, elements_of
+from ..vehicles.networks import LAW, MEASURED, PARALLEL, SERIES, Program, elements_of
 from ..vehicles.struts import MeasuredStiffness
 from ..vehicles.vehicle import AssembledVehicle, Vehicle
 from .any_struts import AnyStruts
 from .blocks import Pairs, Variables, in_blocks
 from .load_case import LoadCase
 from .mean_position import STIFFNESS, fill_static
-from .network_rows import STATES, Networks, fill_rows
+from .network_rows import DIRECT, STATES, Networks, fill_direct, fill_rows, stiffness_at
 from .ports import Ports
 from .working_point import begin, linearise
 
@@ -52,17 +52,16 @@ def any_struts(
 
 
 def _nominal(networks: Networks, omega: Real) -> tuple[Real, Real]:
-    """Return gains (3, q, q), and dynamic stiffness (t, 2, n), of nominal struts in place of the networks."""
-    law, values = networks.law, networks.setting
+    """Return gains (3, q, q), and stiffness and damping (t, 2), of nominal struts in place of the networks."""
     state, nodes = nominal_state(networks)
-    rows = np.empty((networks.ratio.size, 2, omega.size))
-    fill_rows(networks.node, networks.ratio, law, networks.measured, omega, values, state, rows)
-    middle = int(np.abs(omega - 2 * np.pi * _MIDDLE).argmin())
-    damping = rows[networks.root, 1, middle] / omega[middle]
-    stiffness = nodes[networks.root, STIFFNESS]
-    gains = np.array([np.diag(one @ networks.ports) for one in (stiffness, damping, np.zeros(damping.size))])
-    nominal = np.empty((damping.size, 2, omega.size))
-    nominal[:, 0], nominal[:, 1] = stiffness[:, None], damping[:, None] * omega
+    middle = np.abs(omega - 2 * np.pi * _MIDDLE).argmin(keepdims=True)
+    at_middle = networks._replace(measured=networks.measured[:, :, middle])
+    direct, rows = np.empty((networks.row.size, DIRECT)), np.zeros((1 + networks.row.max(), 2, 1))
+    fill_direct(networks, networks.setting, state, direct)
+    fill_rows(at_middle, omega[middle], networks.setting, direct, rows)
+    loss = [stiffness_at(direct, root, omega[middle[0]], rows[networks.row[root]], 0)[1] for root in networks.root]
+    nominal = np.column_stack([nodes[networks.root, STIFFNESS], np.array(loss) / omega[middle]])
+    gains = np.array([np.diag(one @ networks.ports) for one in (*nominal.T, np.zeros(len(nominal)))])
     return gains, nominal
 
 
@@ -94,8 +93,7 @@ def networks_of(
     found = Networks(
         node=np.column_stack([program.kind, program.parts, program.coefficient, program.law]),
         ratio=program.ratio,
-        total=_totals(program),
-        plain=bool(np.isin(program.kind, (SPRING, DAMPER, INERTER, LAW, PARALLEL)).all()),
+        row=_rows(program),
         root=program.root,
         measured=_measured(placed, f),
         laws=program.laws,
@@ -137,7 +135,7 @@ def nominal_state(networks: Networks) -> tuple[Real, Real]:
     laws, values = networks.laws, networks.setting
     curve, state = np.empty(laws.number.shape[:3]), np.zeros((len(laws.most), STATES))
     nodes = np.empty((networks.ratio.size, 3))
-    begin(networks.law, laws.number, laws.by, values, curve, state)
+    begin(networks.law, laws, values, curve, state)
     linearise(networks.law, laws.most, curve, values, state)
     fill_static(networks, values, state, nodes)
     return state, nodes
@@ -176,6 +174,14 @@ def _in_series(program: Program) -> Bool:
     """Return whether each law (l,) is part of a series."""
     series = [any(program.kind[above] == SERIES for above in _chain(program, i)) for i in range(len(program.kind))]
     return np.array(series, dtype=bool)[program.law >= 0]
+
+
+def _rows(program: Program) -> Integer:
+    """Return the row (m,) of each node: of its own for parts in series or by a table, 0 without any."""
+    own = np.isin(program.kind, (MEASURED, SERIES))
+    for i in np.flatnonzero(program.kind == PARALLEL):
+        own[i] = own[program.parts[i]].any()
+    return np.where(own, np.cumsum(own), 0)
 
 
 def _totals(program: Program) -> Real:

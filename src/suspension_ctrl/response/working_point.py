@@ -5,9 +5,9 @@ from typing import NamedTuple
 
 from ..compiled import compilable
 from ..quantities import Integer, Real
-from ..vehicles.networks import fill_curve
+from ..vehicles.networks import Laws, fill_curve
 from .gaussian import of_lines, of_power
-from .network_rows import BEFORE, CHANGE, DEVIATION, FORCE, MEAN, NETWORK, NEXT, OF_RATE, POWER, SLOPE, STEP
+from .network_rows import BEFORE, CHANGE, DEVIATION, FORCE, MEAN, NETWORK, NEXT, OF_RATE, POWER, SLOPE, STEP, Networks
 
 MOST = 400
 """Iterations after which the working point counts as not reached."""
@@ -27,19 +27,30 @@ class Points(NamedTuple):
 
 
 @compilable(error_model="numpy")
-def begin(law: Integer, number: Real, by: Integer, values: Real, curve: Real, state: Real) -> None:
+def begin(law: Integer, laws: Laws, values: Real, curve: Real, state: Real) -> None:
     """Fill in the curves (l, 3, k + 1) at these coefficients and the first state (l, 8)."""
     for i in range(law.shape[0]):
-        fill_curve(number[i], by[i], values, curve[i])
+        fill_curve(laws, i, values, curve[i])
         state[i, DEVIATION] = _FIRST_RATE if law[i, OF_RATE] else _FIRST_DEFLECTION
         state[i, MEAN] = 0.0
 
 
 @compilable()
-def fill_values(variable: Integer, design: Real, values: Real) -> None:
-    """Put a design (v,) into the coefficients (c,)."""
+def fill_values(variable: Integer, designs: Real, p: int, values: Real) -> None:
+    """Put one of the designs (p, v) into the coefficients (c,)."""
     for v in range(variable.size):
-        values[variable[v]] = design[v]
+        values[variable[v]] = designs[p, v]
+
+
+@compilable()
+def fill_damping(networks: Networks, values: Real, damping: Real) -> None:
+    """Fill in the damping (t,) of linear dampers in parallel with each network."""
+    gains, order, port = networks.gain, networks.order, networks.port
+    for t in range(port.size):
+        damping[t] = 0.0
+        for c in range(order.size):
+            if order[c] == 1:
+                damping[t] += gains[c, port[t], port[t]] * values[c]
 
 
 @compilable()
@@ -62,7 +73,7 @@ def linearise(law: Integer, count: Integer, curve: Real, values: Real, state: Re
     """Fill in force, slope and change of every law, with `count` (l,) knots, at its deviation and mean."""
     for i in range(count.size):
         mean, s = state[i, MEAN], state[i, DEVIATION]
-        force, slope, change = of_lines(curve[i], count[i], mean, s)
+        force, slope, change = of_lines(curve, i, count[i], mean, s)
         if law[i, POWER] >= 0:
             own = of_power(values[law[i, POWER]], values[law[i, POWER + 1]], s)
             slope, change = slope + own[0], change + own[1]

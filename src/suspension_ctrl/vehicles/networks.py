@@ -175,12 +175,13 @@ def _laws_of(curves: Sequence[tuple[Curve, list[int]]], laws: Sequence[ForceLaw]
 
 
 @compilable()
-def fill_curve(number: Real, by: Integer, values: Real, curve: Real) -> None:
-    """Fill in knots, slopes and jumps (3, k + 1) of a law by its numbers and these coefficients."""
+def fill_curve(laws: Laws, law: int, values: Real, curve: Real) -> None:
+    """Fill in knots, slopes and jumps (3, k + 1) of a law at these coefficients."""
+    number, by = laws.number, laws.by
     for part in range(3):
         for i in range(curve.shape[1]):
-            factor = number[part, i, 1]
+            factor = number[law, part, i, 1]
             for j in range(2):
-                if by[part, i, j] >= 0:
-                    factor *= values[by[part, i, j]]
-            curve[part, i] = number[part, i, 0] + factor
+                if by[law, part, i, j] >= 0:
+                    factor *= values[by[law, part, i, j]]
+            curve[part, i] = number[law, part, i, 0] + factor

@@ -14,7 +14,7 @@ CREEP = 1e-3
 def fill_law(laws: Laws, law: int, values: Real, knot: Real, slope: Real, base: Real, power: Real) -> int:
     """Fill in knots, slopes, forces at 0 (2k + 3,) and power (2,) of a curve without jumps; return the knots."""
     curve, count = np.empty(laws.number.shape[1:3]), 0
-    fill_curve(laws.number[law], laws.by[law], values, curve)
+    fill_curve(laws, law, values, curve)
     at, rise, jump = curve[0], curve[1], curve[2]
     slope[0] = rise[0]
     for i in range(laws.most[law]):
