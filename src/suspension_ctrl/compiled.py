@@ -41,6 +41,15 @@ def compilable(**options: Any) -> Callable[[F], F]:
     return decorator
 
 
+def uncounted(**options: Any) -> Callable[[F], F]:
+    """Let compiled functions call a function that makes no array, without counts of references to arrays.
+
+    Numba counts them atomically for every part of an array and every tuple of arrays that is passed on, which takes
+    longer than the arithmetic of a design. Functions called from here go without counts too.
+    """
+    return compilable(_nrt=False, **options)
+
+
 def call(verb: Any, arguments: tuple[Any, ...]) -> Any:
     """Call a verb, in compiled code as in Python."""
     return verb(*arguments)

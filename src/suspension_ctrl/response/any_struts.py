@@ -51,7 +51,8 @@ def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
     values, omega, n, m = networks.setting.copy(), struts.omega, struts.omega.size, networks.row.size
     direct, rows, share = np.empty((m, DIRECT)), np.zeros((1 + networks.row.max(), 2, n)), np.empty(n)
     curve, state, nodes = np.empty(number.shape[:3]), np.empty((count.size, STATES)), np.empty((m, 3))
-    position, damping = np.zeros(networks.sag.size), np.empty(networks.root.size)
+    q = networks.sag.size
+    position, work, damping = np.zeros(q), np.empty((3, q, q)), np.empty(networks.root.size)
     entries = (struts.sizes[:, 0] * (2 * struts.sizes[:, 0] + struts.sizes[:, 1])).sum()
     room = np.empty((entries, 2, n))
     anywhere = points.iterations.size > 0 or (law[:, OF_RATE] == 0).any()
@@ -63,7 +64,7 @@ def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
         reached, iteration = False, 0
         while not reached and iteration < MOST:
             if anywhere:
-                balance(networks, curve, values, state, nodes, position)
+                balance(networks, curve, values, state, nodes, position, work)
             else:
                 linearise(law, count, curve, values, state)
             fill_direct(networks, values, state, direct)

@@ -17,23 +17,30 @@ _ODD = 1e-6  # N, mean force up to which a law is odd
 
 
 @compilable(error_model="numpy")
-def balance(networks: Networks, curve: Real, values: Real, state: Real, nodes: Real, position: Real) -> None:
-    """Linearise the laws at the means of static equilibrium, by Newton's steps at these deviations."""
+def balance(
+    networks: Networks, curve: Real, values: Real, state: Real, nodes: Real, position: Real, work: Real
+) -> None:
+    """Linearise the laws at the means of static equilibrium, by Newton's steps at these deviations.
+
+    Works in the state (m, 3) of nodes at 0 Hz and in equations (3, q, q).
+    """
     for step in range(_MOST):
         linearise(networks.law, networks.laws.most, curve, values, state)
-        error = place(networks, values, state, nodes, position, 1.0 if step < _QUICK else 0.3)
+        error = place(networks, values, state, nodes, position, work, 1.0 if step < _QUICK else 0.3)
         if not error >= _NEAR:  # or NaN
             break
 
 
 @compilable(error_model="numpy")
-def place(networks: Networks, values: Real, state: Real, nodes: Real, position: Real, share: float) -> float:
+def place(
+    networks: Networks, values: Real, state: Real, nodes: Real, position: Real, work: Real, share: float
+) -> float:
     """Fill in mean deflections of ports (q,); return the largest change of a law's by its deviation.
 
-    A law takes a share of its change. Works in the state (m, 3) of nodes at 0 Hz.
+    A law takes a share of its change.
     """
     fill_static(networks, values, state, nodes)
-    fill_positions(networks, values, nodes, position)
+    fill_positions(networks, values, nodes, position, work)
     node, ratio, law, error = networks.node, networks.ratio, networks.law, 0.0
     for t in range(networks.root.size):
         nodes[networks.root[t], POSITION] = position[networks.port[t]]
@@ -91,13 +98,17 @@ def fill_static(networks: Networks, values: Real, state: Real, nodes: Real) -> N
 
 
 @compilable(error_model="numpy")
-def fill_positions(networks: Networks, values: Real, nodes: Real, d: Real) -> None:
+def fill_positions(networks: Networks, values: Real, nodes: Real, d: Real, work: Real) -> None:
     """Fill in the mean deflections: d = sag + C (F(d) - K0 d), with forces straight about the last point.
 
     The equations (1 - C (K - K0)) d = sag + C F(0) are near the identity and need no pivoting.
     """
     q, c = networks.sag.size, networks.compliance
-    change, force, matrix = -networks.nominal, np.zeros(q), np.eye(q)
+    change, matrix, force = work[0], work[1], work[2, 0]
+    for i in range(q):
+        force[i] = 0.0
+        for j in range(q):
+            change[i, j], matrix[i, j] = -networks.nominal[i, j], 1.0 if i == j else 0.0
     for i in range(values.size):
         if networks.order[i] == 0:
             for j in range(q):

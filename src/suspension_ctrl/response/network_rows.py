@@ -48,7 +48,7 @@ class Networks(NamedTuple):
     sag: Real  # (q,), deflections by payload on nominal struts [m]
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def fill_direct(networks: Networks, values: Real, state: Real, direct: Real) -> None:
     """Fill in the direct elements (m, 4) of every node, as its deflection is at the node above it."""
     node, ratio, law = networks.node, networks.ratio, networks.law
@@ -68,7 +68,7 @@ def fill_direct(networks: Networks, values: Real, state: Real, direct: Real) -> 
             direct[i, kind] = square * values[node[i, COEFFICIENT]]
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def fill_rows(networks: Networks, omega: Real, values: Real, direct: Real, rows: Real) -> None:
     """Fill in the rows (1 + x, 2, n) of all nodes by their direct elements; the first is 0."""
     node, ratio, row, measured = networks.node, networks.ratio, networks.row, networks.measured

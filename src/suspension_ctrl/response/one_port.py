@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compilable, compiled
+from ..compiled import compilable, compiled, uncounted
 from ..quantities import Complex, Integer, Real
 from .mean_position import balance
 from .network_rows import (
@@ -83,6 +83,7 @@ class Room(NamedTuple):
     state: Real  # (l, 8), of every law
     nodes: Real  # (m, 3), at 0 Hz
     position: Real  # (1,), mean deflection of the port
+    work: Real  # (3, 1, 1), equations of the position
     damping: Real  # (1,), of dampers beside the network
     direct: Real  # (m, 4), direct elements of every node
     rows: Real  # (1 + x, 2, n), of nodes with parts in series
@@ -96,8 +97,9 @@ def room_for(networks: Networks, n: int) -> Room:
     laws, nodes, number = networks.law.shape[0], networks.row.size, networks.laws.number
     curve, state = np.empty((laws, 3, number.shape[2])), np.empty((laws, STATES))
     rows, gain = np.zeros((1 + networks.row.max(), 2, n)), np.empty((4, n))
-    values, direct, position, damping = networks.setting.copy(), np.empty((nodes, DIRECT)), np.zeros(1), np.empty(1)
-    return Room(values, curve, state, np.empty((nodes, 3)), position, damping, direct, rows, gain, np.empty(n))
+    values, statics, direct = networks.setting.copy(), np.empty((nodes, 3)), np.empty((nodes, DIRECT))
+    position, work, damping = np.zeros(1), np.empty((3, 1, 1)), np.empty(1)
+    return Room(values, curve, state, statics, position, work, damping, direct, rows, gain, np.empty(n))
 
 
 @compilable(error_model="numpy")
@@ -107,16 +109,24 @@ def solve(port: OnePort, designs: Real, points: Points) -> Real:
     statics = points.iterations.size > 0 or (networks.law[:, OF_RATE] == 0).any()
     result = np.empty((designs.shape[0], port.terms))
     for p in range(designs.shape[0]):
-        fill_values(networks.variable, designs, p, room.values)
-        iterations = settle(port, room, statics)
-        keep(points, p, room.state, room.position, iterations)
-        for term in range(port.terms):
-            result[p, term] = 0.0 if iterations > 0 else np.nan
-        add_terms(port.numerators, port.term, port.power, room.gain, p, result)
+        fill_row(port, room, designs, p, statics, points, result)
     return result
 
 
-@compilable(error_model="numpy")
+@uncounted(error_model="numpy", forceinline=True)
+def fill_row(
+    port: OnePort, room: Room, designs: Real, p: int, statics: bool, points: Points, result: Real
+) -> None:
+    """Fill in the mean squares of one of the designs."""
+    fill_values(port.networks.variable, designs, p, room.values)
+    iterations = settle(port, room, statics)
+    keep(points, p, room.state, room.position, iterations)
+    for term in range(port.terms):
+        result[p, term] = 0.0 if iterations > 0 else np.nan
+    add_terms(port.numerators, port.term, port.power, room.gain, p, result)
+
+
+@compilable(error_model="numpy", forceinline=True)
 def settle(port: OnePort, room: Room, statics: bool) -> int:
     """Close the loop at the working point of a design; return the iterations, -1 if it is not reached."""
     networks, law, curve, values, state = port.networks, port.networks.law, room.curve, room.values, room.state
@@ -126,7 +136,7 @@ def settle(port: OnePort, room: Room, statics: bool) -> int:
     guess(port.guess, law, count, square, curve, values, room.damping[0], state)
     for iteration in range(MOST):
         if statics:
-            balance(networks, curve, values, state, room.nodes, room.position)
+            balance(networks, curve, values, state, room.nodes, room.position, room.work)
         else:
             linearise(law, count, curve, values, state)
         fill_direct(networks, values, state, direct)
@@ -144,7 +154,7 @@ def settle(port: OnePort, room: Room, statics: bool) -> int:
     return -1
 
 
-@compilable()
+@compilable(forceinline=True)
 def add_beside(networks: Networks, values: Real, direct: Real) -> None:
     """Add the springs, dampers and inerters beside the network to its direct elements."""
     last, gain, order = networks.root[0], networks.gain, networks.order
@@ -152,7 +162,7 @@ def add_beside(networks: Networks, values: Real, direct: Real) -> None:
         direct[last, order[i]] += gain[i, 0, 0] * values[i]
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def fill_next(port: OnePort, room: Room) -> None:
     """Fill in the deviations that result for every law, by the closed loop."""
     networks, share, state = port.networks, room.share, room.state
@@ -163,7 +173,7 @@ def fill_next(port: OnePort, room: Room) -> None:
         state[i, NEXT] = np.sqrt(weighted(room.gain, port.excitation, networks.law[i, OF_RATE], share))
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def fill_next_by_port(port: OnePort, direct: Real, state: Real) -> None:
     """Fill in the deviations that result for every law of a network without series."""
     networks = port.networks
@@ -199,7 +209,7 @@ def squared_loop(denominator: Real, re: float, im: float, i: int) -> float:
     return lines + denominator[3, i] * (re * re + im * im)
 
 
-@compilable(error_model="numpy")
+@compilable(error_model="numpy", forceinline=True)
 def close(port: OnePort, room: Room) -> None:
     """Fill in the gains of the loop with the last node of the network."""
     last = port.networks.root[0]

@@ -7,7 +7,21 @@ from ..compiled import compilable
 from ..quantities import Integer, Real
 from ..vehicles.networks import Laws, fill_curve
 from .gaussian import of_lines, of_power
-from .network_rows import BEFORE, CHANGE, DEVIATION, FORCE, MEAN, NETWORK, NEXT, OF_RATE, POWER, SLOPE, STEP, Networks
+from .network_rows import (
+    BEFORE,
+    CHANGE,
+    DEVIATION,
+    FORCE,
+    MEAN,
+    NETWORK,
+    NEXT,
+    OF_RATE,
+    POWER,
+    SLOPE,
+    STATES,
+    STEP,
+    Networks,
+)
 
 MOST = 400
 """Iterations after which the working point counts as not reached."""
@@ -65,7 +79,12 @@ def relaxation(iteration: int) -> float:
 def keep(points: Points, p: int, state: Real, position: Real, iterations: int) -> None:
     """Keep the working point of a design if there is room."""
     if points.iterations.size > 0:
-        points.state[p], points.position[p], points.iterations[p] = state, position, iterations
+        points.iterations[p] = iterations
+        for i in range(position.size):
+            points.position[p, i] = position[i]
+        for i in range(state.shape[0]):
+            for j in range(STATES):
+                points.state[p, i, j] = state[i, j]
 
 
 @compilable(error_model="numpy")
