@@ -44,8 +44,8 @@ def compilable(**options: Any) -> Callable[[F], F]:
 def uncounted(**options: Any) -> Callable[[F], F]:
     """Let compiled functions call a function that makes no array, without counts of references to arrays.
 
-    Numba counts them atomically for every part of an array and every tuple of arrays that is passed on, which takes
-    longer than the arithmetic of a design. Functions called from here go without counts too.
+    Numba counts them atomically for every part of an array and every tuple of arrays that is passed on: this takes
+    longer than the arithmetic of a design. Functions that are called in turn have no counts either.
     """
     return compilable(_nrt=False, **options)
 

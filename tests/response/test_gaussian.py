@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.stats import norm
 
-from suspension_ctrl.response.gaussian import of_lines, of_power
+from suspension_ctrl.response.gaussian import normal, of_lines, of_power
 
 
 def curve_of(knots, slopes, jumps):
@@ -27,6 +27,17 @@ def force(x, knots, slopes, jumps):
     for knot, jump in zip(knots, jumps, strict=True):
         total += jump * (np.heaviside(x - knot, 0.5) - np.heaviside(-knot, 0.5))
     return total
+
+
+def test_the_normal_distribution_is_that_of_scipy():
+    """Absolute errors of two roundings; in the tail the terms of Taylor's series are larger than their sum."""
+    z = np.linspace(-10.0, 10.0, 4001)
+    above, density = np.transpose([normal(one) for one in z])
+    np.testing.assert_allclose(above, norm.sf(z), rtol=0, atol=4e-16)
+    np.testing.assert_allclose(density, norm.pdf(z), rtol=0, atol=4e-16)
+    tail = (z > 0) & (z < 8.9)
+    np.testing.assert_allclose(above[tail], norm.sf(z[tail]), rtol=1e-12)
+    assert np.isnan(normal(np.nan)[0])
 
 
 @settings(max_examples=60, deadline=None)

@@ -4,7 +4,15 @@ import numpy as np
 import pytest
 
 import suspension_ctrl as sc
-from suspension_ctrl.response.network_rows import DEVIATION, SLOPE, fill_rows, fill_share
+from suspension_ctrl.response.network_rows import (
+    DEVIATION,
+    DIRECT,
+    SLOPE,
+    fill_direct,
+    fill_rows,
+    fill_share,
+    stiffness_at,
+)
 from suspension_ctrl.response.strut_data import networks_of, nominal_state
 
 F = np.array([0.3, 1.0, 4.0, 11.0, 19.0])
@@ -23,16 +31,16 @@ ELEMENTS = {
 
 
 def rows_of(strut):
-    """Networks of a quarter car on a spring beside the strut, their rows at F and the state of laws."""
+    """Networks of a quarter car on a spring beside the strut: direct elements, rows at F, state of laws."""
     car = sc.QuarterCar(
         body_mass=300.0, wheel_mass=30.0, tyre_stiffness=2e5, strut=sc.parallel(sc.Spring("k", 2e4), strut)
     )
     networks = networks_of(car, car.coefficients({}), [], F, True)
     state, _ = nominal_state(networks)
-    rows = np.empty((networks.ratio.size, 2, F.size))
-    args = networks.node, networks.ratio, networks.law, networks.measured, 2 * np.pi * F, networks.setting
-    fill_rows(*args, state, rows)
-    return networks, rows, state
+    direct, rows = np.empty((networks.row.size, DIRECT)), np.zeros((1 + networks.row.max(), 2, F.size))
+    fill_direct(networks, networks.setting, state, direct)
+    fill_rows(networks, 2 * np.pi * F, networks.setting, direct, rows)
+    return networks, direct, rows, state
 
 
 @pytest.mark.parametrize("one", ELEMENTS)
@@ -42,21 +50,22 @@ def test_two_elements(one, other, join):
     if one == other:
         return
     (a, x), (b, y) = ELEMENTS[one], ELEMENTS[other]
-    networks, rows, state = rows_of(join(a, b, installation_ratio=0.7))
+    networks, direct, rows, state = rows_of(join(a, b, installation_ratio=0.7))
     if x is None:
         assert state[0, SLOPE] == pytest.approx(np.sqrt(2 / np.pi) * 50.0 / state[0, DEVIATION])
         x = state[0, SLOPE] * S
     expected = 0.49 * (x + y if join is sc.parallel else x * y / (x + y))
-    found = rows[networks.root[0]]
-    np.testing.assert_allclose(found[0] + 1j * found[1], expected, rtol=1e-12)
+    root = networks.root[0]
+    re, im = stiffness_at(direct, root, 2 * np.pi * F, rows[networks.row[root]], slice(None))
+    np.testing.assert_allclose(re + 1j * im, expected, rtol=1e-12)
 
 
 def test_the_share_of_a_law():
     """In series with a mount, beside a damper, behind two installation ratios."""
     law = sc.Friction("f", force=50.0, installation_ratio=0.9)
     inner = sc.parallel(law, sc.Damper("d", 300.0))
-    networks, rows, state = rows_of(sc.series(inner, sc.Spring("mount", 1e5), installation_ratio=0.7))
+    networks, direct, rows, state = rows_of(sc.series(inner, sc.Spring("mount", 1e5), installation_ratio=0.7))
     share = np.empty(F.size)
-    fill_share(networks.node, networks.ratio, 0, rows, share)
+    fill_share(networks, 2 * np.pi * F, 0, direct, rows, share)
     part = 0.81 * state[0, SLOPE] * S + 300.0 * S
     np.testing.assert_allclose(share, np.abs(0.7 * 0.9 * 1e5 / (1e5 + part)) ** 2, rtol=1e-12)

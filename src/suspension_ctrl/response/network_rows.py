@@ -1,7 +1,7 @@
 """Networks of struts at the quadrature nodes: dynamic stiffness, and the share of a force law in the deflection.
 
-The dynamic stiffness of a node is that of its `direct` elements, which are in parallel with it, plus a row (2, n) of
-real and imaginary parts at n frequencies: of its elements in series and of those known by a table.
+The dynamic stiffness of a node is that of its direct elements, which are in parallel with one another, plus a row
+(2, n) of real and imaginary parts at n frequencies: of its elements in series, and of those known by a table.
 """
 
 from typing import NamedTuple

@@ -19,7 +19,19 @@ from .network_rows import (
     fill_share,
 )
 from .ports import Ports
-from .working_point import MOST, NEAR, Points, begin, fill_damping, fill_values, guess, improve, keep, linearise
+from .working_point import (
+    MOST,
+    NEAR,
+    SOON,
+    Points,
+    begin,
+    fill_damping,
+    fill_values,
+    guess,
+    improve,
+    keep,
+    linearise,
+)
 
 _USUAL = 10.0  # damping by the root of the stiffness: damping ratios of some 0.3 of bodies of some 300 kg
 
@@ -113,6 +125,7 @@ def solve(port: OnePort, designs: Real, points: Points) -> Real:
     return result
 
 
+# Functions of a port and its room are inlined: the two are some three hundred words to pass on.
 @uncounted(error_model="numpy", forceinline=True)
 def fill_row(
     port: OnePort, room: Room, designs: Real, p: int, statics: bool, points: Points, result: Real
@@ -130,26 +143,27 @@ def fill_row(
 def settle(port: OnePort, room: Room, statics: bool) -> int:
     """Close the loop at the working point of a design; return the iterations, -1 if it is not reached."""
     networks, law, curve, values, state = port.networks, port.networks.law, room.curve, room.values, room.state
-    count, square, direct, plain = networks.laws.most, networks.square, room.direct, room.rows.shape[0] == 1
+    count, square, plain = networks.laws.most, networks.square, room.rows.shape[0] == 1
     fill_damping(networks, values, room.damping)
     begin(law, networks.laws, values, curve, state)
     guess(port.guess, law, count, square, curve, values, room.damping[0], state)
+    change = np.inf if count.size > 0 else 0.0
     for iteration in range(MOST):
         if statics:
             balance(networks, curve, values, state, room.nodes, room.position, room.work)
         else:
             linearise(law, count, curve, values, state)
-        fill_direct(networks, values, state, direct)
-        add_beside(networks, values, direct)
-        if not plain or count.size == 0:
-            fill_rows(networks, port.omega, values, direct, room.rows)
+        fill_direct(networks, values, state, room.direct)
+        add_beside(networks, values, room.direct)
+        last = not plain or change < SOON
+        if last:
+            fill_rows(networks, port.omega, values, room.direct, room.rows)
             close(port, room)
             fill_next(port, room)
         else:
-            fill_next_by_port(port, direct, state)
-        if improve(law, square, room.damping, state, iteration) < NEAR:
-            if plain and count.size > 0:
-                close(port, room)
+            fill_next_by_port(port, room.direct, state)
+        change = improve(law, square, room.damping, state, iteration)
+        if last and change < NEAR:
             return iteration + 1
     return -1
 

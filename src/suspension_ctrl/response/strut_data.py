@@ -54,13 +54,13 @@ def any_struts(
 def _nominal(networks: Networks, omega: Real) -> tuple[Real, Real]:
     """Return gains (3, q, q), and stiffness and damping (t, 2), of nominal struts in place of the networks."""
     state, nodes = nominal_state(networks)
-    middle = np.abs(omega - 2 * np.pi * _MIDDLE).argmin(keepdims=True)
-    at_middle = networks._replace(measured=networks.measured[:, :, middle])
+    middle = int(np.abs(omega - 2 * np.pi * _MIDDLE).argmin())
+    w, measured = omega[middle : middle + 1], networks.measured[:, :, middle : middle + 1]
     direct, rows = np.empty((networks.row.size, DIRECT)), np.zeros((1 + networks.row.max(), 2, 1))
     fill_direct(networks, networks.setting, state, direct)
-    fill_rows(at_middle, omega[middle], networks.setting, direct, rows)
-    loss = [stiffness_at(direct, root, omega[middle[0]], rows[networks.row[root]], 0)[1] for root in networks.root]
-    nominal = np.column_stack([nodes[networks.root, STIFFNESS], np.array(loss) / omega[middle]])
+    fill_rows(networks._replace(measured=measured), w, networks.setting, direct, rows)
+    loss = [stiffness_at(direct, root, w[0], rows[networks.row[root]], 0)[1] for root in networks.root]
+    nominal = np.column_stack([nodes[networks.root, STIFFNESS], np.array(loss) / w])
     gains = np.array([np.diag(one @ networks.ports) for one in (*nominal.T, np.zeros(len(nominal)))])
     return gains, nominal
 

@@ -27,6 +27,8 @@ MOST = 400
 """Iterations after which the working point counts as not reached."""
 NEAR = 1e-8
 """Relative change of every deviation, and of every mean by it, in the last iteration; the error is far smaller."""
+SOON = 1e-4
+"""Change after which the next iteration is likely to be the last."""
 _FIRST_RATE, _FIRST_DEFLECTION = 0.2, 0.01  # m/s and m, standard deviations to begin with
 _LARGEST = 2.0  # change of ln s in an iteration
 _QUICK = 15  # iterations before steps become shorter
@@ -112,7 +114,7 @@ def guess(
 ) -> None:
     """Take first deviations by those `known` (3,) at another damping: white road velocity keeps s^2 c."""
     x = 0.0
-    for _ in range(3):
+    for _ in range(2):
         for i in range(count.size):
             state[i, DEVIATION] = known[law[i, OF_RATE]] * sqrt(square[i]) * exp(x)
         linearise(law, count, curve, values, state)
