@@ -218,7 +218,7 @@ def _integrated(
         passage = Passage.over_event(profile, contacts, rows)
     else:
         passage = Passage.over_profile(profile, contacts, rows, periodic)
-    found = responses_in_time(motion, passage.course, start, passage.periodic)
+    found = responses_in_time(motion, passage.course, passage.time, start, passage.periodic)
     for column in np.flatnonzero(jerks).tolist():
         found[:, column] = np.gradient(found[:, column], passage.time)
     return _table(profile, names, passage.time, passage.distance, found)

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 import suspension_ctrl as sc
 from suspension_ctrl.response.lift_off import LiftOffWarning
-from suspension_ctrl.response.motion.integrator import solve
+from suspension_ctrl.response.motion.equilibrium import solve
 
 M_B, M_W, K_T, K, SPEED = 250.0, 20.0, 140e3, 20e3, 10.0
 STANDS = (M_B + M_W) * 9.80665  # N

@@ -8,13 +8,12 @@ from ...quantities import Integer, Real
 from ...roads.events import Event
 from ...roads.obstacles import Obstacle
 from ...roads.profiles import Profile
-from .integrator import Course
+from .system import Course
 
 _SAME_TRACK = 1e-3  # m
 
-_SAME = 1e-9
-"""Times so close to each other, as a share of the time between two rows, are one knot."""
-_PIECES = 16  # of the course in the shortest wave of an event, at least
+_SAME = 1e-12  # of the whole time: times so close to each other are one knot
+_PIECES = 64  # of the course in the shortest wave of an event, at least
 _ROWS, _FINE = 100, 1e-3  # rows in its shortest wave, and their distance [s], at most
 _BEYOND = 5.0  # s, driven after an event
 _APART = 5e-3  # s, longest distance of rows on a profile
@@ -25,11 +24,11 @@ _THROUGH = np.linalg.inv(np.vander(_THIRDS, increasing=True))
 
 
 class Passage(NamedTuple):
-    """A course with the times and places of its rows; a periodic one has a further row at its end."""
+    """A course with the times and places of its rows."""
 
     course: Course
-    time: Real  # (k,) [s]
-    distance: Real  # (k,), of the origin [m]
+    time: Real  # (m,) [s]
+    distance: Real  # (m,), of the origin [m]
     periodic: bool
 
     @classmethod
@@ -48,7 +47,7 @@ class Passage(NamedTuple):
             steps = int(length) * max(1, int(np.ceil(step / speed[0, 1] / _APART * (1 - 1e-9))))
         rows = duration / steps * np.arange(steps + 1, dtype=float)
         heights = profile.height[:, [track_of(profile, y) for y in contacts[:, 1].tolist()]]
-        course = _over_heights(heights, step, ahead, speed, rows, periodic)
+        course = _over_heights(heights, step, ahead, speed, duration, periodic)
         time = rows[:-1] if periodic else rows
         return cls(course, time, profile.distance[0] - start + distance_at(speed, time), periodic)
 
@@ -59,7 +58,7 @@ class Passage(NamedTuple):
         end = knots[-1] if event.steady else knots[-1] + _BEYOND
         rows = np.linspace(0.0, end, int(np.ceil(end / min(finest / _ROWS, _FINE))) + 1)
         time = rows[:-1] if event.steady else rows
-        course = _over_elevation(event, contacts, speed, rows)
+        course = course_over(event, contacts, speed, end)
         return cls(course, time, distance_at(speed, time) - contacts[:, 0].max(), event.steady)
 
 
@@ -70,24 +69,24 @@ def _knots(event: Event, contacts: Real, speed: Real) -> tuple[Real, float]:
     return event.knots(contacts, 0.0), event.finest(0.0)
 
 
-def _over_elevation(event: Event, contacts: Real, speed: Real, rows: Real) -> Course:
-    """Return the course over an event, cubics through four points each, with rows at even times (m,) [s]."""
+def course_over(event: Event, contacts: Real, speed: Real, end: float) -> Course:
+    """Return the course over an event until a time, cubics through four points each."""
     ends, finest = _knots(event, contacts, speed)
     fine = np.arange(0.0, ends[-1], finest / _PIECES)
-    knots = _distinct(np.concatenate([rows, ends, speed[:, 0], fine]), rows)
+    knots = _distinct(np.concatenate([ends, speed[:, 0], fine]), end)
     times = (knots[:-1, None] + np.diff(knots)[:, None] * _THIRDS).ravel()
     along = isinstance(event, Obstacle)  # at 1 m/s the time is the distance
     heights = event.elevation(distance_at(speed, times) if along else times, contacts, 1.0)
-    return _through(knots, heights.reshape(len(knots) - 1, 4, -1), _rows(knots, rows))
+    return _through(knots, heights.reshape(len(knots) - 1, 4, -1))
 
 
-def _over_heights(heights: Real, step: float, ahead: Real, speed: Real, rows: Real, periodic: bool) -> Course:
+def _over_heights(heights: Real, step: float, ahead: Real, speed: Real, end: float, periodic: bool) -> Course:
     """Return the course of wheels `ahead` (r,) [m] of the first point over heights (n, r), straight in between."""
-    times, reach = [rows, speed[:, 0]], float(distance_at(speed, rows[-1:])[0])
+    times, reach = [speed[:, 0]], float(distance_at(speed, np.array([end]))[0])
     for lead in np.unique(ahead).tolist():
         points = np.arange(np.ceil(lead / step), np.floor((lead + reach) / step) + 1) * step - lead
         times.append(time_at(speed, np.maximum(points, 0.0)))
-    knots, n = _distinct(np.concatenate(times), rows), len(heights)
+    knots, n = _distinct(np.concatenate(times), end), len(heights)
     pieces = np.zeros((len(knots) - 1, len(ahead), 4))
     first, middle = knots[:-1], (knots[1:] + knots[:-1]) / 2
     for wheel, lead in enumerate(ahead.tolist()):
@@ -97,41 +96,40 @@ def _over_heights(heights: Real, step: float, ahead: Real, speed: Real, rows: Re
         pieces[:, wheel, 0] = low + slope * (distance_at(speed, first) + lead - index * step)
         pieces[:, wheel, 1] = slope * np.interp(first, *speed.T)
         pieces[:, wheel, 2] = slope * _acceleration(speed)[_row_of(speed[:, 0], middle)] / 2
-    return Course(knots, pieces, _rows(knots, rows))
+    return Course(knots, pieces)
 
 
-def _through(knots: Real, heights: Real, row: Integer) -> Course:
+def _through(knots: Real, heights: Real) -> Course:
     """Return the cubics through heights (k, 4, r) at the thirds of each piece between knots (k + 1,)."""
     powers = np.diff(knots)[:, None] ** np.arange(4)
     pieces = np.einsum("pi,kir->krp", _THROUGH, heights) / powers[:, None, :]
-    return Course(knots, np.ascontiguousarray(pieces), row)
+    return Course(knots, np.ascontiguousarray(pieces))
 
 
-def road_at_rows(course: Course, periodic: bool = False) -> tuple[Real, Real]:
-    """Return elevation and rate of the road (m, r) at the rows, on a kink the mean rate of both sides."""
-    c, span = course.pieces, np.diff(course.knots)[:, None]
-    at_end = c[..., 0] + span * (c[..., 1] + span * (c[..., 2] + span * c[..., 3]))
-    rate_at_end = c[..., 1] + span * (2 * c[..., 2] + span * 3 * c[..., 3])
-    height = np.vstack([c[..., 0], at_end[-1:]])
-    behind = np.vstack([rate_at_end[-1:] if periodic else c[:1, :, 1], rate_at_end])
-    ahead = np.vstack([c[..., 1], c[:1, :, 1] if periodic else rate_at_end[-1:]])
-    rate = (behind + ahead) / 2
-    kept = course.row >= 0
-    return height[kept], rate[kept]
+def road_at(course: Course, time: Real, periodic: bool = False) -> tuple[Real, Real]:
+    """Return elevation and rate of the road (m, r) at times (m,), on a kink the mean rate of both sides."""
+    end, near, last = course.knots[-1], _SAME * course.knots[-1], len(course.pieces) - 1
+    behind, ahead = time - near, time + near
+    if periodic:
+        behind, ahead = np.where(behind < 0, behind + end, behind), np.where(ahead >= end, ahead - end, ahead)
+    sides = [np.clip(_row_of(course.knots, side), 0, last) for side in (behind, ahead)]
+    since = [(side - course.knots[i])[:, None] for i, side in zip(sides, (behind, ahead), strict=True)]
+    rates = [_rate(course.pieces[i], s) for i, s in zip(sides, since, strict=True)]
+    s, c = since[1], course.pieces[sides[1]]
+    return c[..., 0] + s * (c[..., 1] + s * (c[..., 2] + s * c[..., 3])), (rates[0] + rates[1]) / 2
 
 
-def _distinct(times: Real, rows: Real) -> Real:
-    """Return the distinct times (k,) from the first row to the last."""
-    times = np.sort(times[(times >= 0) & (times <= rows[-1])])
-    times = times[np.append(True, np.diff(times) > _SAME * rows[1])]
-    times[-1] = rows[-1]
+def _rate(piece: Real, since: Real) -> Real:
+    """Return the rates (m, r) of pieces (m, r, 4) at times since their knots (m, 1)."""
+    return np.asarray(piece[..., 1] + since * (2 * piece[..., 2] + since * 3 * piece[..., 3]))
+
+
+def _distinct(times: Real, end: float) -> Real:
+    """Return the distinct times (k,) from 0 to the end."""
+    times = np.sort(np.append(times[(times > 0) & (times < end)], [0.0, end]))
+    times = times[np.append(True, np.diff(times) > _SAME * end)]
+    times[-1] = end
     return times
-
-
-def _rows(knots: Real, rows: Real) -> Integer:
-    """Return the row at each knot (k,), -1 for none."""
-    nearest = np.clip(np.round(knots / rows[1]).astype(np.int64), 0, len(rows) - 1)
-    return np.where(np.abs(knots - rows[nearest]) <= 2 * _SAME * rows[1], nearest, -1)
 
 
 def distance_at(speed: Real, time: Real) -> Real:

@@ -13,7 +13,7 @@ from ...vehicles.feedback import around, gains_by_order
 from ...vehicles.handling import Mechanics
 from ...vehicles.networks import Program
 from ...vehicles.vehicle import AssembledVehicle, Vehicle, assembled
-from .integrator import Equations
+from .system import Equations
 from .trees import Numbers, Tree, numbers_of, tree_of
 
 
@@ -77,8 +77,8 @@ class Motion(NamedTuple):
         tree = tree_of(vehicle.networks, program, plant.nstates)
         numbers = numbers_of(program, tree, np.array(list(values.values())))
         gains = gains_by_order(vehicle.strut_coefficients, values, q)
-        for node in np.flatnonzero(tree.port >= 0):
-            gains[2, tree.port[node], tree.port[node]] += numbers.inertance[node]
+        for port, inertance in enumerate(numbers.inertance[:q].tolist()):
+            gains[2, port, port] += inertance
         equations, outputs = _matrices(around(plant, gains), len(vehicle.contact_points), q)
         read = outputs.rows([every.index(name) for name in names])
         tyres = Tyres.none(len(equations.a), len(names))

@@ -3,9 +3,10 @@
 import numpy as np
 
 from ...quantities import Real
-from .courses import road_at_rows
+from .courses import road_at
 from .equations import Motion
-from .integrator import Course, drive
+from .integrator import NO_EQUILIBRIUM, REACHED, drive
+from .system import Course
 
 TOLERANCE = 3e-8
 """Error of a step as a share of the largest value of each state."""
@@ -13,52 +14,54 @@ _RECURS = 1e-5  # change of a state from one period to the next, as a share of i
 _LEAD = 20.0  # s, end of a long period that is driven first
 _LONGEST = 600.0  # s, until a response must recur
 _INSTANT = 1e-3  # s
+_NO_TIMES = np.zeros(0)
 
 
 def responses_in_time(
     motion: Motion,
     course: Course,
+    time: Real,
     start: float | None = None,
     periodic: bool = False,
     tolerance: float = TOLERANCE,
 ) -> Real:
-    """Return the responses (k, m) at the rows of a course.
+    """Return the responses (m, p) at times (m,) of a course.
 
     The vehicle begins in equilibrium on the first heights, or on a level road of height `start` [m]. A periodic
-    course is driven again until the states recur; its last knot has a row, which the result is without.
+    course is driven again until the states recur.
     """
-    rows = _periodic(motion, course, tolerance) if periodic else _driven(motion, course, start, tolerance)
-    v, (height, rate) = len(motion.equations.a), road_at_rows(course, periodic)
+    rows = (
+        _periodic(motion, course, time, tolerance) if periodic else _driven(motion, course, time, start, tolerance)
+    )
+    v, (height, rate) = len(motion.equations.a), road_at(course, time, periodic)
     states, tension = rows[:, :v], rows[:, motion.states :]
     found, tyres = motion.responses.of(states, height, rate, tension), motion.tyres
     if motion.equations.static.size:
         excess = tyres.tension.of(states, height, rate, tension) - tyres.static
         found -= np.maximum(excess, 0.0) @ tyres.on_responses.T
-    return found[:-1] if periodic else found
+    return found
 
 
-def _driven(motion: Motion, course: Course, start: float | None, tolerance: float) -> Real:
-    """Return states and tensions (k, n + q) from an equilibrium."""
-    first = np.full(motion.states, np.nan)
+def _driven(motion: Motion, course: Course, time: Real, start: float | None, tolerance: float) -> Real:
+    """Return states and tensions (m, n + q) from an equilibrium."""
+    state = np.full(motion.states, np.nan)
     if start is not None:
         level = np.zeros((1, course.pieces.shape[1], 4))
         level[..., 0] = start
-        before = Course(np.array([0.0, _INSTANT]), level, np.array([0, -1]))
-        first = _run(motion, before, first, tolerance)[0, : motion.states]
-    return _run(motion, course, first, tolerance)
+        _run(motion, Course(np.array([0.0, _INSTANT]), level), state, _NO_TIMES, tolerance)
+    return _run(motion, course, state, time, tolerance)
 
 
-def _periodic(motion: Motion, course: Course, tolerance: float) -> Real:
-    """Return states and tensions (k, n + q) of the steady response to a periodic course, its end included."""
+def _periodic(motion: Motion, course: Course, time: Real, tolerance: float) -> Real:
+    """Return states and tensions (m, n + q) of the steady response to a periodic course."""
     period, state = float(course.knots[-1]), np.full(motion.states, np.nan)
     if period > 2 * _LEAD:
         begin = int(np.searchsorted(course.knots, period - _LEAD))
-        row = np.append(np.full(len(course.knots) - begin - 1, -1), 0)
-        lead = Course(course.knots[begin:] - course.knots[begin], course.pieces[begin:], row)
-        state = _run(motion, lead, state, tolerance)[0, : motion.states]
+        lead = Course(course.knots[begin:] - course.knots[begin], course.pieces[begin:])
+        _run(motion, lead, state, _NO_TIMES, tolerance)
     for _ in range(int(np.ceil(_LONGEST / period)) + 2):
-        rows = _run(motion, course, state, tolerance)
-        first, state = rows[0, : motion.states], rows[-1, : motion.states]
+        first = state.copy()
+        rows = _run(motion, course, state, time, tolerance)
         if (np.abs(state - first) <= _RECURS * np.abs(rows[:, : motion.states]).max(axis=0)).all():
             return rows
     raise ValueError(
@@ -66,10 +69,17 @@ def _periodic(motion: Motion, course: Course, tolerance: float) -> Real:
     )
 
 
-def _run(motion: Motion, course: Course, start: Real, tolerance: float) -> Real:
-    """Return states and tensions (k, n + q) at the rows; ValueError if the integration fails."""
+def _run(motion: Motion, course: Course, state: Real, time: Real, tolerance: float) -> Real:
+    """Return states and tensions (m, n + q) at times, and take the state on to the end.
+
+    ValueError without equilibrium to begin in; ArithmeticError if the integration makes no progress.
+    """
     equations, tree, numbers, *_ = motion
-    rows = np.empty((int(course.row.max()) + 1, motion.states + equations.f.shape[1]))
-    if not drive(equations, tree, numbers, course, start, tolerance, rows):
-        raise ValueError("struts must hold the vehicle in equilibrium and in motion, got others")
+    rows = np.empty((time.size, motion.states + equations.f.shape[1]))
+    time = np.minimum(time, course.knots[-1])
+    end = drive(equations, tree, numbers, course, state, tolerance, time, rows)
+    if end == NO_EQUILIBRIUM:
+        raise ValueError("struts must hold the vehicle in equilibrium, got others")
+    if end != REACHED:
+        raise ArithmeticError(f"integration must go on, got stuck in motion at a tolerance of {tolerance:g}")
     return rows

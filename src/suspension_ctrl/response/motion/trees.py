@@ -1,4 +1,8 @@
-"""Trees of struts: the networks of a vehicle at each of their ports, as data of compiled passes."""
+"""Trees of struts: the networks of a vehicle at each of their ports, as data of compiled passes.
+
+Elements hang in slots: the ports of the vehicle come first, then the first and the second part of every series.
+Elements in one slot are in parallel.
+"""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -16,26 +20,27 @@ _NONE = -1
 
 
 class Tree(NamedTuple):
-    """Nodes of all networks at all ports, parts before the node that they make up, and l force laws."""
+    """Elements and series at all ports, the parts of a series before it, and l force laws."""
 
     kind: Integer  # (n,)
-    parts: Integer  # (n, 2), nodes; of a series with an inerter the first part holds it
-    port: Integer  # (n,), strut of the last node of a network, else -1
+    slot: Integer  # (n,)
+    ratio: Real  # (n,), of the deflection of an element to that of its slot
+    first: Integer  # (n,), slot of the first part of a series, the one with an inerter; the second follows
     state: Integer  # (n, 2), states of the first part of a series: its deflection, with an inerter also its rate
-    states: int  # number of states of all series
     law: Integer  # (n,), of a LAW, else -1
-    of_rate: Bool  # (l,)
-    curved: bool  # whether a law is a power of the rate
     node: Integer  # (n,), node of the vehicle's program
     source: Integer  # (l,), law of the vehicle's program
+    of_rate: Bool  # (l,)
+    slots: int
+    states: int  # number of states of all series
+    curved: bool  # whether a law is a power of the rate
 
 
 class Numbers(NamedTuple):
-    """Values of the nodes and curves of the laws, of one design."""
+    """Values of the elements and curves of the laws, of one design."""
 
-    ratio: Real  # (n,), installation ratio
-    value: Real  # (n,), stiffness or damping
-    inertance: Real  # (n,), of each node [kg]
+    value: Real  # (n,), stiffness, damping or inertance
+    inertance: Real  # (s,), of each slot [kg]
     knots: Integer  # (l,), number of knots of each law
     knot: Real  # (l, k)
     slope: Real  # (l, k + 1)
@@ -43,32 +48,84 @@ class Numbers(NamedTuple):
     power: Real  # (l, 2), factor c and exponent a of c |v|^a
 
 
-class _Node(NamedTuple):
+class _Element(NamedTuple):
     kind: int
-    parts: tuple[int, int]
-    port: int
+    slot: int
+    first: int
     state: tuple[int, int]
-    law: int
     node: int
-    inertia: bool
+    ratio: float
+
+
+class _Growth(NamedTuple):
+    """A tree that elements are hung into."""
+
+    program: Program
+    elements: list[_Element]
+    inertia: list[bool]  # (s,), whether an inerter hangs in a slot
+    states: list[int]
+
+    def hang(self, node: int, slot: int, ratio: float = 1.0) -> None:
+        """Hang a node of the program into a slot."""
+        kind, ratio = int(self.program.kind[node]), ratio * float(self.program.ratio[node])
+        parts, first, state = self.program.parts[node].tolist(), _NONE, (_NONE, _NONE)
+        if kind == PARALLEL:
+            for part in parts:
+                self.hang(part, slot, ratio)
+            return
+        if kind == SERIES:
+            first, state = self._series(parts)
+        self.inertia[slot] |= kind == INERTER
+        self.elements.append(_Element(kind, slot, first, state, node, ratio))
+
+    def _series(self, parts: list[int]) -> tuple[int, tuple[int, int]]:
+        """Hang the parts of a series into new slots; return the first and the states."""
+        first = len(self.inertia)
+        self.inertia.extend([False, False])
+        for slot, part in enumerate(parts, first):
+            self.hang(part, slot)
+        if self.inertia[first] and self.inertia[first + 1]:
+            raise ValueError("series must have an inerter in one of its parts at most in time, got two")
+        if self.inertia[first + 1]:
+            self._swap(first)
+        deflection, inertia = self.states[-1] + 1, self.inertia[first]
+        self.states.extend([deflection, deflection + 1] if inertia else [deflection])
+        return first, (deflection, deflection + 1 if inertia else _NONE)
+
+    def _swap(self, first: int) -> None:
+        """Exchange the parts of a series."""
+        other = {first: first + 1, first + 1: first}
+        self.elements[:] = [one._replace(slot=other.get(one.slot, one.slot)) for one in self.elements]
+        self.inertia[first : first + 2] = [True, False]
 
 
 def tree_of(networks: Sequence[Network], program: Program, states: int) -> Tree:
     """Return the trees of networks, their states behind so many others; ValueError without a response in time."""
     _check_in_time(networks)
-    nodes, first = list[_Node](), 0
+    ports = max((len(network.share) for network in networks), default=0)
+    growth = _Growth(program, [], [False] * ports, [states - 1])
     for network, root in zip(networks, program.root.tolist(), strict=True):
         for port in np.flatnonzero(network.share).tolist():
-            _append(program, range(first, root + 1), port, states, nodes)
-        first = root + 1
-    table = np.array([[one.kind, *one.parts, one.port, *one.state, one.law, one.node] for one in nodes])
-    table = np.ascontiguousarray(table.astype(np.int64).reshape(-1, 8).T)
-    kind, port, law, node = table[0], table[3], table[6], table[7]
-    parts, state = np.ascontiguousarray(table[1:3].T), np.ascontiguousarray(table[4:6].T)
-    source = program.law[node[law != _NONE]]
-    of_rate, curved = program.laws.of_rate[source], bool((program.laws.power[source] != _NONE).any())
-    added = int(np.count_nonzero(state != _NONE))
-    return Tree(kind, parts, port, state, added, law, of_rate, curved, node, source)
+            growth.hang(root, port)
+    columns = [np.array(column) for column in zip(*growth.elements, strict=True)] or [np.zeros(0)] * 6
+    kind, slot, first, state, node = (column.astype(np.int64) for column in columns[:-1])
+    law = np.where(kind == LAW, np.cumsum(kind == LAW) - 1, _NONE)
+    source = program.law[node[kind == LAW]]
+    curved = bool((program.laws.power[source] != _NONE).any())
+    return Tree(
+        kind,
+        slot,
+        columns[-1].astype(float),
+        first,
+        state.reshape(-1, 2),
+        law,
+        node,
+        source,
+        program.laws.of_rate[source],
+        len(growth.inertia),
+        len(growth.states) - 1,
+        curved,
+    )
 
 
 def _check_in_time(networks: Sequence[Network]) -> None:
@@ -78,41 +135,18 @@ def _check_in_time(networks: Sequence[Network]) -> None:
             raise ValueError(f"struts must be {needed}, got {network.prefix}{element.name}")
 
 
-def _append(program: Program, own: range, port: int, states: int, nodes: list[_Node]) -> None:
-    """Append the nodes of a network at a port."""
-    offset, laws = len(nodes) - own[0], sum(node.law != _NONE for node in nodes)
-    used = states + sum(state != _NONE for node in nodes for state in node.state)
-    for i in own:
-        kind, state, (a, b) = int(program.kind[i]), (_NONE, _NONE), (program.parts[i] + offset).tolist()
-        inertia = kind == INERTER or (kind == PARALLEL and (nodes[a].inertia or nodes[b].inertia))
-        if kind == SERIES:
-            if nodes[a].inertia and nodes[b].inertia:
-                raise ValueError("series must have an inerter in one of its parts at most in time, got two")
-            a, b = (b, a) if nodes[b].inertia else (a, b)
-            state = (used, used + 1 if nodes[a].inertia else _NONE)
-            used += 1 + nodes[a].inertia
-        law = laws if kind == LAW else _NONE
-        laws += kind == LAW
-        parts = (a, b) if kind in (PARALLEL, SERIES) else (_NONE, _NONE)
-        nodes.append(_Node(kind, parts, port if i == own[-1] else _NONE, state, law, i, inertia))
-
-
 @compilable(error_model="numpy")
 def numbers_of(program: Program, tree: Tree, values: Real) -> Numbers:
     """Return the numbers for coefficients (c,) of the vehicle."""
     n, laws, most = tree.kind.size, tree.source.size, 2 * program.laws.number.shape[2]
-    ratio, value, inertance = np.ones(n), np.zeros(n), np.zeros(n)
+    value, inertance = np.zeros(n), np.zeros(tree.slots)
     for i in range(n):
-        a, b = tree.parts[i]
-        ratio[i] = program.ratio[tree.node[i]]
         coefficient = program.coefficient[tree.node[i], 0]
         value[i] = values[coefficient] if coefficient >= 0 else 0.0
         if tree.kind[i] == INERTER:
-            inertance[i] = ratio[i] ** 2 * value[i]
-        elif tree.kind[i] == PARALLEL:
-            inertance[i] = ratio[i] ** 2 * (inertance[a] + inertance[b])
+            inertance[tree.slot[i]] += tree.ratio[i] ** 2 * value[i]
     knots, knot, power = np.zeros(laws, dtype=np.int64), np.zeros((laws, most)), np.zeros((laws, 2))
     slope, base = np.zeros((laws, most + 1)), np.zeros((laws, most + 1))
     for l in range(laws):  # noqa: E741
         knots[l] = fill_law(program.laws, tree.source[l], values, knot[l], slope[l], base[l], power[l])
-    return Numbers(ratio, value, inertance, knots, knot, slope, base, power)
+    return Numbers(value, inertance, knots, knot, slope, base, power)

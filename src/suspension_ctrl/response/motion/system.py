@@ -1,0 +1,77 @@
+"""The system that is integrated: equations, road, and storage of power series in time.
+
+Everything is kept as power series about the present moment: the term of order k of ``x(t + s)`` belongs to s^k.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...compiled import compilable
+from ...quantities import Integer, Real
+from .trees import Tree
+
+TERMS = 16
+"""Highest order of a power series."""
+ROAD = 4  # terms of the road, a cubic
+
+
+class Equations(NamedTuple):
+    """x' = a x + b z + g z' + f F + constant: v states of a vehicle, roads z and tensions F of the networks.
+
+    Behind these states come those of the tree. Ports are c x, deflections and rates. The tension of tyre t is
+    ``load x + by_road z + by_rate z'``. Where tyres may lift off it is at most the static load; what is beyond
+    acts on the states by `push`.
+    """
+
+    a: Real  # (v, v)
+    b: Real  # (v, r)
+    g: Real  # (v, r)
+    f: Real  # (v, q)
+    constant: Real  # (v,)
+    c: Real  # (2q, v)
+    load: Real  # (t, v), t = 0 where tyres stay on the road
+    by_road: Real  # (t,)
+    by_rate: Real  # (t,)
+    static: Real  # (t,), load on level ground [N]
+    push: Real  # (v, t)
+
+
+class Course(NamedTuple):
+    """Elevation under r wheels: a cubic in the time since its knot on each piece."""
+
+    knots: Real  # (k + 1,) [s]
+    pieces: Real  # (k, r, 4), by rising powers
+
+
+class Work(NamedTuple):
+    """Power series of n states and what follows from them, and the segments of l laws and t tyres."""
+
+    columns: Real  # (v + 2r + q, v), effect of each state, road, its rate and tension on the derivatives
+    ports: Real  # (v, 2q), effect of each state on the ports
+    x: Real  # (TERMS + 1, n)
+    z: Real  # (2, ROAD, r), road and its rate
+    tension: Real  # (TERMS + 1, q)
+    own: Real  # (TERMS + 1, l + t), deflection or rate of a law, tension of a tyre beyond its static load
+    curved: Real  # (TERMS + 1, l), force of a law by a power of the rate
+    slots: Real  # (5, s): deflection, rate, stiffness; tension = by_rate * rate + force
+    law: Real  # (2, l), slope of each law, and its force at own = 0
+    segment: Integer  # (l + t,), of a tyre 0 on the road, 1 in the air
+    bounds: Real  # (2, l + t), of the present segment, low and high
+    reach: Real  # (l + t,), bound of what a law moves in a step
+    size: Real  # (n,), largest magnitude of each state
+
+
+@compilable(error_model="numpy")
+def work_of(e: Equations, tree: Tree) -> Work:
+    """Return zeros beside the columns."""
+    v, r, q, l, t = e.a.shape[0], e.b.shape[1], e.f.shape[1], tree.of_rate.size, e.static.size  # noqa: E741
+    n, columns, ports = v + tree.states, np.zeros((v + 2 * r + q, v)), np.zeros((v, 2 * q))
+    columns[:v], columns[v : v + r] = e.a.T, e.b.T
+    columns[v + r : v + 2 * r], columns[v + 2 * r :] = e.g.T, e.f.T
+    ports[:] = e.c.T
+    x, z, tension = np.zeros((TERMS + 1, n)), np.zeros((2, ROAD, r)), np.zeros((TERMS + 1, q))
+    own, curved = np.zeros((TERMS + 1, l + t)), np.zeros((TERMS + 1, l))
+    slots, law, segment = np.zeros((5, tree.slots)), np.zeros((2, l)), np.zeros(l + t, dtype=np.int64)
+    bounds, reach = np.zeros((2, l + t)), np.zeros(l + t)
+    return Work(columns, ports, x, z, tension, own, curved, slots, law, segment, bounds, reach, np.zeros(n))
