@@ -17,7 +17,8 @@ from ..vehicles.networks import has_force_laws
 from ..vehicles.vehicle import Setting, Vehicle
 from .lift_off import tell_lift_off
 from .motion.courses import Passage
-from .motion.equations import Motion, roads_of
+from .motion.drivable import Motion, motion_of
+from .motion.equations import roads_of
 from .motion.hold import Model, Wheels, states_of
 from .motion.integration import responses_in_time
 
@@ -162,7 +163,7 @@ def _drive_vehicle(
     names = list(vehicle.responses if responses is None else responses)
     if lift_off or has_force_laws(vehicle.networks):
         plain = vehicle.without_jerk(names)
-        motion = Motion.of(vehicle, vehicle.coefficients(setting), plain, lift_off)
+        motion = motion_of(vehicle, vehicle.coefficients(setting), plain, lift_off)
         jerks = [name != one for name, one in zip(names, plain, strict=True)]
         labels = [label(name) for name in names]
         table = _integrated(motion, labels, profile, speed, vehicle.contact_points, periodic, start, jerks)

@@ -138,15 +138,20 @@ def around(plant: System, gains: Real) -> System:
     if not isinstance(plant, control.StateSpace):
         stiffness = np.tensordot((1j * plant.omega[:, None]) ** np.arange(ORDERS), gains, 1)
         return _around_stiffness(plant, stiffness)
-    q, b, c, d = gains.shape[1], plant.B, plant.C, plant.D
-    b, c, d, fed = b[:, -q:], c[-2 * q :], d[:, -q:], d[-2 * q :]
+    names = {"inputs": plant.input_labels, "outputs": plant.output_labels}
+    matrices = fed_back((plant.A, plant.B, plant.C, plant.D), gains)
+    return control.ss(*matrices, states=plant.state_labels, **names)
+
+
+def fed_back(plant: tuple[Real, Real, Real, Real], gains: Real) -> tuple[Real, Real, Real, Real]:
+    """Return A, B, C and D with struts of these gains, see `around`."""
+    (a, inputs, outputs, direct), q = plant, gains.shape[1]
+    b, c, d, fed = inputs[:, -q:], outputs[-2 * q :], direct[:, -q:], direct[-2 * q :]
     if gains[2].any():
-        c, fed = np.vstack([c, c[-q:] @ plant.A]), np.vstack([fed, c[-q:] @ plant.B])
+        c, fed = np.vstack([c, c[-q:] @ a]), np.vstack([fed, c[-q:] @ inputs])
     gain = np.hstack([*gains[: len(c) // q]])
     k = np.linalg.solve(np.eye(q) - gain @ fed[:, -q:], gain)
-    matrices = plant.A + b @ k @ c, plant.B + b @ k @ fed, plant.C + d @ k @ c, plant.D + d @ k @ fed
-    names = {"inputs": plant.input_labels, "outputs": plant.output_labels}
-    return control.ss(*matrices, states=plant.state_labels, **names)
+    return a + b @ k @ c, inputs + b @ k @ fed, outputs + d @ k @ c, direct + d @ k @ fed
 
 
 def with_rates(system: System, rates: Mapping[str, str]) -> System:

@@ -6,10 +6,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import suspension_ctrl as sc
+from suspension_ctrl.response.motion.crossings import locate
 from suspension_ctrl.response.motion.curves import CREEP
-from suspension_ctrl.response.motion.passes import force_of, locate, scratch_of
-from suspension_ctrl.response.motion.trees import numbers_of, tree_of
-from suspension_ctrl.vehicles.networks import Program
+from suspension_ctrl.response.motion.drivable import motion_of
+from suspension_ctrl.response.motion.passes import force_of
+from suspension_ctrl.response.motion.system import work_of
+from suspension_ctrl.response.motion.trees import numbers_of
 
 TABLE = ([-1.0, -0.3, -0.02, 0.0, 0.1, 0.4], [-900.0, -700.0, -300.0, 0.0, 0.0, 1200.0])
 LAWS = {
@@ -49,12 +51,11 @@ def force_at(law: sc.TableDamper, own: float) -> float:
     )
     scale = {f"{law.name}.scale": 0.5} if isinstance(law, sc.TableSpring) else {}
     values = car.coefficients(scale)
-    program = Program.of(car.networks, list(values))
-    tree = tree_of(car.networks, program, 4)
-    numbers, scratch = numbers_of(program, tree, np.array(list(values.values()))), scratch_of(tree)
-    scratch.own[0] = own
-    locate(numbers, scratch, 0)
-    return force_of(numbers, 0, scratch.segment[0], own)[0]
+    motion = motion_of(car, values)
+    numbers, work = numbers_of(motion.program, motion.tree, motion.values), work_of(motion.equations, motion.tree)
+    work.own[0, 0] = own
+    locate(numbers, work, 0)
+    return force_of(numbers, 0, work.segment[0], own)[0]
 
 
 @pytest.mark.parametrize("name", LAWS)

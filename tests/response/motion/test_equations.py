@@ -7,7 +7,8 @@ import pytest
 
 import suspension_ctrl as sc
 from garage import DAMPED_FULL, FULL, HALF, QUARTER, VEHICLES, struts_of
-from suspension_ctrl.response.motion.equations import Motion, loads_of, static_loads
+from suspension_ctrl.response.motion.drivable import motion_of
+from suspension_ctrl.response.motion.equations import loads_of, static_loads
 
 TRUSS = sc.parallel(sc.Spring(), sc.TableSpring("helper", deflection=[-1.0, 0.0, 1.0], force=[-5e3, 0.0, 5e3]))
 
@@ -16,7 +17,7 @@ TRUSS = sc.parallel(sc.Spring(), sc.TableSpring("helper", deflection=[-1.0, 0.0,
 def test_a_linear_vehicle_is_the_closed_one(name):
     vehicle = VEHICLES[name]
     values = vehicle.coefficients(struts_of(vehicle))
-    found, closed = Motion.of(vehicle, values), vehicle.closed(struts_of(vehicle))
+    found, closed = motion_of(vehicle, values), vehicle.closed(struts_of(vehicle))
     r = len(vehicle.contact_points)
     e, y = found.equations, found.responses
     inputs = [(e.b, closed.B[:, :r]), (y.d, closed.D[:, :r])]
@@ -34,7 +35,7 @@ def test_static_loads_are_the_weight(vehicle):
 
 
 def test_on_lift_off_a_tyre_acts_on_its_wheel_alone():
-    found = Motion.of(FULL, FULL.coefficients(struts_of(FULL)), lift_off=True)
+    found = motion_of(FULL, FULL.coefficients(struts_of(FULL)), lift_off=True)
     by_tension = found.equations.push
     wheels = [FULL.assembly.coordinates.index(f"{tyre}_wheel") for tyre in FULL.tyres]
     masses = np.diag(FULL.assembly.mass_matrix)[wheels]

@@ -7,25 +7,25 @@ from hypothesis import strategies as st
 
 import suspension_ctrl as sc
 from garage import QUARTER
-from suspension_ctrl.response.motion.passes import deflect, gather, scratch_of, spread
-from suspension_ctrl.response.motion.trees import numbers_of, tree_of
-from suspension_ctrl.vehicles.networks import Program
+from suspension_ctrl.response.motion.drivable import Drivable
+from suspension_ctrl.response.motion.passes import BY_RATE, DEFLECTION, FORCE, RATE, deflect, gather, spread
+from suspension_ctrl.response.motion.system import work_of
+from suspension_ctrl.response.motion.trees import numbers_of
 
 values = st.floats(-2.0, 2.0)
 
 
 def force_and_rates(strut, deflection: float, rate: float, states: list[float]) -> tuple[float, list[float]]:
-    """Tension of a strut and the derivatives of its states, all of its laws on their first segment."""
+    """Tension of a linear strut and the derivatives of its states."""
     car = sc.QuarterCar(body_mass=300.0, wheel_mass=40.0, tyre_stiffness=2e5, strut=strut)
-    coefficients = car.coefficients({})
-    program = Program.of(car.networks, list(coefficients))
-    tree = tree_of(car.networks, program, 0)
-    numbers, scratch = numbers_of(program, tree, np.array(list(coefficients.values()))), scratch_of(tree)
-    x, dx = np.array(states), np.zeros(len(states))
-    deflect(tree, numbers, scratch, np.array([deflection]), x)
-    gather(tree, numbers, scratch, x)
-    spread(tree, numbers, scratch, np.array([rate]), x, dx)
-    return float(scratch.by_rate[-1] * rate + scratch.force[-1]), dx.tolist()
+    motion = Drivable.of(car).motion(np.array(list(car.coefficients({}).values())))
+    tree, work = motion.tree, work_of(motion.equations, motion.tree)
+    numbers, own = numbers_of(motion.program, tree, motion.values), slice(4, 4 + tree.states)
+    work.slots[DEFLECTION, 0], work.slots[RATE, 0], work.x[0, own] = deflection, rate, states
+    deflect(tree, work, 0)
+    gather(tree, numbers, work, 0)
+    spread(tree, numbers, work, 0)
+    return float(work.slots[BY_RATE, 0] * rate + work.slots[FORCE, 0]), work.x[1, own].tolist()
 
 
 @given(d=values, v=values, s=values, r=st.floats(0.5, 2.0))

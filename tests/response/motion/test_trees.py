@@ -22,7 +22,9 @@ def tree(strut, car=HALF) -> tuple[Tree, Program, sc.HalfCar]:
 
 def test_a_network_stands_at_each_of_its_ports():
     found, _, car = tree(MOUNTED, FULL)
-    assert found.port.tolist() == [-1, -1, 0, -1, -1, 1]
+    q = len(car.struts)
+    assert found.slot.tolist() == [q, q + 1, 0, q + 2, q + 3, 1]
+    assert found.first.tolist() == [-1, -1, q, -1, -1, q + 2]
     assert found.state[found.state[:, 0] >= 0].tolist() == [[10, -1], [11, -1]]
     assert found.states == 2
     assert found.law.tolist() == [0, -1, -1, 1, -1, -1]
@@ -35,7 +37,7 @@ def test_a_series_with_an_inerter_has_its_rate_as_a_state_too():
     )
     series = found.state[:, 0].argmax()
     assert found.state[series].tolist() == [10, 11]
-    first = found.parts[series, 0]
+    first = found.first[series]
     values = car.coefficients({"front.spring": 2e4, "front.inerter": 30.0, "front.bush": 5e3, "rear": (2e4, 1e3)})
     numbers = numbers_of(program, found, np.array(list(values.values())))
     assert numbers.inertance[first] == 30.0

@@ -115,7 +115,7 @@ def road_at(course: Course, time: Real, periodic: bool = False) -> tuple[Real, R
     sides = [np.clip(_row_of(course.knots, side), 0, last) for side in (behind, ahead)]
     since = [(side - course.knots[i])[:, None] for i, side in zip(sides, (behind, ahead), strict=True)]
     rates = [_rate(course.pieces[i], s) for i, s in zip(sides, since, strict=True)]
-    s, c = since[1], course.pieces[sides[1]]
+    s, c = np.maximum(time[:, None] - course.knots[sides[1], None], 0.0), course.pieces[sides[1]]
     return c[..., 0] + s * (c[..., 1] + s * (c[..., 2] + s * c[..., 3])), (rates[0] + rates[1]) / 2
 
 

@@ -35,7 +35,7 @@ def bound(numbers: Numbers, work: Work, i: int) -> None:
 
 
 @compilable(error_model="numpy", forceinline=True)
-def locate(e: Equations, numbers: Numbers, work: Work, i: int) -> bool:
+def locate(numbers: Numbers, work: Work, i: int) -> bool:
     """Set the segment of a law or tyre by its present value; return whether it changes."""
     before, segment, own = work.segment[i], 0, work.own[0, i]
     if i >= numbers.knots.size:
@@ -71,8 +71,8 @@ def _exit_of(own: Real, terms: int, longest: float, low: float, high: float, mar
     """Return when a series leaves its bounds, at least the longest time if it does not.
 
     Safe steps: at a rate w and with a curvature of C at most, a distance d is not reached before the root of
-    ``C s^2/2 + w s = d``; near a crossing this is Newton's method. A series that begins outside has left if it goes
-    outwards, or is out by more than a `jump`.
+    ``C s^2/2 + w s = d``; near a crossing this is Newton's method. A series that begins outside has left if it
+    goes outwards, or is out by more than a `jump`.
     """
     bend, time = 0.0, 0.0
     for k in range(terms, 1, -1):
@@ -91,7 +91,7 @@ def _exit_of(own: Real, terms: int, longest: float, low: float, high: float, mar
             rate = rate * time + value
             value = value * time + own[k]
         above, below = high - value, value - low
-        if above < margin / 2 or below < margin / 2:
+        if (above < margin / 2 and rate > 0) or (below < margin / 2 and rate < 0):
             return time
         up = 2 * above / (rate + np.sqrt(rate**2 + bend * above)) if high < np.inf else np.inf
         down = 2 * below / (-rate + np.sqrt(rate**2 + bend * below)) if low > -np.inf else np.inf

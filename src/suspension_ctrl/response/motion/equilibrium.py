@@ -5,7 +5,7 @@ import numpy as np
 from ...compiled import compilable
 from ...quantities import Real
 from .crossings import bound, locate
-from .series import accelerate, place, react
+from .expansion import accelerate, place, react
 from .system import Course, Equations, Work
 from .trees import Numbers, Tree
 
@@ -27,7 +27,7 @@ def find_segments(e: Equations, tree: Tree, numbers: Numbers, work: Work, x: Rea
     """Set the segments of laws and tyres at a start, from those at 0 on, one knot at a time."""
     work.own[0] = 0.0
     for i in range(work.segment.size):
-        locate(e, numbers, work, i)
+        locate(numbers, work, i)
     for _ in range(_ITERATIONS):
         derivative(e, tree, numbers, work, x)
         found = True
@@ -54,7 +54,7 @@ def settle(e: Equations, tree: Tree, numbers: Numbers, course: Course, work: Wor
     x[:] = 0.0
     work.own[0] = 0.0
     for i in range(work.segment.size):
-        locate(e, numbers, work, i)
+        locate(numbers, work, i)
     for _ in range(_ITERATIONS):
         derivative(e, tree, numbers, work, x)
         slopes[:, n] = -work.x[1]
@@ -68,7 +68,7 @@ def settle(e: Equations, tree: Tree, numbers: Numbers, course: Course, work: Wor
         derivative(e, tree, numbers, work, x)
         found = True
         for i in range(tree.of_rate.size):
-            if not tree.of_rate[i] and locate(e, numbers, work, i):
+            if not tree.of_rate[i] and locate(numbers, work, i):
                 found = False
         if found:
             return bool(np.abs(work.x[1]).max() < _AT_REST)

@@ -4,7 +4,7 @@ import numpy as np
 
 from ...quantities import Real
 from .courses import road_at
-from .equations import Motion
+from .drivable import Motion
 from .integrator import NO_EQUILIBRIUM, REACHED, drive
 from .system import Course
 
@@ -74,10 +74,10 @@ def _run(motion: Motion, course: Course, state: Real, time: Real, tolerance: flo
 
     ValueError without equilibrium to begin in; ArithmeticError if the integration makes no progress.
     """
-    equations, tree, numbers, *_ = motion
+    equations, program, tree, values, *_ = motion
     rows = np.empty((time.size, motion.states + equations.f.shape[1]))
     time = np.minimum(time, course.knots[-1])
-    end = drive(equations, tree, numbers, course, state, tolerance, time, rows)
+    end = drive(equations, program, tree, values, course, state, tolerance, time, rows)
     if end == NO_EQUILIBRIUM:
         raise ValueError("struts must hold the vehicle in equilibrium, got others")
     if end != REACHED:

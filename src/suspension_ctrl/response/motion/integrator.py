@@ -1,18 +1,19 @@
 """Integration in time of a vehicle with force laws, by power series of the motion.
 
-A step ends on a knot of the road, where a law leaves its segment or a tyre the road, or where the series would need
-too many terms: a step needs no second try.
+A step ends on a knot of the road, where a law leaves its segment or a tyre the road, or where the series would
+need too many terms: a step needs no second try.
 """
 
 import numpy as np
 
 from ...compiled import compilable, compiled
 from ...quantities import Real
+from ...vehicles.networks import Program
 from .crossings import first_exit, switch
 from .equilibrium import find_segments, settle
-from .series import accelerate, place, react, states_at
+from .expansion import accelerate, place, react, states_at
 from .system import TERMS, Course, Equations, Work, work_of
-from .trees import Numbers, Tree
+from .trees import Numbers, Tree, numbers_of
 
 _FLOOR = 1e-3  # m, m/s, rad: errors of smaller states are relative to this
 _SAFETY = 0.9  # of the longest step
@@ -28,7 +29,7 @@ def _expand(
 ) -> tuple[int, float]:
     """Put in the power series; return the number of terms and the step [s] for which they suffice.
 
-    Two terms in succession are below the tolerance at the end of the step, as shares of each state's largest value.
+    Two terms in succession are below the tolerance then, as shares of each state's largest value.
     """
     last, term, power = np.inf, np.inf, 1.0
     for order in range(TERMS + 1):
@@ -73,19 +74,21 @@ def _go_on(work: Work, terms: int, step: float, state: Real) -> None:
 @compiled(error_model="numpy")
 def drive(
     e: Equations,
+    program: Program,
     tree: Tree,
-    numbers: Numbers,
+    values: Real,
     course: Course,
     state: Real,
     tolerance: float,
     times: Real,
     rows: Real,
 ) -> int:
-    """Take the states (n,) over a course; fill in states and tensions (m, n + q) at times (m,); return how it ends.
+    """Take the states (n,) over a course; return how it ends.
 
-    States of NaN are put in first, in equilibrium on the first heights.
+    States and tensions (m, n + q) at times (m,) are filled in. States of NaN are put in first, in equilibrium on
+    the first heights.
     """
-    work, row, knots = work_of(e, tree), 0, course.knots
+    numbers, work, row, knots = numbers_of(program, tree, values), work_of(e, tree), 0, course.knots
     if np.isnan(state[0]) and not settle(e, tree, numbers, course, work, state):
         return NO_EQUILIBRIUM
     place(course, 0, 0.0, work.z)

@@ -49,7 +49,7 @@ class Work(NamedTuple):
 
     columns: Real  # (v + 2r + q, v), effect of each state, road, its rate and tension on the derivatives
     ports: Real  # (v, 2q), effect of each state on the ports
-    x: Real  # (TERMS + 1, n)
+    x: Real  # (TERMS + 2, n)
     z: Real  # (2, ROAD, r), road and its rate
     tension: Real  # (TERMS + 1, q)
     own: Real  # (TERMS + 1, l + t), deflection or rate of a law, tension of a tyre beyond its static load
@@ -70,7 +70,7 @@ def work_of(e: Equations, tree: Tree) -> Work:
     columns[:v], columns[v : v + r] = e.a.T, e.b.T
     columns[v + r : v + 2 * r], columns[v + 2 * r :] = e.g.T, e.f.T
     ports[:] = e.c.T
-    x, z, tension = np.zeros((TERMS + 1, n)), np.zeros((2, ROAD, r)), np.zeros((TERMS + 1, q))
+    x, z, tension = np.zeros((TERMS + 2, n)), np.zeros((2, ROAD, r)), np.zeros((TERMS + 1, q))
     own, curved = np.zeros((TERMS + 1, l + t)), np.zeros((TERMS + 1, l))
     slots, law, segment = np.zeros((5, tree.slots)), np.zeros((2, l)), np.zeros(l + t, dtype=np.int64)
     bounds, reach = np.zeros((2, l + t)), np.zeros(l + t)

@@ -31,7 +31,7 @@ def place(course: Course, piece: int, time: float, z: Real) -> None:
 
 @compilable(error_model="numpy", forceinline=True)
 def react(e: Equations, tree: Tree, numbers: Numbers, work: Work, order: int) -> None:
-    """Put in what the states of an order give: tensions, values of the laws and tyres, rates of the tree's states."""
+    """Put in what the states of an order give: tensions, values of laws and tyres, rates of the tree."""
     if tree.kind.size:
         _pull(tree, numbers, work, order)
     laws = tree.of_rate.size
