@@ -9,7 +9,9 @@ from suspension_ctrl.response.motion.drivable import Drivable, motion_of
 
 INERTER = sc.parallel(
     sc.Spring(value=2e4),
-    sc.parallel(sc.TableDamper(velocity=[0.0, 1.0], force=[0.0, 1e3]), sc.Inerter(value=30.0), installation_ratio=0.5),
+    sc.parallel(
+        sc.TableDamper(velocity=[0.0, 1.0], force=[0.0, 1e3]), sc.Inerter(value=30.0), installation_ratio=0.5
+    ),
 )
 
 

@@ -10,7 +10,6 @@ from scipy.integrate import solve_ivp
 
 import suspension_ctrl as sc
 from suspension_ctrl.response.lift_off import LiftOffWarning
-from suspension_ctrl.response.motion.equilibrium import solve
 
 M_B, M_W, K_T, K, SPEED = 250.0, 20.0, 140e3, 20e3, 10.0
 STANDS = (M_B + M_W) * 9.80665  # N
@@ -144,18 +143,3 @@ def test_responses_are_those_of_scipy_to_1e_6(name):
     if case.lift_off:
         assert (history["tyre_load [N]"] >= STANDS * (1 - 1e-12)).mean() > 0.1
         assert history["tyre_load [N]"].max() == pytest.approx(STANDS, rel=1e-12)
-
-
-@pytest.mark.parametrize("seed", range(20))
-def test_linear_equations_are_solved(seed):
-    rng, n = np.random.default_rng(seed), 7
-    a, x = rng.standard_normal((n, n)), rng.standard_normal(n)
-    system = np.column_stack([a, a @ x])
-    solve(system)
-    np.testing.assert_allclose(system[:, -1], x, rtol=1e-9)
-
-
-def test_an_unknown_without_a_pivot_is_zero():
-    system = np.array([[2.0, 0.0, 4.0], [0.0, 0.0, 0.0]])
-    solve(system)
-    assert system[:, -1].tolist() == [2.0, 0.0]

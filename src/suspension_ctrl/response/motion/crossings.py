@@ -60,14 +60,14 @@ def first_exit(e: Equations, work: Work, terms: int, longest: float, tolerance: 
         margin = margin_of(e, work, i)
         low, high = work.bounds[0, i] - margin, work.bounds[1, i] + margin
         if not low <= own[0, i] - reach[i] <= own[0, i] + reach[i] <= high:
-            found = _exit_of(own[:, i], terms, at, low, high, margin, margin * tolerance / _MARGIN)
+            found = exit_of(own[:, i], terms, at, low, high, margin, margin * tolerance / _MARGIN)
             if found < at:
                 at, which = found, i
     return at, which
 
 
 @compilable(error_model="numpy")
-def _exit_of(own: Real, terms: int, longest: float, low: float, high: float, margin: float, jump: float) -> float:
+def exit_of(own: Real, terms: int, longest: float, low: float, high: float, margin: float, jump: float) -> float:
     """Return when a series leaves its bounds, at least the longest time if it does not.
 
     Safe steps: at a rate w and with a curvature of C at most, a distance d is not reached before the root of
