@@ -106,8 +106,8 @@ def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
         ``body_acceleration [m/s^2]``. On a kink of the road the load of a damped
         tyre jumps and is given as the mean of both sides.
 
-        A vehicle with force laws, with tyres that may lift off, or at changing speed is integrated by the method
-        of Dormand and Prince, steps ending where a law has a knot; a step errs by 3e-8 of the largest state.
+        A vehicle with force laws, with tyres that may lift off, or at changing speed is integrated by power
+        series in time, steps ending where a law has a knot; a step errs by 3e-8 of the largest state.
         Friction rises straight up to 1 mm/s, a damper by a power of the rate too. With force laws travel and loads
         count from the static position without payload, and a jerk is a difference quotient.
 
