@@ -1,15 +1,19 @@
 """Peaks of responses in an event for many designs at once."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 
-from ..quantities import Real
+from ..quantities import Bool, Real, frozen_array
 from ..roads.events import Event
+from ..vehicles.networks import has_force_laws
 from ..vehicles.vehicle import Vehicle
+from .driven_peaks import driven_peaks
 from .passing import passing
 
 _PADDING = (4.0, 6.0, 9.0, 14.0, 21.0, 32.0, 48.0, 72.0)  # s of level road behind an event, as long as needed
+_KEPT = 8  # peaks of populations
 _AT_ONCE = 8192  # designs times frequencies: arrays that stay in the cache of a processor
 
 
@@ -21,21 +25,40 @@ def peaks(
     Raises
     ------
     ValueError
-        If the vehicle has force laws, or a response has not decayed within 72 s after the event.
+        If a response has not decayed within 72 s after the event, or a vehicle with force laws has no response in
+        time.
     """
+    return _peaks(vehicle, coefficients.tobytes(), len(coefficients), event, speed, tuple(responses))
+
+
+@lru_cache(_KEPT)
+def _peaks(
+    vehicle: Vehicle, numbers: bytes, designs: int, event: Event, speed: float, responses: tuple[str, ...]
+) -> tuple[Real, Real]:
+    """Return the peaks of designs, kept for other load cases with the event and for the other direction."""
+    coefficients = np.frombuffer(numbers).reshape(designs, -1)
+    judge = driven_peaks if has_force_laws(vehicle.networks) else passing_peaks
+    highest, lowest, rested = judge(vehicle, coefficients, event, speed, responses)
+    if not rested.all():
+        names = [one.name for one in vehicle.strut_coefficients]
+        values = dict(zip(names, coefficients[int(rested.argmin())].tolist(), strict=True))
+        raise ValueError(f"response to an event must decay within 72 s, got coefficients {values}")
+    return frozen_array(highest), frozen_array(lowest)
+
+
+def passing_peaks(
+    vehicle: Vehicle, coefficients: Real, event: Event, speed: float, responses: Sequence[str]
+) -> tuple[Real, Real, Bool]:
+    """Return the largest and the smallest values (p, m), see `peaks`, and which designs (p,) come to rest."""
     highest, lowest = np.empty((2, len(coefficients), len(responses)))
-    left = np.arange(len(coefficients))
+    rested = np.zeros(len(coefficients), dtype=bool)
     for padding in _PADDING:
+        left = np.flatnonzero(~rested)
         event_passed = passing(vehicle, event, speed, tuple(responses), padding)
-        decayed = []
         for part in np.array_split(left, max(1, left.size * event_passed.omega.size // _AT_ONCE)):
             history = event_passed.histories(event_passed.stiffness(vehicle, coefficients[part]))
             highest[part], lowest[part] = event_passed.crest(history).T, -event_passed.crest(-history).T
-            decayed.append(event_passed.decayed(history))
-        left = left[~np.concatenate(decayed)]
-        if not left.size:
-            return highest, lowest
-    values = dict(
-        zip((one.name for one in vehicle.strut_coefficients), coefficients[left[0]].tolist(), strict=True)
-    )
-    raise ValueError(f"response to an event must decay within {_PADDING[-1]:g} s, got coefficients {values}")
+            rested[part] = event_passed.decayed(history)
+        if rested.all():
+            break
+    return highest, lowest, rested

@@ -1,6 +1,7 @@
 """The measure `Peak`: texts, sides, places, load cases, and what it refuses."""
 
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -89,6 +90,39 @@ def test_a_search_minimises_peaks():
     front = run.front()
     assert list(front.columns[-2:]) == ["peak body_acceleration bump [m/s^2]", "peak min travel bump [m]"]
     assert len(front) > 3
+
+
+KNEE = replace(QUARTER, strut=sc.parallel(sc.Spring(), sc.DigressiveDamper(high_speed=900.0)))
+LAWS = {"spring": (15e3, 30e3), "damper.low_speed": (1e3, 6e3), "damper.knee": (0.05, 0.3)}
+
+
+def test_force_laws_have_peaks_in_every_load_case_and_limit():
+    """The peak of a column is that of the vehicle; the mass beside it is laden."""
+    cases = [sc.LoadCase(vehicle=one, road=ROAD, speed=20.0) for one in (KNEE, sc.Payload(mass=150.0).on(KNEE))]
+    found = sc.RideProblem(
+        cases=cases, events=EVENTS, bounds=LAWS, worst_case=True,
+        measures=["ACC", "peak body_acceleration bump"], constraints=["peak min travel bump <= 0.03"],
+    )  # fmt: skip
+    design = np.array([[22e3, 3e3, 0.1]])
+    x = np.array([list(KNEE.coefficients(dict(zip(LAWS, design[0], strict=True))).values())])
+    names = ["body_acceleration", "suspension_travel"]
+    each = np.array([peaks(case.vehicle, x, BUMP, 8.0, names) for case in cases])[:, :, 0]  # case, side, response
+    _, peak, limit = found.evaluate(design)[0]
+    assert peak == np.abs(each[..., 0]).max()
+    assert limit == pytest.approx(-each[:, 1, 1].min() / 0.03 - 1, rel=1e-12)
+    table = sc.ride(KNEE, {"spring": 22e3, "damper.low_speed": 3e3, "damper.knee": 0.1}, ROAD, 20.0,
+                    measures=["ACC", "peak body_acceleration bump"], events=EVENTS)  # fmt: skip
+    assert table.value["peak body_acceleration bump"] == np.abs(each[0, :, 0]).max()
+
+
+@pytest.mark.parametrize("optimiser", [sc.Nsga2(population=12), sc.MoeadDra(population=12)])
+def test_searches_minimise_peaks_of_force_laws(optimiser):
+    given = {"measures": ["peak body_acceleration bump", "DTL"], "constraints": ["peak travel bump <= 0.05"]}
+    searched = sc.RideProblem(KNEE, ROAD, speed=20.0, events=EVENTS, bounds=LAWS, **given)
+    run = sc.minimise(searched, optimiser, iterations=3, seed=1)
+    assert run.feasible.any()
+    best = run.designs[run.feasible]
+    np.testing.assert_array_equal(searched.evaluate(best)[:, 0], run.objectives[run.feasible, 0])
 
 
 @pytest.mark.parametrize(

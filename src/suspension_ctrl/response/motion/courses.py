@@ -69,10 +69,10 @@ def _knots(event: Event, contacts: Real, speed: Real) -> tuple[Real, float]:
     return event.knots(contacts, 0.0), event.finest(0.0)
 
 
-def course_over(event: Event, contacts: Real, speed: Real, end: float) -> Course:
-    """Return the course over an event until a time, cubics through four points each."""
+def course_over(event: Event, contacts: Real, speed: Real, end: float, pieces: int = _PIECES) -> Course:
+    """Return the course over an event until a time, so many cubics through four points in the shortest wave."""
     ends, finest = _knots(event, contacts, speed)
-    fine = np.arange(0.0, ends[-1], finest / _PIECES)
+    fine = np.arange(0.0, ends[-1], finest / pieces)
     knots = _distinct(np.concatenate([ends, speed[:, 0], fine]), end)
     times = (knots[:-1, None] + np.diff(knots)[:, None] * _THIRDS).ravel()
     along = isinstance(event, Obstacle)  # at 1 m/s the time is the distance

@@ -1,0 +1,120 @@
+"""Peaks in an event of vehicles with force laws: designs integrated in time until their responses decay."""
+
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from ..quantities import Bool, Real
+from ..roads.events import Event
+from ..vehicles.vehicle import Vehicle
+from .motion.courses import course_over
+from .motion.drivable import Drivable, Motion
+from .motion.integration import responses_in_time
+from .motion.system import Course
+
+_BEYOND = (1.5, 4.0, 10.0, 27.0, 72.0)  # s of level road behind an event, as long as needed
+_TOLERANCE = 1e-4  # of the largest value of each state, error of a step
+_PIECES = 16  # cubics of the elevation in the shortest wave of an event
+_ROWS = 48  # in that wave, at least
+_APART = 1e-3  # s, longest distance of rows
+_BESIDE = 1e-3  # of that, rows on both sides of a knot of the event, where the load of a damped tyre jumps
+_SAME = 1e-6  # of that, times so close to each other are one
+_LAST = 1.0  # s, end of the level road, on which responses must have decayed
+_SMALLER = 0.5  # of the peak, the most that a response may have there
+_STILL = 5e-4  # of its range, what a response may move there however small its peak
+_EVENTS = 64  # that are kept
+
+
+class Passage(NamedTuple):
+    """An event and the level road behind it, with responses at k times."""
+
+    course: Course
+    time: Real  # (k,) [s]
+    kinked: Bool  # (k,), whether a knot of the event is near
+    steady: bool
+
+    @classmethod
+    def of(cls, event: Event, contacts: Real, speed: float, beyond: float) -> "Passage":
+        """Place a level road [s] behind an event; times are even, and on its knots and beside them."""
+        ends = event.knots(contacts, speed)
+        last = ends[-1] + (0.0 if event.steady else beyond)
+        apart = min(_APART, event.finest(speed) / _ROWS)
+        beside = np.clip(np.concatenate([ends - _BESIDE * apart, ends + _BESIDE * apart]), 0.0, last)
+        time = np.sort(np.concatenate([ends, beside, np.linspace(0.0, last, int(np.ceil(last / apart)) + 1)]))
+        time = time[np.append(True, np.diff(time) > _SAME * apart)]
+        kinked = (np.abs(time[:, None] - ends) < 1.5 * apart).any(axis=1)
+        course = course_over(event, contacts, np.array([[0.0, speed]]), last, _PIECES)
+        return cls(course, time, kinked, event.steady)
+
+    def responses(self, motion: Motion, jerks: Bool) -> Real:
+        """Return the responses (k, m) as changes from rest; jerks are slopes of accelerations between rows."""
+        found = responses_in_time(motion, self.course, self.time, periodic=self.steady, tolerance=_TOLERANCE)
+        if motion.equations.constant.any():  # a payload
+            found -= responses_in_time(motion, _level(motion), np.zeros(1))
+        if jerks.any():
+            found[:, jerks] = _slopes(found[:, jerks], self.time)
+        return found
+
+    def crest(self, history: Real) -> Real:
+        """Return maxima (m,) of (k, m), off knots by the parabola through the largest value and its neighbours."""
+        time, at = self.time, np.clip(history.argmax(axis=0), 1, len(history) - 2)
+        before, here, after = (history[at + i, np.arange(len(at))] for i in (-1, 0, 1))
+        rise, fall = (here - before) / (time[at] - time[at - 1]), (here - after) / (time[at + 1] - time[at])
+        bend = (rise + fall) / (time[at + 1] - time[at - 1])
+        slope = rise - bend * (time[at] - time[at - 1])
+        smooth = (rise >= 0) & (fall >= 0) & (bend > 0) & ~self.kinked[at]
+        more = np.divide(slope**2, 4 * bend, out=np.zeros_like(bend), where=smooth)
+        return np.maximum(here + more, history.max(axis=0))
+
+    def decayed(self, history: Real) -> bool:
+        """Whether responses (k, m) at the end stay within half of their peaks, or stand still."""
+        if self.steady:
+            return True
+        last = history[self.time >= self.time[-1] - _LAST]
+        still = np.ptp(last, axis=0) <= _STILL * np.ptp(history, axis=0)
+        inside = [
+            ((sign * (last - last[-1])).max(axis=0) <= _SMALLER * (sign * (history - last[-1])).max(axis=0))
+            for sign in (1, -1)
+        ]
+        return bool((still | (inside[0] & inside[1])).all())
+
+
+def driven_peaks(
+    vehicle: Vehicle, coefficients: Real, event: Event, speed: float, responses: Sequence[str]
+) -> tuple[Real, Real, Bool]:
+    """Return the largest and the smallest values (p, m), see `peaks`, and which designs (p,) come to rest."""
+    highest, lowest = np.empty((2, len(coefficients), len(responses)))
+    rested, plain = np.zeros(len(coefficients), dtype=bool), vehicle.without_jerk(responses)
+    drivable = Drivable.of(vehicle, plain)
+    jerks = np.array([one != name for one, name in zip(plain, responses, strict=True)])
+    for p, values in enumerate(coefficients):
+        motion = drivable.motion(values)
+        for beyond in _BEYOND:
+            passage = _passage(event, vehicle, speed, beyond)
+            history = passage.responses(motion, jerks)
+            highest[p], lowest[p] = passage.crest(history), -passage.crest(-history)
+            rested[p] = passage.decayed(history)
+            if rested[p]:
+                break
+    return highest, lowest, rested
+
+
+@lru_cache(_EVENTS)
+def _passage(event: Event, vehicle: Vehicle, speed: float, beyond: float) -> Passage:
+    return Passage.of(event, vehicle.contact_points, speed, beyond)
+
+
+def _slopes(values: Real, time: Real) -> Real:
+    """Return slopes (k, j) of values (k, j) from each time to the next, 0 between close times, as of rounding."""
+    steps = np.diff(time)
+    slopes = np.diff(values, axis=0) / steps[:, None]
+    slopes[steps < steps.max() / 2] = 0.0
+    return np.vstack([slopes, slopes[-1:]])
+
+
+def _level(motion: Motion) -> Course:
+    """Return a level road."""
+    wheels = motion.equations.b.shape[1]
+    return Course(np.array([0.0, _APART]), np.zeros((1, wheels, 4)))
