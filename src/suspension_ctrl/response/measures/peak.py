@@ -27,7 +27,11 @@ _TEXT = re.compile(r"(?:(max|min)\s+)?(\w+)\s+(\w+)")
 class Peak(Measure, word="peak"):
     """Peak of a response in an event: the largest magnitude, or the largest value upwards or downwards.
 
-    Linear vehicles pass the event from level ground. Of steady waves it is the peak of the steady state.
+    A peak is a change from rest on level ground. Of steady waves it is the peak of the steady state. A vehicle
+    with force laws is integrated in time for every design until its responses decay; the peaks are within 0.1 %,
+    a ``body_jerk`` is the largest slope of an acceleration between rows 1 ms apart at most. Tyres are linear and
+    may pull on the road, as `simulate` does by default: beyond the static load, ``"peak max tyre_load bump"``, a
+    peak is one of a tyre that does not leave the road.
 
     Parameters
     ----------
