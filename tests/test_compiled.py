@@ -89,6 +89,34 @@ def test_python_calls_verbs_and_any_other_callable():
     assert verb_of(line := Line(2.0, 1.0)) is line
 
 
+class Row(NamedTuple):
+    """A verb that returns a part of its own settings."""
+
+    table: np.ndarray
+
+    @register_jitable
+    def __call__(self, i):
+        return self.table[i]
+
+
+@njit
+def sum_of_rows(verb, times):
+    total = 0.0
+    for k in range(times):
+        row = call(verb, (k % 2,))
+        total += row[0] + row[1]
+    return total
+
+
+def test_calls_leave_the_references_to_the_arrays_of_a_verb_as_they_are():
+    """Whoever calls a verb holds it: an array counted down too often would be freed in its owner's hands."""
+    table = np.array([[1.0, 2.0], [3.0, 4.0]])
+    before = sys.getrefcount(table)
+    assert sum_of_rows(Row(table), 1000) == 5000.0
+    assert sys.getrefcount(table) == before
+    np.testing.assert_array_equal(table, [[1.0, 2.0], [3.0, 4.0]])
+
+
 class Sum(NamedTuple):
     weights: np.ndarray
 

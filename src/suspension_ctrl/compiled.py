@@ -66,6 +66,7 @@ def _lowered_call(context: Any, builder: Any, signature: Any, values: Any) -> An
     if is_linked(kind):
         verb, address = cgutils.unpack_tuple(builder, verb)
         kind = kind.types[0]
+    verb = _borrowed(builder, kind, verb)
     settings, arguments = (cgutils.unpack_tuple(builder, value) for value in (verb, arguments))
     passed = [*arguments, *settings] if is_spread(kind) else [verb, *arguments]
     cast = [context.cast(builder, *each) for each in zip(passed, given, inner.args, strict=True)]
@@ -75,6 +76,19 @@ def _lowered_call(context: Any, builder: Any, signature: Any, values: Any) -> An
 
 
 lower_builtin(call, types.BaseTuple, types.BaseTuple)(_lowered_call)
+
+
+def _borrowed(builder: Any, kind: Any, value: Any) -> Any:
+    """Return a verb or one of its settings without owners of its arrays: whoever calls a verb holds it.
+
+    A function counts references to all arrays that it gets, which takes as long as the work of a short verb.
+    """
+    if isinstance(kind, types.Array):
+        return builder.insert_value(value, cgutils.get_null_value(value.type.elements[0]), 0)
+    for place, inner in enumerate(getattr(kind, "types", ())):  # of a tuple
+        setting = _borrowed(builder, inner, builder.extract_value(value, place))
+        value = builder.insert_value(value, setting, place)
+    return value
 
 
 def _jump(context: Any, builder: Any, address: Any, signature: Any, arguments: Any) -> Any:
