@@ -24,7 +24,7 @@ from suspension_ctrl.study.reference import grid_front
 
 SETTINGS: dict[str, Any] = {
     "nodes": 200,
-    "repeats": 7,
+    "repeats": 5,
     "sample": 16,
     "designs": (1, 100, 1000, 10_000, 100_000),
     "evaluation_limit": 10.0,
@@ -32,10 +32,11 @@ SETTINGS: dict[str, Any] = {
     "populations": (500, 1000, 4000, 16_000),
     "generations": 20,
     "limit": 60.0,
+    "repeat_limit": 5.0,
     "moead_population": 1000,
     "moead_generations": 4,  # 5,000 evaluations, those of MOEA/D-DRA in 20 iterations
     "target_populations": (500, 640, 800, 1000, 1240, 1600),
-    "target_repeats": 15,
+    "target_repeats": 7,
     "target_share": 0.995,
     "target_limit": 1.0,
     "grid": 400,
@@ -51,6 +52,7 @@ QUICK = SETTINGS | {
     "populations": (100, 200),
     "generations": 2,
     "limit": 1.0,
+    "repeat_limit": 1.0,
     "moead_population": 100,
     "target_populations": (500,),
     "target_repeats": 2,
@@ -103,7 +105,8 @@ def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summar
     scaled_front = searches.scaled_front(reference)
     both = {f"{name}, NSGA-II": search for name, search in field.nsga2.items()}
     both |= {f"{name}, MOEA/D": search for name, search in field.moead.items()}
-    repeats, limit = settings["repeats"], settings["limit"]
+    repeats = settings["repeats"]
+    limits = settings["limit"], settings["repeat_limit"]
 
     def kept(name: str, timings: pd.DataFrame) -> pd.DataFrame:
         files.write_csv(folder / f"{name}.csv", timings)
@@ -122,7 +125,12 @@ def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summar
         moead=kept(
             "moead",
             searches.by_population(
-                field.moead, scaled, [settings["moead_population"]], settings["moead_generations"], repeats, limit
+                field.moead,
+                scaled,
+                [settings["moead_population"]],
+                settings["moead_generations"],
+                repeats,
+                *limits,
             ),
         ),
         target=kept(
@@ -140,7 +148,7 @@ def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summar
         nsga2=kept(
             "nsga2",
             searches.by_population(
-                field.nsga2, problem, settings["populations"], settings["generations"], repeats, limit
+                field.nsga2, problem, settings["populations"], settings["generations"], repeats, *limits
             ),
         ),
         absent=field.absent,

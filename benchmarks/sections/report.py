@@ -70,8 +70,8 @@ def _about_nsga2(found: Measurements, settings: dict[str, Any]) -> list[str]:
         f"Milliseconds for {settings['generations']} generations: simulated binary crossover (probability 0.9, "
         "eta 20), polynomial mutation (1/d, eta 20), the same function evaluating a generation in one call. "
         f"A library is left out where in proportion to its time so far it would take more than "
-        f"{settings['limit']:g} s; a run that took longer all the same was made once. Growth is the exponent of "
-        f"time against N from {GROWTH_FROM:,} on. Evaluations are counted at the least N.",
+        f"{settings['limit']:g} s; one that takes more than {settings['repeat_limit']:g} s runs once. Growth is "
+        f"the exponent of time against N from {GROWTH_FROM:,} on. Evaluations are counted at the least N.",
         _markdown(nsga2_table(found)),
         "Ratios:",
         _markdown(nsga2_ratios(found)),

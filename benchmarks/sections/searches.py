@@ -83,13 +83,14 @@ def by_population(
     generations: int,
     repeats: int,
     limit: float,
+    repeat_limit: float,
 ) -> pd.DataFrame:
     """Return one row per timed run: contender, population, repeat, seconds, cpu_seconds, evaluations.
 
     Evaluations are counted at the least population, in a run of their own.
 
     A library is left out of a population for which, growing no faster than in proportion, it would take longer
-    than `limit` seconds; one that does take longer is timed once there and left out of larger ones.
+    than `limit` seconds. One that takes longer than `repeat_limit` seconds is timed once.
     """
     rows: list[dict[str, Any]] = []
     expected = dict.fromkeys(searches, 0.0)
@@ -99,7 +100,7 @@ def by_population(
         found = take_turns(
             {name: partial(_prepared, prepare, task) for name, prepare in entries.items()},
             repeats,
-            limit,
+            repeat_limit,
         )
         expected |= {row["contender"]: row["seconds"] / population for row in found}
         rows += [{**row, "population": population} for row in found]
