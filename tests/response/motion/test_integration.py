@@ -4,9 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import suspension_ctrl as sc
 from garage import DAMPED_FULL, FULL, HALF, QUARTER, struts_of
+from suspension_ctrl.response.motion.courses import Passage
+from suspension_ctrl.response.motion.drivable import motion_of
+from suspension_ctrl.response.motion.integration import responses_in_time
 
 ROAD = sc.Iso8608Road("A")
 NETWORK = sc.parallel(
@@ -73,3 +78,32 @@ def test_struts_that_hold_nothing_are_refused():
     laden = sc.Payload(mass=10.0).on(car)
     with pytest.raises(ValueError, match=r"^struts must have a spring that carries the vehicle, got none$"):
         sc.simulate(laden, {}, profile_for(car, 51.2), 20.0)
+
+
+curves = st.lists(st.floats(50.0, 2e4), min_size=3, max_size=8)
+SPEED_KNOTS = np.array([-2.0, -0.6, -0.3, -0.1, -0.03, 0.0, 0.02, 0.1, 0.25, 0.5, 1.0, 3.0])
+
+
+def car_with_tables(slopes: list[float], stop: float) -> sc.HalfCar:
+    """Tables with these slopes [N s/m] in turn, a bump stop [N/m], and friction in front."""
+    cycle = np.resize(slopes, SPEED_KNOTS.size - 1)
+    force = np.concatenate([[0.0], np.cumsum(cycle * np.diff(SPEED_KNOTS))])
+    table = sc.TableDamper(velocity=SPEED_KNOTS.tolist(), force=(force - force[5]).tolist())
+    stop_ = sc.BumpStop(gap=0.01, stiffness=stop)
+    front = sc.parallel(sc.Spring(value=2e4), table, stop_, sc.Friction(force=60.0))
+    rear = sc.parallel(sc.Spring(value=2e4), sc.series(table, sc.Spring("mount", 3e5)), stop_)
+    return replace(HALF, front_strut=front, rear_strut=rear)
+
+
+@settings(max_examples=15, deadline=None)
+@given(slopes=curves, stop=st.floats(1e4, 4e5), seed=st.integers(0, 99), road=st.sampled_from("ACE"))
+def test_errors_follow_the_tolerance_for_any_tables(slopes, stop, seed, road):
+    """Of the largest value of each response; an error grows where stops are struck: 3,000 tolerances."""
+    car, profile = car_with_tables(slopes, stop), sc.Iso8608Road(road).profile(40.0, 0.1, seed)
+    motion = motion_of(car, car.coefficients({}))
+    passage = Passage.over_profile(profile, car.contact_points, np.array([[0.0, 20.0]]), periodic=False)
+    exact = responses_in_time(motion, passage.course, passage.time, tolerance=1e-12)
+    for tolerance in (1e-3, 1e-4, 1e-6, 1e-8):
+        found = responses_in_time(motion, passage.course, passage.time, tolerance=tolerance)
+        error = (np.abs(found - exact) / np.abs(exact).max(axis=0)).max()
+        assert error < 3e3 * tolerance

@@ -8,7 +8,16 @@ from hypothesis import strategies as st
 import suspension_ctrl as sc
 from garage import QUARTER
 from suspension_ctrl.response.motion.drivable import Drivable
-from suspension_ctrl.response.motion.passes import BY_RATE, DEFLECTION, FORCE, RATE, deflect, gather, spread
+from suspension_ctrl.response.motion.passes import (
+    BY_RATE,
+    DEFLECTION,
+    FORCE,
+    RATE,
+    assemble,
+    deflect,
+    gather,
+    spread,
+)
 from suspension_ctrl.response.motion.system import work_of
 from suspension_ctrl.response.motion.trees import numbers_of
 
@@ -23,7 +32,8 @@ def force_and_rates(strut, deflection: float, rate: float, states: list[float]) 
     numbers, own = numbers_of(motion.program, tree, motion.values), slice(4, 4 + tree.states)
     work.slots[DEFLECTION, 0], work.slots[RATE, 0], work.x[0, own] = deflection, rate, states
     deflect(tree, work, 0)
-    gather(tree, numbers, work, 0)
+    assemble(tree, numbers, work)
+    gather(tree, work, 0)
     spread(tree, numbers, work, 0)
     return float(work.slots[BY_RATE, 0] * rate + work.slots[FORCE, 0]), work.x[1, own].tolist()
 

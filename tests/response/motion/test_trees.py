@@ -23,11 +23,12 @@ def tree(strut, car=HALF) -> tuple[Tree, Program, sc.HalfCar]:
 def test_a_network_stands_at_each_of_its_ports():
     found, _, car = tree(MOUNTED, FULL)
     q = len(car.struts)
-    assert found.slot.tolist() == [q, q + 1, 0, q + 2, q + 3, 1]
-    assert found.first.tolist() == [-1, -1, q, -1, -1, q + 2]
-    assert found.state[found.state[:, 0] >= 0].tolist() == [[10, -1], [11, -1]]
+    assert found.slot.tolist() == [0, 1]
+    assert found.first.tolist() == [q, q + 2]
+    assert found.law_slot.tolist() == [q, q + 2]
+    assert found.linear_slot.tolist() == [q + 1, q + 3]
+    assert found.state.tolist() == [[10, -1], [11, -1]]
     assert found.states == 2
-    assert found.law.tolist() == [0, -1, -1, 1, -1, -1]
     assert car.struts[:2] == ("front_left", "front_right")
 
 
@@ -40,7 +41,7 @@ def test_a_series_with_an_inerter_has_its_rate_as_a_state_too():
     first = found.first[series]
     values = car.coefficients({"front.spring": 2e4, "front.inerter": 30.0, "front.bush": 5e3, "rear": (2e4, 1e3)})
     numbers = numbers_of(program, found, np.array(list(values.values())))
-    assert numbers.inertance[first] == 30.0
+    assert numbers.linear[2, first] == 30.0
 
 
 RUBBER = sc.Rubber("bush", storage=2e5, loss=2e4)

@@ -79,8 +79,9 @@ class Drivable(NamedTuple):
         if known and vehicle.networks:
             constant = payload(assembled(vehicle).assembly, system.nstates)
         gains = np.array([gains_by_order([one], {one.name: 1.0}, q) for one in vehicle.strut_coefficients])
-        for i in np.flatnonzero((tree.kind == INERTER) & (tree.slot < q)).tolist():
-            gains[program.coefficient[tree.node[i], 0], 2, tree.slot[i], tree.slot[i]] += tree.ratio[i] ** 2
+        for i in np.flatnonzero((tree.kind == INERTER) & (tree.linear_slot < q)).tolist():
+            port = tree.linear_slot[i]
+            gains[tree.coefficient[i], 2, port, port] += tree.linear_ratio[i] ** 2
         read, at = (np.array([every.index(name) for name in rows], dtype=int) for rows in (names, loads))
         plant = matrices_of(system, len(vehicle.contact_points), q, constant)
         return cls(vehicle, plant, gains, program, tree, read, at)

@@ -6,7 +6,7 @@ need too many terms: a step needs no second try.
 
 import numpy as np
 
-from ...compiled import compilable, compiled
+from ...compiled import compilable_without_counts, compiled
 from ...quantities import Real
 from ...vehicles.networks import Program
 from .crossings import first_exit, switch
@@ -23,7 +23,7 @@ REACHED, NO_EQUILIBRIUM, STUCK = range(3)
 """How an integration ends: at the last knot, not begun, without progress."""
 
 
-@compilable(error_model="numpy", forceinline=True)
+@compilable_without_counts(forceinline=True)
 def _expand(
     e: Equations, tree: Tree, numbers: Numbers, work: Work, longest: float, tolerance: float
 ) -> tuple[int, float]:
@@ -46,7 +46,7 @@ def _expand(
     return order, longest * _SAFETY * min(term ** (-1 / TERMS), last ** (-1 / (TERMS - 1)))
 
 
-@compilable(error_model="numpy", forceinline=True)
+@compilable_without_counts(forceinline=True)
 def _record(work: Work, terms: int, start: float, end: float, row: int, times: Real, rows: Real) -> int:
     """Fill in the rows of a step from one time to another; return the next row."""
     n = work.size.size
@@ -62,7 +62,7 @@ def _record(work: Work, terms: int, start: float, end: float, row: int, times: R
     return row
 
 
-@compilable(error_model="numpy", forceinline=True)
+@compilable_without_counts(forceinline=True)
 def _go_on(work: Work, terms: int, step: float, state: Real) -> None:
     """Begin the next series where a step ends."""
     states_at(work, terms, step, state)
@@ -71,29 +71,20 @@ def _go_on(work: Work, terms: int, step: float, state: Real) -> None:
         work.size[i] = max(work.size[i], abs(state[i]) + _FLOOR)
 
 
-@compiled(error_model="numpy")
-def drive(
+@compilable_without_counts()
+def _travel(
     e: Equations,
-    program: Program,
     tree: Tree,
-    values: Real,
+    numbers: Numbers,
     course: Course,
+    work: Work,
     state: Real,
     tolerance: float,
     times: Real,
     rows: Real,
 ) -> int:
-    """Take the states (n,) over a course; return how it ends.
-
-    States and tensions (m, n + q) at times (m,) are filled in. States of NaN are put in first, in equilibrium on
-    the first heights.
-    """
-    numbers, work, row, knots = numbers_of(program, tree, values), work_of(e, tree), 0, course.knots
-    if np.isnan(state[0]) and not settle(e, tree, numbers, course, work, state):
-        return NO_EQUILIBRIUM
-    place(course, 0, 0.0, work.z)
-    find_segments(e, tree, numbers, work, state)
-    work.size[:] = np.abs(state) + _FLOOR
+    """Take the states over a course, see `drive`."""
+    row, knots = 0, course.knots
     for piece in range(knots.size - 1):
         time, rest, left = 0.0, knots[piece + 1] - knots[piece], _STEPS
         while rest > 0:
@@ -110,3 +101,29 @@ def drive(
             if left == 0 or not np.isfinite(state[0]):
                 return STUCK
     return REACHED
+
+
+@compiled(error_model="numpy")
+def drive(
+    e: Equations,
+    program: Program,
+    tree: Tree,
+    values: Real,
+    course: Course,
+    state: Real,
+    tolerance: float,
+    times: Real,
+    rows: Real,
+) -> int:
+    """Take the states (n,) over a course with coefficients (c,) of the struts; return how it ends.
+
+    States and tensions (m, n + q) at times (m,) are filled in. States of NaN are put in first, in equilibrium on
+    the first heights.
+    """
+    numbers, work = numbers_of(program, tree, values), work_of(e, tree)
+    if np.isnan(state[0]) and not settle(e, tree, numbers, course, work, state):
+        return NO_EQUILIBRIUM
+    place(course, 0, 0.0, work.z)
+    find_segments(e, tree, numbers, work, state)
+    work.size[:] = np.abs(state) + _FLOOR
+    return _travel(e, tree, numbers, course, work, state, tolerance, times, rows)

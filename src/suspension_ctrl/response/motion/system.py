@@ -54,8 +54,8 @@ class Work(NamedTuple):
     tension: Real  # (TERMS + 1, q)
     own: Real  # (TERMS + 1, l + t), deflection or rate of a law, tension of a tyre beyond its static load
     curved: Real  # (TERMS + 1, l), force of a law by a power of the rate
-    slots: Real  # (5, s): deflection, rate, stiffness; tension = by_rate * rate + force
-    law: Real  # (2, l), slope of each law, and its force at own = 0
+    slots: Real  # (8, slots), see `passes`
+    law: Real  # (2, l), slope of each law, and the rest of its force
     segment: Integer  # (l + t,), of a tyre 0 on the road, 1 in the air
     bounds: Real  # (2, l + t), of the present segment, low and high
     reach: Real  # (l + t,), bound of what a law moves in a step
@@ -72,6 +72,6 @@ def work_of(e: Equations, tree: Tree) -> Work:
     ports[:] = e.c.T
     x, z, tension = np.zeros((TERMS + 2, n)), np.zeros((2, ROAD, r)), np.zeros((TERMS + 1, q))
     own, curved = np.zeros((TERMS + 1, l + t)), np.zeros((TERMS + 1, l))
-    slots, law, segment = np.zeros((5, tree.slots)), np.zeros((2, l)), np.zeros(l + t, dtype=np.int64)
+    slots, law, segment = np.zeros((8, tree.slots)), np.zeros((2, l)), np.zeros(l + t, dtype=np.int64)
     bounds, reach = np.zeros((2, l + t)), np.zeros(l + t)
     return Work(columns, ports, x, z, tension, own, curved, slots, law, segment, bounds, reach, np.zeros(n))

@@ -12,7 +12,7 @@ import numpy as np
 from ...compiled import compilable
 from ...quantities import Bool, Integer, Real
 from ...vehicles.assembly import Network
-from ...vehicles.networks import INERTER, LAW, PARALLEL, SERIES, Program, elements_of
+from ...vehicles.networks import DAMPER, INERTER, LAW, PARALLEL, SERIES, SPRING, Program, elements_of
 from ...vehicles.struts import MeasuredStiffness, Rubber
 from .curves import fill_law
 
@@ -20,17 +20,20 @@ _NONE = -1
 
 
 class Tree(NamedTuple):
-    """Elements and series at all ports, the parts of a series before it, and l force laws."""
+    """What hangs in the slots: l force laws, s series, the parts of a series before it, and linear elements."""
 
-    kind: Integer  # (n,)
-    slot: Integer  # (n,)
-    ratio: Real  # (n,), of the deflection of an element to that of its slot
-    first: Integer  # (n,), slot of the first part of a series, the one with an inerter; the second follows
-    state: Integer  # (n, 2), states of the first part of a series: its deflection, with an inerter also its rate
-    law: Integer  # (n,), of a LAW, else -1
-    node: Integer  # (n,), node of the vehicle's program
-    source: Integer  # (l,), law of the vehicle's program
+    law_slot: Integer  # (l,)
+    law_ratio: Real  # (l,), of the deflection of a law to that of its slot
     of_rate: Bool  # (l,)
+    source: Integer  # (l,), law of the vehicle's program
+    slot: Integer  # (s,)
+    ratio: Real  # (s,)
+    first: Integer  # (s,), slot of the first part, the one with an inerter; the second follows
+    state: Integer  # (s, 2), states of the first part: its deflection, with an inerter also its rate, else -1
+    kind: Integer  # (n,), of the linear elements
+    linear_slot: Integer  # (n,)
+    linear_ratio: Real  # (n,)
+    coefficient: Integer  # (n,), of the vehicle
     slots: int
     states: int  # number of states of all series
     curved: bool  # whether a law is a power of the rate
@@ -39,8 +42,7 @@ class Tree(NamedTuple):
 class Numbers(NamedTuple):
     """Values of the elements and curves of the laws, of one design."""
 
-    value: Real  # (n,), stiffness, damping or inertance
-    inertance: Real  # (s,), of each slot [kg]
+    linear: Real  # (3, slots), stiffness, damping and inertance of the linear elements in each slot
     knots: Integer  # (l,), number of knots of each law
     knot: Real  # (l, k)
     slope: Real  # (l, k + 1)
@@ -109,22 +111,15 @@ def tree_of(networks: Sequence[Network], program: Program, states: int) -> Tree:
             growth.hang(root, port)
     columns = [np.array(column) for column in zip(*growth.elements, strict=True)] or [np.zeros(0)] * 6
     kind, slot, first, state, node = (column.astype(np.int64) for column in columns[:-1])
-    law = np.where(kind == LAW, np.cumsum(kind == LAW) - 1, _NONE)
-    source = program.law[node[kind == LAW]]
-    curved = bool((program.laws.power[source] != _NONE).any())
+    law, series, ratio = kind == LAW, kind == SERIES, columns[-1].astype(float)
+    linear, source = ~law & ~series, program.law[node[law]]
     return Tree(
-        kind,
-        slot,
-        columns[-1].astype(float),
-        first,
-        state.reshape(-1, 2),
-        law,
-        node,
-        source,
-        program.laws.of_rate[source],
+        *(slot[law], ratio[law], program.laws.of_rate[source], source),
+        *(slot[series], ratio[series], first[series], state.reshape(-1, 2)[series]),
+        *(kind[linear], slot[linear], ratio[linear], program.coefficient[node[linear], 0]),
         len(growth.inertia),
         len(growth.states) - 1,
-        curved,
+        bool((program.laws.power[source] != _NONE).any()),
     )
 
 
@@ -138,15 +133,12 @@ def _check_in_time(networks: Sequence[Network]) -> None:
 @compilable(error_model="numpy")
 def numbers_of(program: Program, tree: Tree, values: Real) -> Numbers:
     """Return the numbers for coefficients (c,) of the vehicle."""
-    n, laws, most = tree.kind.size, tree.source.size, 2 * program.laws.number.shape[2]
-    value, inertance = np.zeros(n), np.zeros(tree.slots)
-    for i in range(n):
-        coefficient = program.coefficient[tree.node[i], 0]
-        value[i] = values[coefficient] if coefficient >= 0 else 0.0
-        if tree.kind[i] == INERTER:
-            inertance[tree.slot[i]] += tree.ratio[i] ** 2 * value[i]
-    knots, knot, power = np.zeros(laws, dtype=np.int64), np.zeros((laws, most)), np.zeros((laws, 2))
-    slope, base = np.zeros((laws, most + 1)), np.zeros((laws, most + 1))
+    laws, most = tree.source.size, 2 * program.laws.number.shape[2]
+    linear, knots, power = np.zeros((3, tree.slots)), np.zeros(laws, dtype=np.int64), np.zeros((laws, 2))
+    for i in range(tree.kind.size):
+        order = 0 if tree.kind[i] == SPRING else 1 if tree.kind[i] == DAMPER else 2
+        linear[order, tree.linear_slot[i]] += tree.linear_ratio[i] ** 2 * values[tree.coefficient[i]]
+    knot, slope, base = np.zeros((laws, most)), np.zeros((laws, most + 1)), np.zeros((laws, most + 1))
     for l in range(laws):  # noqa: E741
         knots[l] = fill_law(program.laws, tree.source[l], values, knot[l], slope[l], base[l], power[l])
-    return Numbers(value, inertance, knots, knot, slope, base, power)
+    return Numbers(linear, knots, knot, slope, base, power)
