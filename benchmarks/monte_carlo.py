@@ -69,10 +69,10 @@ def problems() -> dict[str, tuple[RideProblem, list[float]]]:
         found[name] = RideProblem(car, road, speed=SPEED, band=BAND, bounds=bounds), [22e3]
     file, rough = load_vehicle("jian_2022_full"), Iso8608Road("D")
     struts = {"front_strut": parallel(Spring(), FRONT), "rear_strut": parallel(Spring(), REAR)}
-    car: Any = file.vehicle
+    full: Any = file.vehicle
     springs = {name: file.setting[name] for name in ("front.spring", "rear.spring")}
-    full = RideProblem(
-        replace(car, **struts),
+    problem = RideProblem(
+        replace(full, **struts),
         rough,
         speed=SPEED,
         band=BAND,
@@ -80,7 +80,7 @@ def problems() -> dict[str, tuple[RideProblem, list[float]]]:
         struts={"front_antiroll": file.setting["front_antiroll"]},
         measures=["ACC", "SWS front", "SWS rear", "DTL front", "DTL rear"],
     )
-    return found | {"full car, two laws": (full, list(springs.values()))}
+    return found | {"full car, two laws": (problem, list(springs.values()))}
 
 
 def errors(minutes: float, seeds: int, only: str = "") -> Iterator[dict[str, Any]]:
