@@ -7,7 +7,6 @@ from .response.lift_off import LiftOffWarning as LiftOffWarning
 from .response.linearisation import linearised as linearised
 from .response.load_case import LoadCase as LoadCase
 from .response.measures.gaussian import Bottoming as Bottoming
-from .response.measures.gaussian import DamperPower as DamperPower
 from .response.measures.gaussian import LargestPeak as LargestPeak
 from .response.measures.gaussian import Lift as Lift
 from .response.measures.gaussian import Topping as Topping
@@ -17,6 +16,7 @@ from .response.measures.handling import RollGradient as RollGradient
 from .response.measures.limits import Limit as Limit
 from .response.measures.measure import Measure as Measure
 from .response.measures.peak import Peak as Peak
+from .response.measures.power import DamperPower as DamperPower
 from .response.measures.terms import Term as Term
 from .response.measures.vibration import ACC as ACC
 from .response.measures.vibration import DLC as DLC

@@ -19,7 +19,7 @@ from . import any_struts, one_port
 from .load_case import LoadCase, Road
 from .mean_squares import AnyCase, case_of
 from .measures.terms import Term
-from .network_rows import DEVIATION, FORCE, MEAN, SLOPE, STATES
+from .network_rows import DEVIATION, FORCE, MEAN, NETWORK, OF_RATE, SLOPE, STATES
 from .one_port import OnePort
 from .strut_data import apart
 from .working_point import Points
@@ -156,6 +156,13 @@ def working_points(case: AnyCase, designs: Real) -> Points:
     _solver(one_port.solve if isinstance(case, OnePort) else any_struts.solve)(case, designs, points)
     check_reached(points.iterations >= 0, designs)
     return points
+
+
+def powers_of_laws(case: AnyCase, points: Points) -> Real:
+    """Return the mean power (p, q) that the force laws of the rate take in at each strut: E[v F] = c s^2."""
+    law, state = case.networks.law, points.state
+    power = state[..., SLOPE] * state[..., DEVIATION] ** 2 * law[:, OF_RATE]
+    return np.asarray(power @ case.networks.ports[law[:, NETWORK].astype(int)])
 
 
 def check_reached(reached: Bool, designs: Real) -> None:

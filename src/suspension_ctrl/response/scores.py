@@ -11,7 +11,7 @@ from ..compiled import call, compilable
 from ..quantities import Bool, Complex, Integer, Real
 from ..vehicles.feedback import gains_by_order
 from ..vehicles.vehicle import assembled
-from .linearisation import check_reached, linear_vehicles, working_points
+from .linearisation import check_reached, linear_vehicles, powers_of_laws, working_points
 from .load_case import LoadCase
 from .mean_squares import AnyCase, Case, cases_of
 from .measures.terms import CaseMeasure, Designs, Term
@@ -230,10 +230,16 @@ class Scores:
                 return working_points(case, designs).position
             return np.zeros((len(designs), len(self.cases[c].vehicle.struts)))
 
+        def law_powers() -> Real:
+            case = kernel.cases[c]
+            if isinstance(case, AnyCase):
+                return powers_of_laws(case, working_points(case, designs))
+            return np.zeros((len(designs), len(self.cases[c].vehicle.struts)))
+
         def spectra() -> Iterator[tuple[Real, Mapping[str, Real]]]:
             return self._spectra(c, designs, coefficients, kernel.cases[c])
 
-        return Designs(designs, coefficients, spectra, mean_squares, mean_travels)
+        return Designs(designs, coefficients, spectra, mean_squares, mean_travels, law_powers)
 
     def _spectra(
         self, c: int, designs: Real, coefficients: Real, squares: Case

@@ -1,4 +1,4 @@
-"""Measures of a Gaussian response by its spectral moments: crossings, lift-off, largest peak, power of dampers.
+"""Measures of a Gaussian response by its spectral moments: crossings, lift-off, largest peak.
 
 The response of a linear vehicle to a Gaussian road is Gaussian. Its standard deviation s and that of its rate, s',
 are the roots of the moments of order 0 and 2. It crosses a level a upwards ``s'/(2 pi s) exp(-a^2/(2 s^2))`` times
@@ -252,59 +252,6 @@ class LargestPeak(Measure, word="largest"):
 
     def _rest(self) -> str:
         return f"{self.response} {number_text(self.distance)}"
-
-
-class DamperPower(WheelMeasure, word="damper_power", unit="W"):
-    """Mean power that a damper turns into heat, ``c s^2`` with the standard deviation s of its rate.
-
-    Of several struts the largest. The damper stands directly between body and wheel, or seat and body.
-
-    Parameters
-    ----------
-    where : str
-        An axle, a wheel or a seat: ``"front"``; all wheels by default.
-    name, maximise
-        As of `Measure`; the name is optional.
-
-    Examples
-    --------
-    On a road of waviness 2 and over all frequencies the power is pi^2 K_t Gd(n0) n0^2 V for any spring and damper,
-    here 97 W:
-
-    >>> import suspension_ctrl as sc
-    >>> car = sc.QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3)
-    >>> road = sc.Iso8608Road("C")
-    >>> for damper in (1000.0, 2000.0):
-    ...     table = sc.ride(car, (22e3, damper), road, 20.0, band=(0.0, 200.0), measures=["damper_power"])
-    ...     print(round(table["value"]["damper_power"]))
-    97
-    97
-    """
-
-    kind = "travel_rate"
-
-    def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
-        """Return the measure in a load case; ValueError if the vehicle lacks the place or the damper."""
-        vehicle, names = case.vehicle, self.responses(case.vehicle)
-        terms = tuple(map(Term, names))
-        struts = [vehicle.struts.index(str(vehicle.meanings[name].where)) for name in names]
-        if any(network.share[i] for network in vehicle.networks for i in struts):
-            raise ValueError(f"{self.word} must be of a damper beside its spring, got a strut of other elements")
-        dampers = np.array(
-            [
-                one.gain[struts, struts] if one.order == 1 else np.zeros(len(struts))
-                for one in vehicle.strut_coefficients
-            ]
-        )
-
-        def values(designs: Designs) -> Real:
-            return np.asarray((designs.coefficients @ dampers * designs.mean_squares(terms)).max(axis=1))
-
-        def in_trip(trip: "Trip", coefficients: Real) -> float:
-            squares = np.array([trip.mean_square(term) for term in terms])
-            return float((coefficients @ dampers * squares).max())
-
-        return CaseMeasure(terms, values=values, in_trip=in_trip)
 
 
 def _moments(responses: Sequence[str]) -> Any:

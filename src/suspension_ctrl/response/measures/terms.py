@@ -77,7 +77,8 @@ class Term(Record):
 class Designs(NamedTuple):
     """Designs (p, v) in a load case, all their coefficients (p, c), and response spectra design by design.
 
-    The mean squares (p, k) of terms are those of terms of the measure.
+    The mean squares (p, k) of terms are those of terms of the measure; mean travels and the powers of force laws
+    (p, q) are those at the struts.
     """
 
     values: Real
@@ -85,6 +86,7 @@ class Designs(NamedTuple):
     spectra: Callable[[], Iterator[tuple[Real, Mapping[str, Real]]]]
     mean_squares: Callable[[Sequence[Term]], Real]
     mean_travels: Callable[[], Real]
+    law_powers: Callable[[], Real]
 
 
 class CaseMeasure(NamedTuple):
