@@ -93,16 +93,6 @@ def test_the_largest_peak_is_the_mean_of_those_of_many_kilometres(driven):
         assert measured(f"largest {name} 1000").iloc[0] == pytest.approx(peaks.mean(), rel=0.05)
 
 
-def test_the_power_of_a_damper_is_that_of_the_tyre_and_road_and_of_driving(driven):
-    """pi^2 K_t Gd(n0) n0^2 V on a road of waviness 2; a band to 100 Hz is 1.2e-4 short."""
-    road = sc.Iso8608Road("C")
-    for spring, damper in ((22e3, 1500.0), (12e3, 4000.0)):
-        setting = {"spring": spring, "damper": damper}
-        found = measured("damper_power", setting=setting, road=road, band=(0.0, 1000.0)).iloc[0]
-        assert found == pytest.approx(np.pi**2 * 192e3 * 256e-6 * 0.1**2 * SPEED, rel=2e-3)
-    assert measured("damper_power").iloc[0] == pytest.approx(1500.0 * (driven[2] ** 2).mean(), rel=0.05)
-
-
 @pytest.mark.parametrize(
     ("measure", "text", "unit"),
     [
@@ -163,13 +153,3 @@ def test_limits_on_them_steer_a_search():
 def test_what_is_wrong_is_named(text, key):
     with pytest.raises(ValueError, match=rf"^{key} "):
         sc.ride(HALF, struts_of(HALF), ROAD, SPEED, measures=[text])
-
-
-def test_a_damper_behind_a_mount_has_no_power_by_its_travel():
-    car = sc.QuarterCar(
-        body_mass=300.0, wheel_mass=40.0, tyre_stiffness=2e5,
-        strut=sc.parallel(sc.Spring(), sc.series(sc.Damper(), sc.Spring("mount"))),
-    )  # fmt: skip
-    case = sc.LoadCase(vehicle=car, road=ROAD, speed=SPEED)
-    with pytest.raises(ValueError, match=r"^damper_power .*beside its spring"):
-        sc.DamperPower().in_case(case, None)
