@@ -74,9 +74,7 @@ def _quarter_car(struts: dict[str, Strut], nodes: int) -> sc.RideProblem:
 def _full_car(struts: dict[str, Strut], nodes: int) -> sc.RideProblem:
     car, road = sc.FullCar(**_frame("jian_2022_full"), **struts), sc.Iso8608Road("C")
     fixed = {"front_antiroll": 2e4}
-    return sc.RideProblem(
-        car, road, speed=20.0, bounds=_bounds(car), struts=fixed, band=(0.1, 20.0), nodes=nodes
-    )
+    return sc.RideProblem(car, road, speed=20.0, bounds=_bounds(car), struts=fixed, band=(0.1, 20.0), nodes=nodes)
 
 
 def _frame(file: str) -> dict[str, Any]:
@@ -108,7 +106,7 @@ def measure(nodes: int, designs: dict[str, int], repeats: int) -> pd.DataFrame:
 
 
 def ratios(timings: pd.DataFrame) -> pd.DataFrame:
-    """Return by vehicle and strut the least processor time per design [s], its ratio to the default, and the bar."""
+    """Return by vehicle and strut the bar, the least processor time per design [s], its ratio to the default."""
     least = (timings.cpu_seconds / timings.designs).groupby([timings.vehicle, timings.strut]).min()
     rows = [(*row, least[row.vehicle, row.strut]) for row in ROWS]
     table = pd.DataFrame(rows, columns=[*Row._fields, "seconds"])

@@ -8,6 +8,7 @@ from suspension_ctrl.response.network_rows import (
     DEVIATION,
     DIRECT,
     SLOPE,
+    elements,
     fill_direct,
     fill_rows,
     fill_share,
@@ -56,7 +57,7 @@ def test_two_elements(one, other, join):
         x = state[0, SLOPE] * S
     expected = 0.49 * (x + y if join is sc.parallel else x * y / (x + y))
     root = networks.root[0]
-    re, im = stiffness_at(direct, root, 2 * np.pi * F, rows[networks.row[root]], slice(None))
+    re, im = stiffness_at(elements(direct, root), 2 * np.pi * F, rows[networks.row[root]], slice(None))
     np.testing.assert_allclose(re + 1j * im, expected, rtol=1e-12)
 
 

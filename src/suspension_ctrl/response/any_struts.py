@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compilable, compiled
+from ..compiled import compilable, compiled, uncounted
 from ..quantities import Bool, Real
-from .many_struts import ManyStruts, add_product, eliminate, fill_loop, fill_stiffness, sum_of_squares
+from .many_struts import ManyStruts, add_terms, eliminate, fill_loop, fill_stiffness
 from .mean_position import balance
 from .network_rows import (
     DAMPING,
@@ -18,6 +18,7 @@ from .network_rows import (
     STATES,
     STIFFNESS,
     Networks,
+    elements,
     fill_direct,
     fill_rows,
     fill_share,
@@ -54,11 +55,15 @@ def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
     q = networks.sag.size
     position, work, damping = np.zeros(q), np.empty((3, q, q)), np.empty(networks.root.size)
     entries = (struts.sizes[:, 0] * (2 * struts.sizes[:, 0] + struts.sizes[:, 1])).sum()
-    room = np.empty((entries, 2, n))
+    room, present = np.empty((entries, 2, n)), np.empty((struts.sizes[:, 0] ** 2).sum(), dtype=np.bool_)
+    tension, value = np.empty((struts.sizes[:, 0].max(), 2, n)), np.empty((2, n))
+    added, found = np.empty(designs.shape[1]), np.empty(struts.channel.size)
     anywhere = points.iterations.size > 0 or (law[:, OF_RATE] == 0).any()
     result = np.empty((designs.shape[0], struts.channel.size))
     for p in range(designs.shape[0]):
         fill_values(networks.variable, designs, p, values)
+        for v in range(added.size):
+            added[v] = designs[p, v] - struts.origin[v]
         fill_damping(networks, values, damping)
         begin(law, networks.laws, values, curve, state)
         reached, iteration = False, 0
@@ -69,7 +74,7 @@ def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
                 linearise(law, count, curve, values, state)
             fill_direct(networks, values, state, direct)
             fill_rows(networks, omega, values, direct, rows)
-            close_blocks(any_struts, designs[p], direct, rows, room)
+            close_blocks(any_struts, added, direct, rows, present, room)
             for i in range(count.size):
                 share[:] = square[i]
                 if law[i, IN_SERIES]:
@@ -79,36 +84,35 @@ def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
             reached = improve(law, square, damping, state, iteration) < NEAR
             iteration += 1
         keep(points, p, state, position, iteration if reached else -1)
-        found = outputs(any_struts, room)
+        fill_terms(any_struts, present, room, tension, value, found)
         for term in range(struts.channel.size):
             result[p, term] = found[struts.channel[term]] if reached else np.nan
     return result
 
 
-@compilable()
-def close_blocks(any_struts: AnyStruts, design: Real, direct: Real, rows: Real, room: Real) -> None:
-    """Solve the strut loops of all blocks: stiffness (q q), then loop (q (q + s)) of each block after another."""
+@uncounted()
+def close_blocks(any_struts: AnyStruts, added: Real, direct: Real, rows: Real, present: Bool, room: Real) -> None:
+    """Solve the strut loops of all blocks: stiffness (q q), then loop (q (q + s)) of each block after another.
+
+    The variables have values `added` (v,) to those of the origin.
+    """
     struts, root, nominal = any_struts.struts, any_struts.networks.root, any_struts.nominal
     own = any_struts.networks.row
-    added, row, entry, start = np.empty(design.size), 0, 0, 0
+    row, entry, start = 0, 0, 0
     for t in range(root.size):
         direct[root[t], STIFFNESS] -= nominal[t, 0]
         direct[root[t], DAMPING] -= nominal[t, 1]
-    for v in range(design.size):
-        added[v] = design[v] - struts.origin[v]
     for b in range(struts.sizes.shape[0]):
         q, s, k = struts.sizes[b]
         stiffness, loop = room[start : start + q * q], room[start + q * q : start + q * (2 * q + s)]
-        present = fill_stiffness(added, struts, entry, stiffness)
+        filled = present[entry : entry + q * q]
+        fill_stiffness(added, struts, entry, filled, stiffness)
         for t in range(root.size):
             gain = struts.gain[added.size + t, entry : entry + q * q]
-            add_network(gain, struts.omega, direct, root[t], rows[own[root[t]]], present, stiffness)
+            add_network(gain, struts.omega, direct, root[t], rows[own[root[t]]], filled, stiffness)
         feedback, sources = struts.rows[row : row + q * q], struts.rows[row + q * q : row + q * (q + s)]
-        fill_loop(q, s, present, stiffness, feedback, sources, loop)
+        fill_loop(q, s, filled, stiffness, feedback, sources, loop)
         eliminate(q, q + s, loop)
-        for i in range(q * q):
-            if not present[i]:
-                stiffness[i] = 0.0
         row, entry, start = row + (q + k) * (q + s), entry + q * q, start + q * (2 * q + s)
 
 
@@ -117,16 +121,18 @@ def add_network(
     gain: Real, omega: Real, direct: Real, node: int, row: Real, present: Bool, stiffness: Real
 ) -> None:
     """Add the dynamic stiffness of a node with its row (2, n) to the stiffness (q q, 2, n) by its gains (q q,)."""
+    own = elements(direct, node)
     for i in range(gain.size):
-        if gain[i] != 0.0:
+        factor = gain[i]
+        if factor != 0.0:
             present[i] = True
             for t in range(omega.size):
-                re, im = stiffness_at(direct, node, omega[t], row, t)
-                stiffness[i, 0, t] += gain[i] * re
-                stiffness[i, 1, t] += gain[i] * im
+                re, im = stiffness_at(own, omega[t], row, t)
+                stiffness[i, 0, t] += factor * re
+                stiffness[i, 1, t] += factor * im
 
 
-@compilable()
+@uncounted()
 def deflection(any_struts: AnyStruts, network: int, density: Real, share: Real, room: Real) -> float:
     """Return the mean square of the deflection of a network's port, times a share (n,), with density (n,)."""
     struts, total, entry, start = any_struts.struts, 0.0, 0, 0
@@ -153,28 +159,16 @@ def weighted_square(value: Real, density: Real, share: Real) -> float:
     return total
 
 
-@compilable()
-def outputs(any_struts: AnyStruts, room: Real) -> Real:
-    """Return the distinct mean squares of the responses."""
-    struts, n = any_struts.struts, any_struts.struts.omega.size
-    found, tension, value = np.zeros(struts.channel.size), np.empty((2, n)), np.empty((2, n))
-    row, start, output = 0, 0, 0
-    total = np.empty((struts.sizes[:, 0].max() if struts.sizes.size else 0, 2, n))
+@uncounted()
+def fill_terms(any_struts: AnyStruts, present: Bool, room: Real, tension: Real, value: Real, found: Real) -> None:
+    """Fill in the distinct mean squares of the responses."""
+    struts, row, entry, start, output = any_struts.struts, 0, 0, 0, 0
+    found[:] = 0.0
     for b in range(struts.sizes.shape[0]):
         q, s, k = struts.sizes[b]
         stiffness, loop = room[start : start + q * q], room[start + q * q : start + q * (2 * q + s)]
         by_source = struts.rows[row + q * (q + s) : row + q * (q + s) + k * s]
         by_strut = struts.rows[row + q * (q + s) + k * s : row + (q + k) * (q + s)]
-        for source in range(s):
-            for i in range(q):
-                tension[:] = 0.0
-                for j in range(q):
-                    add_product(1.0, stiffness[i * q + j], loop[j * (q + s) + q + source], tension)
-                total[i] = tension
-            for i in range(k):
-                value[:] = by_source[i * s + source]
-                for j in range(q):
-                    add_product(1.0, by_strut[i * q + j], total[j], value)
-                found[struts.response[output + i]] += sum_of_squares(value)
-        row, start, output = row + (q + k) * (q + s), start + q * (2 * q + s), output + k
-    return found
+        response, own = struts.response[output : output + k], present[entry : entry + q * q]
+        add_terms(q, s, own, stiffness, loop, by_source, by_strut, response, tension, value, found)
+        row, entry, start, output = row + (q + k) * (q + s), entry + q * q, start + q * (2 * q + s), output + k

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compilable, compiled
+from ..compiled import compilable, compiled, uncounted
 from ..quantities import Bool, Integer, Real
 
 
@@ -35,7 +35,11 @@ class ManyStruts(NamedTuple):
         q, s = 0, 0
         for b in range(sizes.shape[0]):
             q, s = max(q, sizes[b, 0]), max(s, sizes[b, 1])
-        stiffness, loop = np.empty((q * q, 2, n)), np.empty((q * (q + s), 2, n))
+        stiffness, loop, present = (
+            np.empty((q * q, 2, n)),
+            np.empty((q * (q + s), 2, n)),
+            np.empty(q * q, np.bool_),
+        )
         tension, value = np.empty((q, 2, n)), np.empty((2, n))
         found = np.empty(self.channel.size)
         result = np.empty((designs.shape[0], self.channel.size))
@@ -44,7 +48,7 @@ class ManyStruts(NamedTuple):
             row, entry, output = 0, 0, 0
             for b in range(sizes.shape[0]):
                 q, s, k = sizes[b]
-                present = fill_stiffness(designs[p] - self.origin, self, entry, stiffness[: q * q])
+                fill_stiffness(designs[p] - self.origin, self, entry, present, stiffness[: q * q])
                 feedback = self.rows[row : row + q * q]
                 sources = self.rows[row + q * q : row + q * (q + s)]
                 by_source = self.rows[row + q * (q + s) : row + q * (q + s) + k * s]
@@ -52,27 +56,17 @@ class ManyStruts(NamedTuple):
                 by_strut = self.rows[row - k * q : row]
                 fill_loop(q, s, present, stiffness, feedback, sources, loop)
                 eliminate(q, q + s, loop)
-                for source in range(s):
-                    for i in range(q):
-                        tension[i] = 0.0
-                        for j in range(q):
-                            if present[i * q + j]:
-                                add_product(1.0, stiffness[i * q + j], loop[j * (q + s) + q + source], tension[i])
-                    for i in range(k):
-                        value[:] = by_source[i * s + source]
-                        for j in range(q):
-                            add_product(1.0, by_strut[i * q + j], tension[j], value)
-                        found[self.response[output + i]] += sum_of_squares(value)
+                response = self.response[output : output + k]
+                add_terms(q, s, present, stiffness, loop, by_source, by_strut, response, tension, value, found)
                 entry, output = entry + q * q, output + k
             for term in range(self.channel.size):
                 result[p, term] = found[self.channel[term]]
         return result
 
 
-@compilable()
-def fill_stiffness(added: Real, struts: ManyStruts, entry: int, stiffness: Real) -> Bool:
-    """Fill in D (q q, 2, n), sum of gain (jw)^order, and return which entries (q q,) are not zero."""
-    present = np.empty(stiffness.shape[0], dtype=np.bool_)
+@uncounted()
+def fill_stiffness(added: Real, struts: ManyStruts, entry: int, present: Bool, stiffness: Real) -> None:
+    """Fill in D (q q, 2, n), sum of gain (jw)^order, and which entries (q q,) are not zero."""
     for i in range(stiffness.shape[0]):
         k, c, b = 0.0, 0.0, 0.0
         for v in range(added.size):
@@ -88,10 +82,9 @@ def fill_stiffness(added: Real, struts: ManyStruts, entry: int, stiffness: Real)
             w = struts.omega[t]
             stiffness[i, 0, t] = k - b * (w * w)
             stiffness[i, 1, t] = c * w
-    return present
 
 
-@compilable()
+@uncounted()
 def fill_loop(q: int, s: int, present: Bool, stiffness: Real, feedback: Real, sources: Real, loop: Real) -> None:
     """Put 1 - P D beside the sources into the loop (q (q + s), 2, n)."""
     for i in range(q):
@@ -101,13 +94,13 @@ def fill_loop(q: int, s: int, present: Bool, stiffness: Real, feedback: Real, so
             for l in range(q):  # noqa: E741
                 if present[l * q + j]:
                     add_product(-1.0, feedback[i * q + l], stiffness[l * q + j], row)
-            if i == j:
-                row[0] += 1.0
+            for t in range(row.shape[1] if i == j else 0):
+                row[0, t] += 1.0
         for source in range(s):
-            loop[i * (q + s) + q + source] = sources[i * s + source]
+            copy(sources[i * s + source], loop[i * (q + s) + q + source])
 
 
-@compilable()
+@uncounted()
 def eliminate(q: int, columns: int, loop: Real) -> None:
     """Solve the linear equations (q columns, 2, n) in place: solutions replace the right-hand sides."""
     for c in range(q):
@@ -123,9 +116,45 @@ def eliminate(q: int, columns: int, loop: Real) -> None:
                 add_product(-1.0, loop[i * columns + c], loop[c * columns + j], loop[i * columns + j])
 
 
+@uncounted()
+def add_terms(
+    q: int,
+    s: int,
+    present: Bool,
+    stiffness: Real,
+    loop: Real,
+    by_source: Real,
+    by_strut: Real,
+    response: Integer,
+    tension: Real,
+    value: Real,
+    found: Real,
+) -> None:
+    """Add the integrals of the terms of a block to the distinct mean squares, by its solved loop."""
+    for source in range(s):
+        for i in range(q):
+            tension[i] = 0.0
+            for j in range(q):
+                if present[i * q + j]:
+                    add_product(1.0, stiffness[i * q + j], loop[j * (q + s) + q + source], tension[i])
+        for i in range(response.size):
+            copy(by_source[i * s + source], value)
+            for j in range(q):
+                add_product(1.0, by_strut[i * q + j], tension[j], value)
+            found[response[i]] += sum_of_squares(value)
+
+
 # Rows of frequencies: products may be fused and sums taken in whatever order suits the processor, the same for
 # every design; numpy's error model leaves out a check for division by zero that would keep a loop from being
 # vectorised.
+@compilable()
+def copy(given: Real, row: Real) -> None:
+    """Fill in a complex row (2, n) by another."""
+    for part in range(2):
+        for t in range(row.shape[1]):
+            row[part, t] = given[part, t]
+
+
 @compilable(fastmath={"contract", "nsz"}, error_model="numpy")
 def invert(value: Real) -> None:
     """Replace a complex row (2, n) by its reciprocal."""

@@ -97,10 +97,16 @@ def add(factor: float, one: Real, other: Real, row: Real) -> None:
 
 
 @compilable(inline="always")
-def stiffness_at(direct: Real, node: int, w: float, row: Real, i: int) -> tuple[float, float]:
-    """Return real and imaginary part of the dynamic stiffness of a node at a frequency w, the i-th."""
-    re = direct[node, STIFFNESS] - direct[node, INERTANCE] * (w * w) + row[0, i]
-    return re, direct[node, LOSS] + direct[node, DAMPING] * w + row[1, i]
+def elements(direct: Real, node: int) -> tuple[float, float, float, float]:
+    """Return the direct elements of a node."""
+    return direct[node, STIFFNESS], direct[node, DAMPING], direct[node, INERTANCE], direct[node, LOSS]
+
+
+@compilable(inline="always")
+def stiffness_at(elements: tuple[float, float, float, float], w: float, row: Real, i: int) -> tuple[float, float]:
+    """Return real and imaginary part of a dynamic stiffness at a frequency w, the i-th."""
+    k, c, b, h = elements
+    return k - b * (w * w) + row[0, i], h + c * w + row[1, i]
 
 
 @compilable(fastmath={"contract", "nsz"}, error_model="numpy")
@@ -108,9 +114,10 @@ def join(
     square: float, omega: Real, direct: Real, one: int, other: int, upper: Real, lower: Real, row: Real
 ) -> None:
     """Fill in a b/(a + b) of two nodes in series with rows (2, n), times the square of an installation ratio."""
+    first, second = elements(direct, one), elements(direct, other)
     for i in range(omega.size):
-        a, b = stiffness_at(direct, one, omega[i], upper, i)
-        c, d = stiffness_at(direct, other, omega[i], lower, i)
+        a, b = stiffness_at(first, omega[i], upper, i)
+        c, d = stiffness_at(second, omega[i], lower, i)
         real, imaginary, re, im = a + c, b + d, a * c - b * d, a * d + b * c
         factor = square / (real * real + imaginary * imaginary)
         row[0, i], row[1, i] = factor * (re * real + im * imaginary), factor * (im * real - re * imaginary)
@@ -135,8 +142,9 @@ def fill_share(networks: Networks, omega: Real, law: int, direct: Real, rows: Re
 @compilable(fastmath={"contract", "nsz"}, error_model="numpy")
 def split(omega: Real, direct: Real, own: int, other: int, upper: Real, lower: Real, share: Real) -> None:
     """Multiply a share (n,) by that of one of two nodes in series with rows (2, n)."""
+    first, second = elements(direct, own), elements(direct, other)
     for i in range(omega.size):
-        a, b = stiffness_at(direct, own, omega[i], upper, i)
-        c, d = stiffness_at(direct, other, omega[i], lower, i)
+        a, b = stiffness_at(first, omega[i], upper, i)
+        c, d = stiffness_at(second, omega[i], lower, i)
         real, imaginary = a + c, b + d
         share[i] *= (c * c + d * d) / (real * real + imaginary * imaginary)

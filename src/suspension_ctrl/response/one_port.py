@@ -14,9 +14,11 @@ from .network_rows import (
     OF_RATE,
     STATES,
     Networks,
+    elements,
     fill_direct,
     fill_rows,
     fill_share,
+    stiffness_at,
 )
 from .ports import Ports
 from .working_point import (
@@ -200,7 +202,7 @@ def fill_next_by_port(port: OnePort, direct: Real, state: Real) -> None:
 @compilable(fastmath={"reassoc", "contract", "nsz"}, error_model="numpy")
 def port_squares(denominator: Real, omega: Real, excitation: Real, direct: Real, last: int) -> tuple[float, float]:
     """Return the mean squares of deflection and rate of a port on direct elements."""
-    k, c, b, h = direct[last, 0], direct[last, 1], direct[last, 2], direct[last, 3]
+    k, c, b, h = elements(direct, last)
     deflection, rate, half = 0.0, 0.0, omega.size // 2
     for i in range(half):  # one division for two frequencies, as in `OneStrut`
         j = half + i
@@ -233,10 +235,9 @@ def close(port: OnePort, room: Room) -> None:
 @compilable(fastmath={"contract", "nsz"}, error_model="numpy")
 def fill_gain(denominator: Real, omega: Real, direct: Real, last: int, rows: Real, r: int, gain: Real) -> None:
     """Fill in |1 + c D|^-2 times 1, Re D, Im D and |D|^2 (4, n)."""
-    k, c, b, h = direct[last, 0], direct[last, 1], direct[last, 2], direct[last, 3]
+    own, row = elements(direct, last), rows[r]
     for i in range(omega.size):
-        w = omega[i]
-        re, im = k - b * (w * w) + rows[r, 0, i], h + c * w + rows[r, 1, i]
+        re, im = stiffness_at(own, omega[i], row, i)
         one = 1.0 / squared_loop(denominator, re, im, i)
         gain[0, i], gain[1, i], gain[2, i], gain[3, i] = one, one * re, one * im, one * (re * re + im * im)
 

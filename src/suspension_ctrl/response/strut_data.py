@@ -16,7 +16,7 @@ from .any_struts import AnyStruts
 from .blocks import Pairs, Variables, in_blocks
 from .load_case import LoadCase
 from .mean_position import STIFFNESS, fill_static
-from .network_rows import DIRECT, STATES, Networks, fill_direct, fill_rows, stiffness_at
+from .network_rows import DIRECT, STATES, Networks, elements, fill_direct, fill_rows, stiffness_at
 from .ports import Ports
 from .working_point import begin, linearise
 
@@ -59,7 +59,7 @@ def _nominal(networks: Networks, omega: Real) -> tuple[Real, Real]:
     direct, rows = np.empty((networks.row.size, DIRECT)), np.zeros((1 + networks.row.max(), 2, 1))
     fill_direct(networks, networks.setting, state, direct)
     fill_rows(networks._replace(measured=measured), w, networks.setting, direct, rows)
-    loss = [stiffness_at(direct, root, w[0], rows[networks.row[root]], 0)[1] for root in networks.root]
+    loss = [stiffness_at(elements(direct, root), w[0], rows[networks.row[root]], 0)[1] for root in networks.root]
     nominal = np.column_stack([nodes[networks.root, STIFFNESS], np.array(loss) / w])
     gains = np.array([np.diag(one @ networks.ports) for one in (*nominal.T, np.zeros(len(nominal)))])
     return gains, nominal
