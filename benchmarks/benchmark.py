@@ -1,4 +1,4 @@
-"""Speed against other libraries, side by side in one process: evaluation, NSGA-II, MOEA/D, whole processes.
+"""Speed against other libraries, side by side in one process: evaluation, searches, processes, struts.
 
 Writes every timing, the tables as a page in Markdown and a picture to a folder, whose path is the last line
 printed; `--docs` puts page and picture there too. `make bench` installs the other libraries first; those that
@@ -14,7 +14,7 @@ from scipy import signal
 from typer import Option
 
 from peers import OURS, Contenders, contenders
-from sections import cold_start, evaluation, process, report, searches, summary
+from sections import cold_start, evaluation, process, report, searches, struts, summary
 from suspension_ctrl import tables as files
 from suspension_ctrl.commands import results, terminal
 from suspension_ctrl.paper import experiment as paper
@@ -29,6 +29,8 @@ SETTINGS: dict[str, Any] = {
     "designs": (1, 100, 1000, 10_000, 100_000),
     "evaluation_limit": 10.0,
     "memory_designs": 1_000_000,
+    "strut_nodes": 256,
+    "strut_designs": {struts.QUARTER: 4000, struts.FULL: 400},
     "populations": (500, 1000, 4000, 16_000),
     "generations": 20,
     "limit": 60.0,
@@ -49,6 +51,7 @@ QUICK = SETTINGS | {
     "sample": 2,
     "designs": (1, 10, 1000),
     "evaluation_limit": 1.0,
+    "strut_designs": {struts.QUARTER: 200, struts.FULL: 20},
     "populations": (100, 200),
     "generations": 2,
     "limit": 1.0,
@@ -122,6 +125,7 @@ def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summar
         evaluation=kept(
             "evaluation", evaluation.measure(problem, settings["designs"], repeats, settings["evaluation_limit"])
         ),
+        struts=kept("struts", struts.measure(settings["strut_nodes"], settings["strut_designs"], repeats)),
         moead=kept(
             "moead",
             searches.by_population(

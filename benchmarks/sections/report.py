@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from peers import OURS
-from sections import cold_start, evaluation
+from sections import cold_start, evaluation, struts
 from sections.searches import GENERATIONS
 from sections.summary import (
     GROWTH_FROM,
@@ -32,6 +32,7 @@ def page(found: Measurements, settings: dict[str, Any], machine: dict[str, Any])
         *_about_moead(found, settings),
         *_about_target(found, settings),
         *_about_processes(found),
+        *_about_struts(found, settings),
     ]
     return "\n\n".join(parts) + "\n"
 
@@ -118,6 +119,19 @@ def _about_processes(found: Measurements) -> list[str]:
     ]
 
 
+def _about_struts(found: Measurements, settings: dict[str, Any]) -> list[str]:
+    sizes = " and ".join(
+        f"{count:,} designs of a {vehicle}" for vehicle, count in settings["strut_designs"].items()
+    )
+    return [
+        "## Struts",
+        f"Least processor time per design of {settings['repeats']} calls: mean squares of {sizes} on one road at "
+        f"{settings['strut_nodes']} nodes, and the ratio to the same vehicle without struts of its own. Each "
+        "design has its own working point. Measured tables are those of `volvo_xc90_full`.",
+        _markdown(strut_table(found)),
+    ]
+
+
 def _goals_shown(table: pd.DataFrame) -> pd.DataFrame:
     return table.assign(here=[number(v) for v in table.here], holds=["yes" if h else "no" for h in table.holds])
 
@@ -191,6 +205,20 @@ def cold_start_table(found: Measurements) -> pd.DataFrame:
     table = cold_start.medians(found.cold_start)
     first, second = ([number(x) for x in table[store]] for store in (cold_start.EMPTY, cold_start.FILLED))
     return pd.DataFrame({"program": [f"`{name}`" for name in table.index], "first": first, "second": second})
+
+
+def strut_table(found: Measurements) -> pd.DataFrame:
+    """Return microseconds per design by vehicle and strut, their ratio to the default strut, and its bar."""
+    table = struts.ratios(found.struts)
+    return pd.DataFrame(
+        {
+            "vehicle": table.vehicle,
+            "strut": table.strut,
+            "µs per design": [number(1e6 * seconds) for seconds in table.seconds],
+            "ratio": table.ratio.map(number),
+            "bar": [f"<= {bar:g}" for bar in table.bar],
+        }
+    )
 
 
 def picture(found: Measurements) -> Figure:
