@@ -47,7 +47,7 @@ class AnyStruts(NamedTuple):
 @compilable(error_model="numpy")
 def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
     """Return the mean squares (p, k) of designs (p, v), and fill in their working points if there is room."""
-    struts, networks, density = any_struts.struts, any_struts.networks, any_struts.density
+    struts, networks = any_struts.struts, any_struts.networks
     law, square, count, number = networks.law, networks.square, networks.laws.most, networks.laws.number
     values, omega, n, m = networks.setting.copy(), struts.omega, struts.omega.size, networks.row.size
     direct, rows, share = np.empty((m, DIRECT)), np.zeros((1 + networks.row.max(), 2, n)), np.empty(n)
@@ -75,12 +75,7 @@ def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
             fill_direct(networks, values, state, direct)
             fill_rows(networks, omega, values, direct, rows)
             close_blocks(any_struts, added, direct, rows, present, room)
-            for i in range(count.size):
-                share[:] = square[i]
-                if law[i, IN_SERIES]:
-                    fill_share(networks, omega, i, direct, rows, share)
-                seen = density[law[i, OF_RATE]]
-                state[i, NEXT] = np.sqrt(deflection(any_struts, law[i, NETWORK], seen, share, room))
+            fill_next(any_struts, state, direct, rows, share, room)
             reached = improve(law, square, damping, state, iteration) < NEAR
             iteration += 1
         keep(points, p, state, position, iteration if reached else -1)
@@ -130,6 +125,18 @@ def add_network(
                 re, im = stiffness_at(own, omega[t], row, t)
                 stiffness[i, 0, t] += factor * re
                 stiffness[i, 1, t] += factor * im
+
+
+@uncounted(error_model="numpy")
+def fill_next(any_struts: AnyStruts, state: Real, direct: Real, rows: Real, share: Real, room: Real) -> None:
+    """Fill in the deviations that result for every law."""
+    networks, omega, law = any_struts.networks, any_struts.struts.omega, any_struts.networks.law
+    for i in range(state.shape[0]):
+        share[:] = networks.square[i]
+        if law[i, IN_SERIES]:
+            fill_share(networks, omega, i, direct, rows, share)
+        seen = any_struts.density[law[i, OF_RATE]]
+        state[i, NEXT] = np.sqrt(deflection(any_struts, law[i, NETWORK], seen, share, room))
 
 
 @uncounted()
