@@ -27,6 +27,7 @@ from suspension_ctrl import (
     Sampling,
     Seat,
     minimise,
+    ride,
 )
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.paper.experiment import chosen
@@ -515,3 +516,19 @@ def test_good_files_are_mutated_from(tmp_path):
     content = tomllib.loads(STUDY)
     again = "\n".join(f"{spelt(key)} = {spelt(value)}" for key, value in content.items())
     assert load_problem(written(tmp_path, again)) == load_problem(written(tmp_path, STUDY))
+
+
+def test_the_damper_study_has_12_variables_and_limits_of_one_bump(checkout):
+    """Limits bind on the rough road, in which the bump is met as on the smooth one."""
+    study = load_problem(checkout / "data/studies/damper_curve.toml")
+    file = load_vehicle("volvo_xc90_digressive")
+    assert study.variables == tuple(file.bounds)
+    assert len(study.variables) == 12
+    _, dtl, travel, lift, peak = study.evaluate([[file.setting[name] for name in study.variables]])[0]
+    assert [case.share for case in study.cases] == [0.9, 0.1]
+    alone = ride(file.vehicle, file.setting, Iso8608Road("D"), 15.0, band=study.band,
+                 measures=["SWS", "lift", "peak travel bump", "DTL"], events=study.events).value  # fmt: skip
+    assert [travel, lift, peak] == pytest.approx(
+        [alone["SWS"] / 0.0115 - 1, alone["lift"] / 0.007 - 1, alone["peak travel bump"] / 0.035 - 1], rel=1e-6
+    )
+    assert dtl < alone["DTL"]

@@ -1,0 +1,35 @@
+"""The study of curves of dampers beside straight dampers, on a few designs."""
+
+import pytest
+
+import damper_study
+import suspension_ctrl as sc
+
+SPRINGS = {"front.spring": 57e3, "rear.spring": 45e3, "front_antiroll": 3299.0, "rear_antiroll": 16270.0}
+
+
+def test_straight_dampers_take_the_limits_and_springs_of_the_study():
+    """Curves that are straight have the values of straight dampers: no search has an easier problem."""
+    study = sc.load_problem(damper_study.STUDY)
+    free, held = damper_study.straight(study), damper_study.straight(study, SPRINGS)
+    assert list(free.bounds) == [*SPRINGS, "front.damper", "rear.damper"]
+    assert list(held.bounds) == ["front.damper", "rear.damper"]
+    assert free.constraints == held.constraints == study.constraints
+    expected = held.evaluate([[3e3, 4e3]])
+    assert free.evaluate([[*SPRINGS.values(), 3e3, 4e3]]) == pytest.approx(expected, rel=1e-9)
+    curve = {"low_speed": 0.0, "high_speed": 0.0, "knee": 0.2, "rebound_over_bump": 1.0}
+    slopes = {"front": 3e3, "rear": 4e3}
+    values = SPRINGS | {
+        f"{axle}.damper.{name}": value or slopes[axle] for axle in slopes for name, value in curve.items()
+    }
+    assert study.evaluate([[values[name] for name in study.variables]]) == pytest.approx(
+        expected, rel=1e-3, abs=1e-3
+    )
+
+
+def test_the_best_design_keeps_a_margin():
+    found = damper_study.best(
+        "straight", damper_study.straight(sc.load_problem(damper_study.STUDY)), population=60
+    )
+    assert (found.problem.evaluate([list(found.design.values())])[0, 2:] <= [0.0114 / 0.0115 - 1, 0, 0]).all()
+    assert found.seconds > 0
