@@ -27,9 +27,14 @@ def test_straight_dampers_take_the_limits_and_springs_of_the_study():
     )
 
 
-def test_the_best_design_keeps_a_margin():
-    found = damper_study.best(
-        "straight", damper_study.straight(sc.load_problem(damper_study.STUDY)), population=60
-    )
-    assert (found.problem.evaluate([list(found.design.values())])[0, 2:] <= [0.0114 / 0.0115 - 1, 0, 0]).all()
-    assert found.seconds > 0
+def test_straight_dampers_are_searched_with_the_travel_of_the_curves():
+    study = sc.load_problem(damper_study.STUDY)
+    curves = damper_study.Found("curves", study, SPRINGS | {"front.damper.knee": 0.2}, {}, 1.0)
+    free, held = damper_study.beside(curves, 0.0122, population=40)
+    assert list(held.design) == ["front.damper", "rear.damper"]
+    for one in (free, held):
+        values = one.problem.evaluate([list(one.design.values())])[0]
+        assert (values[2:] <= 0).all()
+        assert values[0] == one.objectives["ACC"]
+        assert str(one.problem.constraints[0]).startswith("SWS <= 0.01208")
+        assert one.seconds > 0
