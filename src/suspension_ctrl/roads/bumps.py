@@ -85,8 +85,10 @@ class TrapezoidalBump(Polygon):
         Height and total length [m].
     ramp : float
         Length of each flank, at most half of the total length [m].
-    contact_length, side
-        As of `SpeedBump`.
+    contact_length : float
+        Length over which a tyre averages the elevation, 0 for contact in a point [m].
+    side : str
+        The wheels that meet it: "both", "left" or "right".
 
     Examples
     --------
@@ -124,8 +126,10 @@ class Ramp(Polygon):
     ----------
     height, length : float
         Rise, and length of the slope [m].
-    contact_length, side
-        As of `SpeedBump`.
+    contact_length : float
+        Length over which a tyre averages the elevation, 0 for contact in a point [m].
+    side : str
+        The wheels that meet it: "both", "left" or "right".
 
     Examples
     --------

@@ -73,8 +73,10 @@ class Cleat(Plank):
     ----------
     height, length : float
         Height, and length along the road [m].
-    contact_length, side
-        As of `Plank`.
+    contact_length : float
+        Length over which a tyre averages the elevation, > 0: each edge is a slope of this length [m].
+    side : str
+        The wheels that meet it: "both", "left" or "right".
 
     Examples
     --------
@@ -92,8 +94,10 @@ class Pothole(Rectangle):
     ----------
     depth, length : float
         Depth, and length along the road [m].
-    contact_length, side
-        As of `Plank`.
+    contact_length : float
+        Length over which a tyre averages the elevation, > 0: each edge is a slope of this length [m].
+    side : str
+        The wheels that meet it: "both", "left" or "right".
 
     Examples
     --------
@@ -119,8 +123,10 @@ class Step(Shape):
     ----------
     height : float
         Height [m].
-    contact_length, side
-        As of `Plank`.
+    contact_length : float
+        Length over which a tyre averages the elevation, > 0: each edge is a slope of this length [m].
+    side : str
+        The wheels that meet it: "both", "left" or "right".
 
     Examples
     --------

@@ -74,8 +74,8 @@ class Chirp(Obstacle):
         Length of the first and of the last wave [m].
     waves : float
         Number of waves, a multiple of 0.5 up to 1e4 [-].
-    side
-        As of `Sine`.
+    side : str
+        The wheels that meet it: "both", "left" or "right".
 
     Examples
     --------
