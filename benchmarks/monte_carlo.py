@@ -62,7 +62,7 @@ CARS: dict[str, tuple[ForceLaw, ForceLaw]] = {
 }
 """Dampers front and rear."""
 
-Minutes = Annotated[float, Option(parser=options.in_unit("min"), help="Minutes of driving with each vehicle.")]
+Minutes = Annotated[float, Option(help="Minutes of driving with each vehicle.")]
 Number = Annotated[int, Option(parser=options.whole_number)]
 Folder = Annotated[Path | None, Option(help="Folder for the results, absent or empty.")]
 

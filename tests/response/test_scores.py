@@ -46,7 +46,8 @@ def test_a_single_case_of_one_term_each_is_scored_as_any_other_to_the_last_bit()
     ]
     judged = Scores(CASES[:1], each, [VARIABLES], list(VARIABLES), (0.0, 20.0))
     found = judged.evaluate(DESIGNS, 256)
-    np.testing.assert_array_equal(found, judged.kernel(256).scores(DESIGNS))
+    kernel = judged.kernel(256)
+    np.testing.assert_array_equal(found, kernel.scores([case(DESIGNS) for case in kernel.cases]))
     assert len(set(found.ravel().tolist())) == found.size
 
 

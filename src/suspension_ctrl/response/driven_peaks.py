@@ -2,20 +2,20 @@
 
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..quantities import Bool, Real
 from ..roads.events import Event
 from ..vehicles.vehicle import Vehicle
-from .motion.courses import course_over
+from .motion.courses import course_over, road_at
 from .motion.drivable import Drivable, Motion
 from .motion.integration import responses_in_time
 from .motion.system import Course
 
 _BEYOND = (1.5, 4.0, 10.0, 27.0, 72.0)  # s of level road behind an event, as long as needed
-_TOLERANCE = 1e-4  # of the largest value of each state, error of a step
+_TOLERANCE = 1e-3  # of the largest value of each state, error of a step
 _PIECES = 16  # cubics of the elevation in the shortest wave of an event
 _ROWS = 48  # in that wave, at least
 _APART = 1e-3  # s, longest distance of rows
@@ -33,6 +33,7 @@ class Passage(NamedTuple):
     course: Course
     time: Real  # (k,) [s]
     kinked: Bool  # (k,), whether a knot of the event is near
+    road: tuple[Real, Real]  # elevation and rate there (k, r)
     steady: bool
 
     @classmethod
@@ -46,39 +47,40 @@ class Passage(NamedTuple):
         time = time[np.append(True, np.diff(time) > _SAME * apart)]
         kinked = (np.abs(time[:, None] - ends) < 1.5 * apart).any(axis=1)
         course = course_over(event, contacts, np.array([[0.0, speed]]), last, _PIECES)
-        return cls(course, time, kinked, event.steady)
+        return cls(course, time, kinked, road_at(course, time, event.steady), event.steady)
 
     def responses(self, motion: Motion, jerks: Bool) -> Real:
-        """Return the responses (k, m) as changes from rest; jerks are slopes of accelerations between rows."""
-        found = responses_in_time(motion, self.course, self.time, periodic=self.steady, tolerance=_TOLERANCE)
+        """Return the responses (m, k) as changes from rest; jerks are slopes of accelerations between rows."""
+        options: Any = {"periodic": self.steady, "tolerance": _TOLERANCE, "road": self.road}
+        found = responses_in_time(motion, self.course, self.time, **options)
         if motion.equations.constant.any():  # a payload
             found -= responses_in_time(motion, _level(motion), np.zeros(1))
         if jerks.any():
             found[:, jerks] = _slopes(found[:, jerks], self.time)
-        return found
+        return np.ascontiguousarray(found.T)
 
     def crest(self, history: Real) -> Real:
-        """Return maxima (m,) of (k, m), off knots by the parabola through the largest value and its neighbours."""
-        time, at = self.time, np.clip(history.argmax(axis=0), 1, len(history) - 2)
-        before, here, after = (history[at + i, np.arange(len(at))] for i in (-1, 0, 1))
+        """Return maxima (m,) of (m, k), off knots by the parabola through the largest value and its neighbours."""
+        largest = history.argmax(axis=1)
+        time, at = self.time, np.clip(largest, 1, self.time.size - 2)
+        before, here, after = (history[np.arange(len(at)), at + i] for i in (-1, 0, 1))
         rise, fall = (here - before) / (time[at] - time[at - 1]), (here - after) / (time[at + 1] - time[at])
         bend = (rise + fall) / (time[at + 1] - time[at - 1])
         slope = rise - bend * (time[at] - time[at - 1])
         smooth = (rise >= 0) & (fall >= 0) & (bend > 0) & ~self.kinked[at]
         more = np.divide(slope**2, 4 * bend, out=np.zeros_like(bend), where=smooth)
-        return np.maximum(here + more, history.max(axis=0))
+        return np.maximum(here + more, history[np.arange(len(at)), largest])
 
     def decayed(self, history: Real) -> bool:
-        """Whether responses (k, m) at the end stay within half of their peaks, or stand still."""
+        """Whether responses (m, k) at the end stay within half of their peaks, or stand still."""
         if self.steady:
             return True
-        last = history[self.time >= self.time[-1] - _LAST]
-        still = np.ptp(last, axis=0) <= _STILL * np.ptp(history, axis=0)
-        inside = [
-            ((sign * (last - last[-1])).max(axis=0) <= _SMALLER * (sign * (history - last[-1])).max(axis=0))
-            for sign in (1, -1)
-        ]
-        return bool((still | (inside[0] & inside[1])).all())
+        last = history[:, np.searchsorted(self.time, self.time[-1] - _LAST) :]
+        rest = last[:, -1]
+        most, least, late, low = (f(one, axis=1) for one in (history, last) for f in (np.max, np.min))
+        still = late - low <= _STILL * (most - least)
+        inside = (late - rest <= _SMALLER * (most - rest)) & (rest - low <= _SMALLER * (rest - least))
+        return bool((still | inside).all())
 
 
 def driven_peaks(

@@ -1,7 +1,7 @@
 """Objectives and constraints of designs from the mean squares of every load case."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cache, cached_property
+from functools import cached_property
 from math import sqrt
 from typing import NamedTuple
 
@@ -49,11 +49,14 @@ class Kernel(NamedTuple):
     scale: Real  # (s,), factor of the root of that
     offset: Real  # (s,), added last
 
-    def scores(self, designs: Real) -> Real:
-        """Return the scores (p, s) of designs (p, v), bit by bit those of each alone, by numpy: no compilation."""
-        total, any_worst = np.zeros((self.scale.size, designs.shape[0])), self.worst_case.any()
-        for case, squares, share in zip(self.cases, self.squares, self.shares, strict=True):
-            found, value = case(designs).T, np.zeros_like(total)
+    def scores(self, mean_squares: Sequence[Real]) -> Real:
+        """Return the scores (p, s) by mean squares (p, k) in c cases, bit by bit those of each design alone.
+
+        By numpy: no compilation.
+        """
+        total, any_worst = np.zeros((self.scale.size, len(mean_squares[0]))), self.worst_case.any()
+        for each, squares, share in zip(mean_squares, self.squares, self.shares, strict=True):
+            found, value = each.T, np.zeros_like(total)
             for s, k in zip(*(index.tolist() for index in squares.nonzero()), strict=True):
                 combine = np.maximum if self.worst_term[s] else np.add
                 combine(value[s], squares[s, k] * found[k], out=value[s])
@@ -141,19 +144,22 @@ class Scores:
             which, factor = self._simple
             found = _reached(kernel.cases[0](designs), designs).T[which]
             return np.asarray(kernel.scale * np.sqrt(factor * found).T + kernel.offset)
-        scores = _reached(kernel.scores(designs), designs)
+        mean_squares = [case(designs) for case in kernel.cases]
+        scores = _reached(kernel.scores(mean_squares), designs)
+        by_case = [self._designs(c, designs, kernel, each) for c, each in enumerate(mean_squares)]
         for column, score in enumerate(self.scores):
             if score.by_function:
-                scores[:, column] = score.scale * self._by_function(score, designs, kernel) + score.offset
+                scores[:, column] = score.scale * self._by_function(score, by_case) + score.offset
         return scores
 
     def by_case(self, case: int, design: Real, nodes: int) -> Real:
         """Return each measure (s,) of one design (v,) in a load case, without its factor and its constant."""
         designs, kernel = design[None], self.kernel(nodes)
-        found = self.roots(case, _reached(kernel.cases[case](designs), designs)[0])
+        mean_squares = _reached(kernel.cases[case](designs), designs)
+        found, one = self.roots(case, mean_squares[0]), self._designs(case, designs, kernel, mean_squares)
         for s, score in enumerate(self.scores):
             if function := score.cases[case].values:
-                found[s] = function(self._designs(case, designs, kernel))[0]
+                found[s] = function(one)[0]
         return found
 
     def roots(self, case: int, mean_squares: Real) -> Real:
@@ -201,28 +207,26 @@ class Scores:
         loads = vehicle.statics.static_loads(np.array([list(self.settings[c].values())]))[0]
         return float(loads[vehicle.tyres.index(str(vehicle.meanings[str(term.response)].where))])
 
-    def _by_function(self, score: Score, designs: Real, kernel: Kernel) -> Real:
-        """Return a measure by a function (p,): its mean over the cases by shares, or the worst."""
+    def _by_function(self, score: Score, designs: Sequence[Designs]) -> Real:
+        """Return a measure by a function (p,) of designs in each case: its mean by shares, or the worst."""
         functions = [one.values for one in score.cases if one.values]
-        by_case = np.array([values(self._designs(c, designs, kernel)) for c, values in enumerate(functions)])
+        by_case = np.array([values(one) for values, one in zip(functions, designs, strict=True)])
         if not score.worst_case:
-            mean = np.zeros(len(designs))
+            mean = np.zeros(by_case.shape[1])
             for share, values in zip(self.shares, by_case, strict=True):  # in order, for one design as for many
                 mean += share * values
             return mean
         sign = np.sign(score.scale)
         return np.asarray(sign * (sign * by_case).max(axis=0))
 
-    def _designs(self, c: int, designs: Real, kernel: Kernel) -> Designs:
-        """Return designs (p, v) in a load case."""
+    def _designs(self, c: int, designs: Real, kernel: Kernel, squares: Real) -> Designs:
+        """Return designs (p, v) in a load case with the mean squares (p, k) of its terms."""
         known = self.settings[c]
         coefficients = np.tile(list(known.values()), (len(designs), 1))
         coefficients[:, [list(known).index(name) for name in self.variables]] = designs
 
-        squares = cache(lambda: kernel.cases[c](designs))
-
         def mean_squares(terms: Sequence[Term]) -> Real:
-            return np.asarray(squares()[:, [self.terms[c].index(term.integral) for term in terms]])
+            return np.asarray(squares[:, [self.terms[c].index(term.integral) for term in terms]])
 
         def mean_travels() -> Real:
             case = kernel.cases[c]

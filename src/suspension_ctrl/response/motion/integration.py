@@ -24,16 +24,17 @@ def responses_in_time(
     start: float | None = None,
     periodic: bool = False,
     tolerance: float = TOLERANCE,
+    road: tuple[Real, Real] | None = None,
 ) -> Real:
     """Return the responses (m, p) at times (m,) of a course.
 
     The vehicle begins in equilibrium on the first heights, or on a level road of height `start` [m]. A periodic
-    course is driven again until the states recur.
+    course is driven again until the states recur. `road`, see `road_at`, may be given for many motions.
     """
     rows = (
         _periodic(motion, course, time, tolerance) if periodic else _driven(motion, course, time, start, tolerance)
     )
-    v, (height, rate) = len(motion.equations.a), road_at(course, time, periodic)
+    v, (height, rate) = len(motion.equations.a), road or road_at(course, time, periodic)
     states, tension = rows[:, :v], rows[:, motion.states :]
     found, tyres = motion.responses.of(states, height, rate, tension), motion.tyres
     if motion.equations.static.size:
