@@ -1,6 +1,7 @@
 """Certificates as text, frame and page."""
 
 import pickle
+from dataclasses import replace
 
 import numpy as np
 
@@ -30,6 +31,14 @@ def test_the_text_has_80_columns_and_marks_what_is_outside():
     assert next(line for line in lines if line.startswith("price")).split() == ["price", "-", "5"]
     assert lines[-3:] == [*LIMITS, "* outside the 95 % interval of the simulated mean", "price: not of a drive"]
     assert "All load cases" in lines
+    assert sum("a road that is" in line for line in lines) == 3
+
+
+def test_numbers_keep_a_gap_between_columns():
+    row = Certified("1", "mean travel front_right", "m", -2.54126e-07, -4.66612e-06, -1.23456e-05, -0.001073, 1e-7)
+    lines = repr(replace(CERTIFICATE, rows=(row,))).splitlines()
+    numbers = "-2.54e-07* -4.67e-06 -1.23e-05 -0.001073 1e-07"
+    assert " ".join(lines[-4].split()) == f"mean travel front_right m {numbers}"
 
 
 def test_the_frame_has_all_numbers_by_case_and_measure():

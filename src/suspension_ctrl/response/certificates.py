@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
 _HEADER = ("measure", "unit", "linearised", "simulated", "low", "high", "equivalent")
-_WIDTHS = (22, 6, 11, 10, 10, 10, 11)
+_NAME, _NUMBERS = 28, (11, 10, 10, 10, 11)  # widths of name with unit, and of numbers
+_LONGEST = 9  # of a number
 _COLUMNS = 80
 
 
@@ -83,10 +84,10 @@ class Certificate(Record):
     def _lines(self) -> Iterator[str]:
         yield self.title
         values = ", ".join(f"{name} {value:g}" for name, value in self.design.items())
-        yield from textwrap.wrap(f"Design: {values}", _COLUMNS, subsequent_indent="    ")
+        yield from _wrapped(f"Design: {values}")
         titles = {str(n): f"Case {n}, {case}" for n, case in enumerate(self.cases, start=1)}
         for number, rows in groupby(self.rows, key=lambda row: row.case):
-            yield from ["", titles.get(number, "All load cases"), _line(_HEADER)]
+            yield from ["", *_wrapped(titles.get(number, "All load cases")), _line(_HEADER)]
             yield from map(_line, map(_cells, rows))
         yield from ["", *self.limits] if self.limits else []
         if any(one.outside for one in self.rows):
@@ -94,17 +95,28 @@ class Certificate(Record):
         yield from dict.fromkeys(f"{one.measure}: {one.note}" for one in self.rows if one.note)
 
 
+def _wrapped(text: str) -> list[str]:
+    return textwrap.wrap(text, _COLUMNS, subsequent_indent="    ")
+
+
 def _cells(row: Certified) -> list[str]:
     """Return the texts of a row."""
     values = (row.linearised, row.simulated, row.low, row.high, row.equivalent)
-    numbers = ["" if value != value else f"{value:.4g}" for value in values]
+    numbers = ["" if value != value else _number(value) for value in values]
     numbers[0] += "*" if row.outside else " "
     return [row.measure, row.unit, *numbers]
 
 
+def _number(value: float) -> str:
+    """Return a number with four digits, or three where four are too long."""
+    text = f"{value:.4g}"
+    return text if len(text) <= _LONGEST else f"{value:.3g}"
+
+
 def _line(cells: tuple[str, ...] | list[str]) -> str:
-    """Return a line of the table, names to the left and numbers to the right."""
-    name, *others = cells
-    width = _WIDTHS[0]
-    name = name if len(name) <= width else f"{name[: width - 3]}..."
-    return name.ljust(width) + "".join(cell.rjust(one) for cell, one in zip(others, _WIDTHS[1:], strict=True))
+    """Return a line of the table, names to the left, units and numbers to the right."""
+    name, unit, *numbers = cells
+    room = _NAME - len(unit) - 1
+    name = name if len(name) <= room else f"{name[: room - 3]}..."
+    start = name.ljust(_NAME - len(unit)) + unit
+    return start + "".join(cell.rjust(one) for cell, one in zip(numbers, _NUMBERS, strict=True))
