@@ -95,7 +95,8 @@ class Drivable(NamedTuple):
         if self.loads.size:
             tension = outputs.rows(self.loads)
             by_road, names = np.diag(tension.d), [one.name for one in self.vehicle.strut_coefficients]
-            static = static_loads(assembled(self.vehicle), dict(zip(names, values.tolist(), strict=True)))
+            by_name = dict(zip(names, values.tolist(), strict=True))
+            static = static_loads(assembled(self.vehicle), by_name, laden=not self.vehicle.networks)
             tyres = Tyres(tension, static, equations.b / by_road, responses.d / by_road)
             equations = lifting(equations, tyres)
         return Motion(equations, self.program, self.tree, values, responses, tyres)
@@ -109,5 +110,5 @@ def motion_of(
 ) -> Motion:
     """Return the motion of a vehicle with coefficients by name; ValueError also if no spring carries it."""
     if loads_of(vehicle):
-        static_loads(assembled(vehicle), values)
+        static_loads(assembled(vehicle), values, laden=True)
     return Drivable.of(vehicle, responses, lift_off).motion(np.array(list(values.values())))

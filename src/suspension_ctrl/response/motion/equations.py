@@ -104,9 +104,9 @@ def loads_of(vehicle: Vehicle) -> list[str]:
     return [loads[tyre] for tyre in vehicle.tyres] if known else []
 
 
-def static_loads(vehicle: AssembledVehicle, values: Mapping[str, float]) -> Real:
-    """Return the load of each tyre (t,) [N] at these coefficients, with networks without payload."""
-    assembly = replace(vehicle.assembly, payload=()) if vehicle.networks else vehicle.assembly
+def static_loads(vehicle: AssembledVehicle, values: Mapping[str, float], *, laden: bool) -> Real:
+    """Return the load of each tyre (t,) [N] at these coefficients, with or without payload."""
+    assembly = vehicle.assembly if laden else replace(vehicle.assembly, payload=())
     return np.asarray(Mechanics.of(assembly).static_loads(np.array([list(values.values())]))[0])
 
 
