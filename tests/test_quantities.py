@@ -96,6 +96,12 @@ def test_numbers_with_units_are_checked_at_birth(values, message):
         ("30%", "", 0.3),
         ("0.3", "", 0.3),
         (" 7 ", "m", 7.0),
+        ("20", "min", 20.0),
+        ("1 h", "min", 60.0),
+        ("2 /km", "1/km", 2.0),
+        ("2/km", "1/m", 0.002),
+        ("6 deg/g", "deg/g", 6.0),
+        ("3 mm", "km", 3e-6),
     ],
 )
 def test_values_with_units_are_numbers_in_the_unit_of_the_field(text, unit, value):

@@ -54,7 +54,7 @@ def quantity(name: str, text: str, unit: str = "", *, bare: bool = True) -> floa
         raise ValueError(f"{name} must be a number with a unit like {unit or '%'}, got {checks.shown(text)}")
     number, given = Fraction(match[1]), (match[2] or "").strip()
     try:
-        (factor, dimension), (_, needed) = _dimension(given or unit), _dimension(unit)
+        (factor, dimension), (size, needed) = _dimension(given or unit), _dimension(unit)
     except KeyError:
         symbols = ", ".join([*_BASE, *_UNITS])
         raise ValueError(f"{name} must be in units of {symbols}, got {checks.shown(given)}") from None
@@ -62,7 +62,7 @@ def quantity(name: str, text: str, unit: str = "", *, bare: bool = True) -> floa
         needed_unit = f"in {unit} or a unit like it" if unit else "a number without unit"
         raise ValueError(f"{name} must be {needed_unit}, got {checks.shown(text)} in {given}")
     try:
-        return float(number * factor)
+        return float(number * factor / size)
     except OverflowError:
         raise ValueError(f"{name} must be of moderate size, got {checks.shown(text)}") from None
 
@@ -70,7 +70,8 @@ def quantity(name: str, text: str, unit: str = "", *, bare: bool = True) -> floa
 def _dimension(unit: str) -> tuple[Fraction, Counter[str]]:
     """Return the factor of a unit to base units, and the exponents of these; KeyError for an unknown symbol."""
     factor, exponents = Fraction(1), Counter[str]()
-    terms = re.split(r"\s*([/ *])\s*", f"*{unit}" if unit else "")[1:]
+    written = re.sub(r"^(?!/)(?=.)", "*", re.sub(r"^1?\s*/\s*", "/", unit))  # "1/km" and "/km" too
+    terms = re.split(r"\s*([/ *])\s*", written)[1:]
     for sign, term in zip(terms[::2], terms[1::2], strict=True):
         name, exponent = match.groups() if (match := _TERM.fullmatch(term)) else (term, "")
         size, base = Fraction(1), Counter({name: 1})

@@ -210,7 +210,7 @@ PLAIN = {"vehicle": FULL, "road": ROAD, "speed": 30.0}
         ({**PLAIN, "constraints": ("front_load_transfer <= 0.6",)},
          "roll_geometry must be given in every load case for front_load_transfer, got None"),
         ({**PLAIN, "constraints": ("SWS",)},
-         "constraint must be like 'SWS <= 0.03' or 'roll_damping >= 0.2', got 'SWS'"),
+         "constraint must be like 'SWS <= 30mm' or 'roll_damping >= 0.2', got 'SWS'"),
         ({**PLAIN, "weighting": "Wz"}, "weighting must be one of Wk, "),
         ({**PLAIN, "band": (5.0, 1.0)}, "band must be finite with 0 <= lower < upper [Hz], got (5.0, 1.0)"),
         ({**PLAIN, "nodes": 20}, "nodes must resolve every resonance in the box to 1e-06, got 20, which is off"),

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garage import FULL, QUARTER, ROAD, on_road
-from suspension_ctrl import ACC, DTL, SWS, Limit, Measure, RideProblem, RollDamping
+from suspension_ctrl import ACC, DTL, SWS, Bottoming, Lift, Limit, Measure, RideProblem, RollDamping, RollGradient
 
 COST = Measure("cost", "EUR", lambda designs: designs @ [1e-3, 1e-2])
 BOUNDS = {"spring": (1.8e4, 2.2e4), "damper": (1e3, 2e3)}
@@ -22,6 +22,39 @@ BOUNDS = {"spring": (1.8e4, 2.2e4), "damper": (1e3, 2e3)}
 def test_a_limit_is_read_from_its_text(measure, side, value):
     limit = Limit(measure, **{side: value})
     assert Limit.parse(str(limit), [COST]) == limit
+
+
+@pytest.mark.parametrize(
+    ("text", "limit"),
+    [
+        ("SWS <= 12mm", Limit(SWS(), 0.012)),
+        ("DTL front <= 1.5 kN", Limit(DTL("front"), 1500.0)),
+        ("bottoming front 60mm <= 1 /km", Limit(Bottoming("front", gap=0.06, name="bottoming front 60mm"), 1.0)),
+        ("bottoming front <= 1 /km", Limit(Bottoming("front"), 1.0)),
+        ("bottoming front <= 1/km", Limit(Bottoming("front"), 1.0)),
+        ("bottoming front <= 0.002 /m", Limit(Bottoming("front"), 2.0)),
+        ("lift rear <= 0.01 %", Limit(Lift("rear"), 1e-4)),
+        ("lift rear <= 1e-4", Limit(Lift("rear"), 1e-4)),
+        ("roll_gradient <= 6 deg/g", Limit(RollGradient(), 6.0)),
+        ("cost >= 20 EUR", Limit(COST, minimum=20.0)),
+    ],
+)
+def test_a_number_may_have_a_unit(text, limit):
+    assert Limit.parse(text, [COST]) == limit
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("SWS <= 12 kg", "limit of SWS must be in m or a unit like it, got '12kg' in kg"),
+        ("lift <= 3 mm", "limit of lift must be a number without unit, got '3mm' in mm"),
+        ("SWS <= 12 furlong", "limit of SWS must be in units of kg, m, s, .*, got 'furlong'"),
+        ("SWS <= 1e-999999999 mm", "limit of SWS must be .*"),
+    ],
+)
+def test_a_unit_that_does_not_fit_is_one_line(text, message):
+    with pytest.raises(ValueError, match=f"^{message}$"):
+        Limit.parse(text)
 
 
 def test_a_limit_is_shown_with_its_unit():
@@ -75,7 +108,7 @@ def test_a_limit_is_met_where_g_is_at_most_zero(text, value, g):
     assert found.scale * value + found.offset == pytest.approx(g, rel=1e-12)
 
 
-LIKE = "constraint must be like 'SWS <= 0.03' or 'roll_damping >= 0.2', got "
+LIKE = "constraint must be like 'SWS <= 30mm' or 'roll_damping >= 0.2', got "
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from ... import checks
-from ...quantities import Real, signal_unit, unit
+from ...quantities import Real, quantity, signal_unit, unit
 from ...vehicles.networks import gap_of_stop
 from ...vehicles.stops import BumpStop, ReboundStop
 from ...vehicles.vehicle import Vehicle, assembled
@@ -34,8 +34,8 @@ from .vibration import WheelMeasure
 if TYPE_CHECKING:
     from ..trips import Trip
 
-_GAP = re.compile(rf"([A-Za-z_]\w*)?\s*({NUMBER})?")
-_LARGEST = re.compile(rf"(\w+)\s+({NUMBER})")
+_GAP = re.compile(rf"([A-Za-z_]\w*)?\s*({NUMBER}\s*[A-Za-z]*)?")
+_LARGEST = re.compile(rf"(\w+)\s+({NUMBER}\s*[A-Za-z]*)")
 _EULER = 0.5772156649015329
 _KM = 1000.0  # m
 
@@ -80,7 +80,7 @@ class Bottoming(WheelMeasure, word="bottoming", unit="1/km"):
         if not found:
             needed = f"followed by a place and a gap in m, as in '{cls.word} front 0.06'"
             raise ValueError(f"{cls.word} must be {needed}, got {checks.shown(rest)}")
-        return cls(found[1] or "", gap=float(found[2]) if found[2] else None, **options)
+        return cls(found[1] or "", gap=quantity("gap", found[2], "m") if found[2] else None, **options)
 
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError if the vehicle lacks the place."""
@@ -227,7 +227,7 @@ class LargestPeak(Measure, word="largest"):
         if not found:
             needed = "followed by a response and a distance in m, as in 'largest front_travel 1000'"
             raise ValueError(f"{cls.word} must be {needed}, got {checks.shown(rest)}")
-        return cls(found[1], float(found[2]), **options)
+        return cls(found[1], quantity("distance", found[2], "m"), **options)
 
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError if the vehicle lacks the response."""

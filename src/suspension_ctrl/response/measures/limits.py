@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from math import isinf
 
 from ... import checks
-from ...quantities import Record, wrapped
+from ...quantities import Record, quantity, wrapped
 from ..load_case import LoadCase
 from ..weightings import Weighting
 from .measure import Measure, measure_of
 from .terms import NUMBER, CaseMeasure, number_text
 
-_LIMIT = re.compile(rf"((?:(?![<>]=).)+)([<>]=)\s*({NUMBER})\s*")
+_LIMIT = re.compile(rf"((?:(?![<>]=).)+)([<>]=)\s*({NUMBER})(\s*|\s*[^\s\d.].{{0,29}})")
 _GREATEST = 1e300
 
 
@@ -86,15 +86,25 @@ class Limit(Record):
     def parse(cls, text: str, measures: Iterable[Measure] = ()) -> "Limit":
         """Return the limit of a text, on one of the measures by its name or on another by its text.
 
+        A number may have a unit like that of the measure: ``SWS <= 12mm``.
+
         Raises
         ------
         ValueError
-            If the text is not a measure, ``<=`` or ``>=``, and a number.
+            If the text is not a measure, ``<=`` or ``>=``, and a number, or its unit is another.
         """
         found = _LIMIT.fullmatch(text) if isinstance(text, str) else None
         if not found or isinf(float(found[3])):
             got = checks.shown(text)
-            raise ValueError(f"constraint must be like 'SWS <= 0.03' or 'roll_damping >= 0.2', got {got}")
+            raise ValueError(f"constraint must be like 'SWS <= 30mm' or 'roll_damping >= 0.2', got {got}")
         named = {measure.label: measure for measure in measures}
         measure = named.get(" ".join(found[1].split())) or Measure.parse(found[1])
-        return cls(measure, **{"maximum" if found[2] == "<=" else "minimum": float(found[3])})
+        value = _value(measure, found[3], found[4].strip())
+        return cls(measure, **{"maximum" if found[2] == "<=" else "minimum": value})
+
+
+def _value(measure: Measure, number: str, unit: str) -> float:
+    """Return a number in the unit of a measure; ValueError if its unit is another."""
+    if unit in ("", measure.unit):
+        return float(number)
+    return quantity(f"limit of {measure.label}", number + unit, "" if measure.unit == "-" else measure.unit)
