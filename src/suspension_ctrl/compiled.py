@@ -45,18 +45,9 @@ def uncounted(**options: Any) -> Callable[[F], F]:
     """Let compiled functions call a function that makes no array, without counts of references to arrays.
 
     Numba counts them atomically for every part of an array and every tuple of arrays that is passed on: this takes
-    longer than the arithmetic of a design. Functions that are called in turn have no counts either.
+    longer than the arithmetic of a design or of a step. Functions that are called in turn have no counts either.
     """
     return compilable(_nrt=False, **options)
-
-
-def compilable_without_counts(**options: Any) -> Callable[[F], F]:
-    """Let compiled functions call a function that allocates nothing, see `compilable`.
-
-    Numba counts the references to every array of a tuple at each call, which takes ten times as long as a loop
-    over twenty numbers. Without allocation nothing needs to be counted.
-    """
-    return compilable(error_model="numpy", _nrt=False, **options)
 
 
 def call(verb: Any, arguments: tuple[Any, ...]) -> Any:

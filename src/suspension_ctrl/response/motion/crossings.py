@@ -5,7 +5,7 @@ A segment is prolonged by `_MARGIN` at both ends: what has just begun a segment 
 
 import numpy as np
 
-from ...compiled import compilable_without_counts
+from ...compiled import uncounted
 from ...quantities import Real
 from .system import Equations, Work
 from .trees import Numbers
@@ -14,14 +14,14 @@ _MARGIN = 1e-9  # m, m/s, share of a static load
 _ITERATIONS = 100  # at most
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def margin_of(e: Equations, work: Work, i: int) -> float:
     """Return by how much a segment is prolonged."""
     laws = work.segment.size - e.static.size
     return _MARGIN * (e.static[i - laws] if i >= laws else 1.0)
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def bound(numbers: Numbers, work: Work, i: int) -> None:
     """Put in the bounds of the present segment of a law or tyre."""
     laws, segment = numbers.knots.size, work.segment[i]
@@ -34,7 +34,7 @@ def bound(numbers: Numbers, work: Work, i: int) -> None:
     work.bounds[0, i], work.bounds[1, i] = low, high
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def locate(numbers: Numbers, work: Work, i: int) -> bool:
     """Set the segment of a law or tyre by its present value; return whether it changes."""
     before, segment, own = work.segment[i], 0, work.own[0, i]
@@ -48,7 +48,7 @@ def locate(numbers: Numbers, work: Work, i: int) -> bool:
     return bool(segment != before)
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def first_exit(e: Equations, work: Work, terms: int, longest: float, tolerance: float) -> tuple[float, int]:
     """Return when a law or tyre first leaves its segment, and which; after the longest time none, -1."""
     at, which, own, reach = longest, -1, work.own, work.reach
@@ -66,7 +66,7 @@ def first_exit(e: Equations, work: Work, terms: int, longest: float, tolerance: 
     return at, which
 
 
-@compilable_without_counts()
+@uncounted(error_model="numpy")
 def exit_of(own: Real, terms: int, longest: float, low: float, high: float, margin: float, jump: float) -> float:
     """Return when a series leaves its bounds, at least the longest time if it does not.
 
@@ -101,7 +101,7 @@ def exit_of(own: Real, terms: int, longest: float, low: float, high: float, marg
     return time
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def switch(e: Equations, numbers: Numbers, work: Work, terms: int, time: float, which: int) -> None:
     """Let laws and tyres that have left their segment at a time go on with the next.
 

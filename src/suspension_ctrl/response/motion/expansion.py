@@ -7,7 +7,7 @@ the terms of order k like a derivative, see Jorba and Zou [1]_ for integration b
    methods", Experimental Mathematics 14 (2005).
 """
 
-from ...compiled import compilable_without_counts
+from ...compiled import uncounted
 from ...quantities import Real
 from .passes import BY_RATE, DEFLECTION, FORCE, RATE, assemble, bend, deflect, gather, set_law, spread
 from .system import ROAD, Course, Equations, Work
@@ -17,7 +17,7 @@ _ITERATIONS = 50  # of Newton's method, at most
 _NO_CHANGE = 1e-12  # m/s, of a law's rate
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def place(course: Course, piece: int, time: float, z: Real) -> None:
     """Put in the road and its rate (2, ROAD, r) about a time since the knot [s]."""
     for r in range(z.shape[2]):
@@ -29,7 +29,7 @@ def place(course: Course, piece: int, time: float, z: Real) -> None:
             z[1, k, r] = (k + 1) * z[0, k + 1, r]
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def react(e: Equations, tree: Tree, numbers: Numbers, work: Work, order: int) -> None:
     """Put in what the states of an order give: tensions, values of laws and tyres, rates of the tree."""
     if tree.slots:
@@ -44,7 +44,7 @@ def react(e: Equations, tree: Tree, numbers: Numbers, work: Work, order: int) ->
         work.own[order, laws + t] = tension
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def _pull(tree: Tree, numbers: Numbers, work: Work, order: int) -> None:
     """Put in the tensions of the networks and the rates of their states."""
     q, laws, slots = work.tension.shape[1], tree.of_rate.size, work.slots
@@ -70,7 +70,7 @@ def _pull(tree: Tree, numbers: Numbers, work: Work, order: int) -> None:
         work.tension[order, p] = slots[BY_RATE, p] * slots[RATE, p] + slots[FORCE, p]
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def accelerate(e: Equations, work: Work, order: int) -> None:
     """Put in the states of the vehicle of the next order from what those of an order give."""
     v, r, after, columns = e.a.shape[0], e.b.shape[1], work.x[order + 1], work.columns
@@ -91,14 +91,14 @@ def accelerate(e: Equations, work: Work, order: int) -> None:
         after[i] /= order + 1
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def _add(total: Real, column: Real, factor: float) -> None:
     """Add a multiple of a column (v,) to the first states of a total."""
     for i in range(column.size):
         total[i] += factor * column[i]
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def states_at(work: Work, terms: int, time: float, x: Real) -> None:
     """Put in the states (n,) a time after the start of the series [s]."""
     for i in range(work.x.shape[1]):

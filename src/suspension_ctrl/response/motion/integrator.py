@@ -6,7 +6,7 @@ need too many terms: a step needs no second try.
 
 import numpy as np
 
-from ...compiled import compilable_without_counts, compiled
+from ...compiled import compiled, uncounted
 from ...quantities import Real
 from ...vehicles.networks import Program
 from .crossings import first_exit, switch
@@ -23,7 +23,7 @@ REACHED, NO_EQUILIBRIUM, STUCK = range(3)
 """How an integration ends: at the last knot, not begun, without progress."""
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def _expand(
     e: Equations, tree: Tree, numbers: Numbers, work: Work, longest: float, tolerance: float
 ) -> tuple[int, float]:
@@ -46,7 +46,7 @@ def _expand(
     return order, longest * _SAFETY * min(term ** (-1 / TERMS), last ** (-1 / (TERMS - 1)))
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def _record(work: Work, terms: int, start: float, end: float, row: int, times: Real, rows: Real) -> int:
     """Fill in the rows of a step from one time to another; return the next row."""
     n = work.size.size
@@ -62,7 +62,7 @@ def _record(work: Work, terms: int, start: float, end: float, row: int, times: R
     return row
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def _go_on(work: Work, terms: int, step: float, state: Real) -> None:
     """Begin the next series where a step ends."""
     states_at(work, terms, step, state)
@@ -71,7 +71,7 @@ def _go_on(work: Work, terms: int, step: float, state: Real) -> None:
         work.size[i] = max(work.size[i], abs(state[i]) + _FLOOR)
 
 
-@compilable_without_counts()
+@uncounted(error_model="numpy")
 def _travel(
     e: Equations,
     tree: Tree,

@@ -9,7 +9,7 @@ force of a power |v|^a has a further term, by the recurrence for powers of a ser
 
 import numpy as np
 
-from ...compiled import compilable_without_counts
+from ...compiled import uncounted
 from .curves import CREEP
 from .system import Work
 from .trees import Numbers, Tree
@@ -22,7 +22,7 @@ _RELAXATION = 1e-3  # s, in which rounding of that equilibrium decays
 _SLOWEST = 0.1 * CREEP  # m/s, beyond which a power of the rate is not prolonged towards 0
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def force_of(numbers: Numbers, law: int, segment: int, own: float) -> tuple[float, float]:
     """Return force and slope of a law, its segment prolonged beyond its knots."""
     force = numbers.base[law, segment] + numbers.slope[law, segment] * own
@@ -35,7 +35,7 @@ def force_of(numbers: Numbers, law: int, segment: int, own: float) -> tuple[floa
     return force, slope
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def set_law(numbers: Numbers, work: Work, law: int) -> None:
     """Put in slope and force of a law at the start of the series, before its own values of higher order."""
     own = work.own[0, law]
@@ -43,7 +43,7 @@ def set_law(numbers: Numbers, work: Work, law: int) -> None:
     work.law[_SLOPE, law], work.law[_REST, law], work.curved[0, law] = slope, force - slope * own, force
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def bend(numbers: Numbers, work: Work, law: int, order: int) -> None:
     """Put in the part of the force of a law that its own values of lower orders determine."""
     c, a = numbers.power[law, 0], numbers.power[law, 1]
@@ -56,7 +56,7 @@ def bend(numbers: Numbers, work: Work, law: int, order: int) -> None:
     work.law[_REST, law] = total
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def assemble(tree: Tree, numbers: Numbers, work: Work) -> None:
     """Put in stiffness and damping of the slots, every law on its slope."""
     elastic, viscous, resting = work.slots[ELASTIC], work.slots[VISCOUS], work.slots[RESTING]
@@ -79,7 +79,7 @@ def assemble(tree: Tree, numbers: Numbers, work: Work) -> None:
         k[tree.slot[i]] += tree.ratio[i] ** 2 * stiffness
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def _joined(tree: Tree, work: Work, i: int) -> tuple[float, float]:
     """Return damping and stiffness of a series."""
     g, k, a = work.slots[BY_RATE], work.slots[STIFFNESS], tree.first[i]
@@ -93,7 +93,7 @@ def _joined(tree: Tree, work: Work, i: int) -> tuple[float, float]:
     return share**2 * g[a] + (1 - share) ** 2 * g[b], share * k[a]
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def deflect(tree: Tree, work: Work, order: int) -> None:
     """Take deflections from the ports and states down to the slots and laws."""
     m = work.slots[DEFLECTION]
@@ -106,7 +106,7 @@ def deflect(tree: Tree, work: Work, order: int) -> None:
             work.own[order, law] = tree.law_ratio[law] * m[tree.law_slot[law]]
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def gather(tree: Tree, work: Work, order: int) -> None:
     """Take forces but those by the rate from the elements up to the ports."""
     h, m = work.slots[FORCE], work.slots[DEFLECTION]
@@ -119,7 +119,7 @@ def gather(tree: Tree, work: Work, order: int) -> None:
         h[tree.slot[i]] += tree.ratio[i] * _force(tree, work, i, order)
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def _force(tree: Tree, work: Work, i: int, order: int) -> float:
     """Return the force of a series but that by its rate."""
     g, h, k, a = work.slots[BY_RATE], work.slots[FORCE], work.slots[STIFFNESS], tree.first[i]
@@ -133,7 +133,7 @@ def _force(tree: Tree, work: Work, i: int, order: int) -> float:
     return float(share * h[a] + (1 - share) * h[b])
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def spread(tree: Tree, numbers: Numbers, work: Work, order: int) -> float:
     """Take rates from the ports down to the laws and the states; return the largest change of a law's own."""
     v, change = work.slots[RATE], 0.0
@@ -152,7 +152,7 @@ def spread(tree: Tree, numbers: Numbers, work: Work, order: int) -> float:
     return change
 
 
-@compilable_without_counts(forceinline=True)
+@uncounted(error_model="numpy", forceinline=True)
 def _rate_of_first(tree: Tree, numbers: Numbers, work: Work, i: int, own: float, order: int) -> float:
     """Return the rate of the first part of a series."""
     g, h, k, a = work.slots[BY_RATE], work.slots[FORCE], work.slots[STIFFNESS], tree.first[i]
