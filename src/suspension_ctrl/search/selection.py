@@ -47,9 +47,10 @@ def ranks_and_crowding(objectives: Real, size: int) -> tuple[NDArray[np.int32], 
     else:
         rank = np.empty(len(objectives), dtype=np.int32)
         rank[orders[0]] = moocore.pareto_rank(columns[::-1, orders[0]].T)  # it sorts by the last objective
-    distance = np.zeros(rank.size)
+    distance, fronts = np.zeros(rank.size), int(rank.max()) + 1
+    ends, places = np.empty((2, fronts)), np.empty((2, fronts), dtype=np.int64)
     for value, order in zip(columns, orders, strict=True):
-        add_gaps(value, order, rank, int(rank.max()) + 1, len(columns), distance)
+        add_gaps(value, order, rank, len(columns), ends, places, distance)
     return rank, distance
 
 
@@ -85,23 +86,43 @@ def follows(keys: Real, a: int, b: int) -> bool:
     return a > b
 
 
-@compiled()
 def swept_fronts(columns: Real, by_second: Integer, order: Integer, size: int) -> NDArray[np.int32]:
     """Return the front (n,) of each of three objectives (3, n), one number for all beyond the first `size`.
 
-    In a lexicographic `order` (n,) nobody dominates one before. A Fenwick tree has the least third objective of
-    those before by the second, which rises in `by_second` (n,).
+    The order (n,) is lexicographic, `by_second` (n,) that of the second objective.
     """
-    first, second, third = columns[0], columns[1], columns[2]
     level, rank = np.empty((2, order.size), dtype=np.int32)
-    for k in range(order.size):
+    sweep_fronts(*columns, by_second, order.copy(), size, np.empty(order.size + 1), level, rank)
+    return rank
+
+
+@compiled()
+def sweep_fronts(
+    first: Real,
+    second: Real,
+    third: Real,
+    by_second: Integer,
+    left: Integer,
+    size: int,
+    tree: Real,
+    level: NDArray[np.int32],
+    rank: NDArray[np.int32],
+) -> None:
+    """Put in the front (n,) of each, one number for all beyond the first `size`; the others are work space.
+
+    In a lexicographic order, `left` (n,), nobody dominates one before. A Fenwick tree (n + 1,) has the least third
+    objective of those before by the level of the second. Slices and whole arrays would take twice as long to compile.
+    """
+    for k in range(left.size):
         i, before = by_second[k], by_second[k - 1]
         level[i] = level[before] if k > 0 and second[i] == second[before] else k + 1
-    left, front, ranked = order.copy(), 0, 0
-    while ranked < size and left.size > 0:
-        tree = np.full(order.size + 1, np.nan)  # nobody yet
+    front, rest = 0, left.size
+    while left.size - rest < size and rest > 0:
+        for place in range(tree.size):
+            tree[place] = np.nan  # nobody yet
         kept, last = 0, -1
-        for i in left:
+        for k in range(rest):
+            i = left[k]
             dominated, place = False, level[i]
             while place > 0:
                 dominated |= tree[place] <= third[i]
@@ -112,29 +133,41 @@ def swept_fronts(columns: Real, by_second: Integer, order: Integer, size: int) -
                 kept += 1
                 continue
             rank[i], last, place = front, i, level[i]
-            while place <= order.size:
+            while place < tree.size:
                 tree[place] = tree[place] if tree[place] <= third[i] else third[i]
                 place += place & -place
-        ranked, left, front = ranked + left.size - kept, left[:kept], front + 1
-    rank[left] = front
-    return rank
+        rest, front = kept, front + 1
+    for k in range(rest):
+        rank[left[k]] = front
 
 
 @compiled()
-def add_gaps(value: Real, order: Integer, rank: NDArray[np.int32], fronts: int, m: int, distance: Real) -> None:
-    """Add one of m objectives, `value` (n,) rising in `order` (n,), to the crowding distances `distance` (n,)."""
-    low, high = np.empty((2, fronts))
-    previous, last = np.empty((2, fronts), dtype=np.int64)
-    for r in range(fronts):
-        low[r], high[r], previous[r], last[r] = np.inf, -np.inf, -1, -1
+def add_gaps(
+    value: Real,
+    order: Integer,
+    rank: NDArray[np.int32],
+    m: int,
+    ends: Real,
+    places: Integer,
+    distance: Real,
+) -> None:
+    """Add one of m objectives, `value` (n,) rising in `order` (n,), to the crowding distances `distance` (n,).
+
+    Work space of r fronts: `ends` (2, r), their least and largest value, `places` (2, r), who came before and last.
+    """
+    for r in range(ends.shape[1]):
+        ends[0, r], ends[1, r], places[0, r], places[1, r] = np.inf, -np.inf, -1, -1
     for i in range(rank.size):
-        low[rank[i]], high[rank[i]] = min(low[rank[i]], value[i]), max(high[rank[i]], value[i])
-    for i in order:
         r = rank[i]
-        if last[r] < 0:
+        ends[0, r], ends[1, r] = min(ends[0, r], value[i]), max(ends[1, r], value[i])
+    for k in range(order.size):
+        i = order[k]
+        r = rank[i]
+        before, last, span = places[0, r], places[1, r], ends[1, r] - ends[0, r]
+        if last < 0:
             distance[i] = np.inf
-        elif previous[r] >= 0 and high[r] > low[r]:
-            distance[last[r]] += (value[i] - value[previous[r]]) / (m * (high[r] - low[r]))
-        previous[r], last[r] = last[r], i
-    for r in range(fronts):
-        distance[last[r]] = np.inf
+        elif before >= 0 and span > 0:
+            distance[last] += (value[i] - value[before]) / (m * span)
+        places[0, r], places[1, r] = last, i
+    for r in range(ends.shape[1]):
+        distance[places[1, r]] = np.inf
