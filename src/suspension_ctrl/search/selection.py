@@ -92,7 +92,8 @@ def swept_fronts(columns: Real, by_second: Integer, order: Integer, size: int) -
     The order (n,) is lexicographic, `by_second` (n,) that of the second objective.
     """
     level, rank = np.empty((2, order.size), dtype=np.int32)
-    sweep_fronts(*columns, by_second, order.copy(), size, np.empty(order.size + 1), level, rank)
+    tree, (first, second, third) = np.empty(order.size + 1), columns
+    sweep_fronts(first, second, third, by_second, order.copy(), size, tree, level, rank)
     return rank
 
 
@@ -111,7 +112,7 @@ def sweep_fronts(
     """Put in the front (n,) of each, one number for all beyond the first `size`; the others are work space.
 
     In a lexicographic order, `left` (n,), nobody dominates one before. A Fenwick tree (n + 1,) has the least third
-    objective of those before by the level of the second. Slices and whole arrays would take twice as long to compile.
+    objective of those before by the level of the second. Slices and whole arrays would compile twice as long.
     """
     for k in range(left.size):
         i, before = by_second[k], by_second[k - 1]
@@ -153,7 +154,7 @@ def add_gaps(
 ) -> None:
     """Add one of m objectives, `value` (n,) rising in `order` (n,), to the crowding distances `distance` (n,).
 
-    Work space of r fronts: `ends` (2, r), their least and largest value, `places` (2, r), who came before and last.
+    Work space of r fronts: `ends` (2, r), least and largest value, `places` (2, r), the last two individuals.
     """
     for r in range(ends.shape[1]):
         ends[0, r], ends[1, r], places[0, r], places[1, r] = np.inf, -np.inf, -1, -1
