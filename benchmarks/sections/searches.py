@@ -90,8 +90,11 @@ def by_population(
     Evaluations are counted at the least population, in a run of their own.
 
     A library is left out of a population for which, growing no faster than in proportion, it would take longer
-    than `limit` seconds. One that takes longer than `repeat_limit` seconds is timed once.
+    than `limit` seconds. One that takes longer than `repeat_limit` seconds is timed once. A small run before all
+    others compiles and imports what a library needs for the problem.
     """
+    for prepare in searches.values():
+        _prepared(prepare, Task(problem, SMALL, 1, 0), 0)()
     rows: list[dict[str, Any]] = []
     expected = dict.fromkeys(searches, 0.0)
     for population in sorted(populations):

@@ -1,6 +1,6 @@
 """Peaks in an event of vehicles with force laws: designs integrated in time until their responses decay."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -18,7 +18,8 @@ _BEYOND = (1.5, 4.0, 10.0, 27.0, 72.0)  # s of level road behind an event, as lo
 _TOLERANCE = 1e-3  # of the largest value of each state, error of a step
 _PIECES = 16  # cubics of the elevation in the shortest wave of an event
 _ROWS = 48  # in that wave, at least
-_APART = 1e-3  # s, longest distance of rows
+_APART = 1e-3  # s, longest distance of rows; twice of it where no response has kinks at the knots of a law
+_SMOOTH = ("travel", "displacement")
 _BESIDE = 1e-3  # of that, rows on both sides of a knot of the event, where the load of a damped tyre jumps
 _SAME = 1e-6  # of that, times so close to each other are one
 _LAST = 1.0  # s, end of the level road, on which responses must have decayed
@@ -37,11 +38,11 @@ class Passage(NamedTuple):
     steady: bool
 
     @classmethod
-    def of(cls, event: Event, contacts: Real, speed: float, beyond: float) -> "Passage":
+    def of(cls, event: Event, contacts: Real, speed: float, beyond: float, longest: float) -> "Passage":
         """Place a level road [s] behind an event; times are even, and on its knots and beside them."""
         ends = event.knots(contacts, speed)
         last = ends[-1] + (0.0 if event.steady else beyond)
-        apart = min(_APART, event.finest(speed) / _ROWS)
+        apart = min(longest, event.finest(speed) / _ROWS)
         beside = np.clip(np.concatenate([ends - _BESIDE * apart, ends + _BESIDE * apart]), 0.0, last)
         time = np.sort(np.concatenate([ends, beside, np.linspace(0.0, last, int(np.ceil(last / apart)) + 1)]))
         time = time[np.append(True, np.diff(time) > _SAME * apart)]
@@ -91,10 +92,13 @@ def driven_peaks(
     rested, plain = np.zeros(len(coefficients), dtype=bool), vehicle.without_jerk(responses)
     drivable = Drivable.of(vehicle, plain)
     jerks = np.array([one != name for one, name in zip(plain, responses, strict=True)])
+    smooth = all(vehicle.meanings[name].kind in _SMOOTH for name in responses)
+    longest = 2 * _APART if smooth else _APART
+    passages = (_passage(event, vehicle, speed, beyond, longest) for beyond in _BEYOND)  # made as they are needed
+    made: list[Passage] = []
     for p, values in enumerate(coefficients):
         motion = drivable.motion(values)
-        for beyond in _BEYOND:
-            passage = _passage(event, vehicle, speed, beyond)
+        for passage in _kept(made, passages):
             history = passage.responses(motion, jerks)
             highest[p], lowest[p] = passage.crest(history), -passage.crest(-history)
             rested[p] = passage.decayed(history)
@@ -103,9 +107,17 @@ def driven_peaks(
     return highest, lowest, rested
 
 
+def _kept(made: list[Passage], passages: Iterator[Passage]) -> Iterator[Passage]:
+    """Yield the passages that were made, then others, which are kept."""
+    yield from made
+    for passage in passages:
+        made.append(passage)
+        yield passage
+
+
 @lru_cache(_EVENTS)
-def _passage(event: Event, vehicle: Vehicle, speed: float, beyond: float) -> Passage:
-    return Passage.of(event, vehicle.contact_points, speed, beyond)
+def _passage(event: Event, vehicle: Vehicle, speed: float, beyond: float, longest: float) -> Passage:
+    return Passage.of(event, vehicle.contact_points, speed, beyond, longest)
 
 
 def _slopes(values: Real, time: Real) -> Real:
