@@ -6,6 +6,7 @@ are missing are listed as absent.
 """
 
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -15,6 +16,7 @@ from typer import Option
 
 from peers import OURS, Contenders, contenders
 from sections import cold_start, evaluation, process, report, searches, struts, summary
+from suspension_ctrl import RideProblem
 from suspension_ctrl import tables as files
 from suspension_ctrl.commands import results, terminal
 from suspension_ctrl.paper import experiment as paper
@@ -102,14 +104,7 @@ def main(
 
 def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summary.Measurements:
     """Carry out all sections, each of which leaves its timings in `folder` as soon as it is done."""
-    problem = paper.ride_problem(nodes=settings["nodes"])
-    reference = ReferenceFront.of(grid_front(problem, settings["grid"]))
-    scaled = searches.scaled_problem(problem, reference)
-    scaled_front = searches.scaled_front(reference)
-    both = {f"{name}, NSGA-II": search for name, search in field.nsga2.items()}
-    both |= {f"{name}, MOEA/D": search for name, search in field.moead.items()}
-    repeats = settings["repeats"]
-    limits = settings["limit"], settings["repeat_limit"]
+    problem, repeats = paper.ride_problem(nodes=settings["nodes"]), settings["repeats"]
 
     def kept(name: str, timings: pd.DataFrame) -> pd.DataFrame:
         files.write_csv(folder / f"{name}.csv", timings)
@@ -126,37 +121,32 @@ def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summar
             "evaluation", evaluation.measure(problem, settings["designs"], repeats, settings["evaluation_limit"])
         ),
         struts=kept("struts", struts.measure(settings["strut_nodes"], settings["strut_designs"], repeats)),
-        moead=kept(
-            "moead",
-            searches.by_population(
-                field.moead,
-                scaled,
-                [settings["moead_population"]],
-                settings["moead_generations"],
-                repeats,
-                *limits,
-            ),
-        ),
-        target=kept(
-            "target",
-            searches.to_target(
-                both,
-                scaled,
-                scaled_front,
-                settings["target_share"] * scaled_front.volume,
-                settings["target_populations"],
-                settings["target_repeats"],
-                settings["target_limit"],
-            ),
-        ),
-        nsga2=kept(
-            "nsga2",
-            searches.by_population(
-                field.nsga2, problem, settings["populations"], settings["generations"], repeats, *limits
-            ),
-        ),
+        **measure_searches(settings, field, problem, kept),
         absent=field.absent,
     )
+
+
+def measure_searches(
+    settings: dict[str, Any],
+    field: Contenders,
+    problem: RideProblem,
+    kept: Callable[[str, pd.DataFrame], pd.DataFrame],
+) -> dict[str, pd.DataFrame]:
+    """Carry out the sections of searches, by name."""
+    reference = ReferenceFront.of(grid_front(problem, settings["grid"]))
+    scaled, front = searches.scaled_problem(problem, reference), searches.scaled_front(reference)
+    both = {f"{name}, NSGA-II": search for name, search in field.nsga2.items()}
+    both |= {f"{name}, MOEA/D": search for name, search in field.moead.items()}
+    sizes, target = settings["target_populations"], settings["target_share"] * front.volume
+    how = settings["repeats"], settings["limit"], settings["repeat_limit"]
+    moead = [settings["moead_population"]], settings["moead_generations"]
+    nsga2 = settings["populations"], settings["generations"]
+    to_target = settings["target_repeats"], settings["target_limit"]
+    return {
+        "moead": kept("moead", searches.by_population(field.moead, scaled, *moead, *how)),
+        "target": kept("target", searches.to_target(both, scaled, front, target, sizes, *to_target)),
+        "nsga2": kept("nsga2", searches.by_population(field.nsga2, problem, *nsga2, *how)),
+    }
 
 
 COMPARE = Path(__file__).parents[1] / "scripts" / "compare.py"

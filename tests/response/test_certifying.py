@@ -78,6 +78,23 @@ def test_the_peak_in_an_event_is_that_of_a_simulation(linear):
     assert table.linearised["peak min travel bump"] == pytest.approx(-history["suspension_travel [m]"].min(), 1e-3)
 
 
+def test_a_peak_of_a_laden_car_with_a_law_is_a_change_from_rest():
+    """Simulated as in the problem; the weight of the payload alone takes more travel than the bump."""
+    strut = sc.parallel(
+        sc.Spring(), sc.BilinearDamper(bump=750.0, rebound=2250.0), sc.BumpStop(gap=0.1, stiffness=1e5)
+    )
+    laden = sc.Payload(mass=150.0).on(replace(QUARTER, strut=strut))
+    problem = sc.RideProblem(
+        laden, ROAD, speed=20.0, bounds={"spring": (20e3, 24e3)}, band=(0.2, 20.0),
+        events={"bump": (sc.SpeedBump(height=0.03, length=2.0), 8.0)},
+        measures=["ACC", "peak body_acceleration bump", "peak travel bump"],
+    )  # fmt: skip
+    table = sc.certify(problem, [22e3], 400.0, range(2)).to_frame().loc["1"]
+    peaks = table.loc[["peak body_acceleration bump", "peak travel bump"]]
+    np.testing.assert_allclose(peaks.simulated, peaks.linearised, rtol=1e-3)
+    assert peaks.simulated["peak travel bump"] < 150.0 * 9.80665 / 22e3
+
+
 def test_limits_have_their_verdict(linear):
     assert [text.split(",")[0] for text in linear[1].limits] == [
         "SWS <= 0.02 m: not met", "DTL <= 2000 N: met", "bottoming 0.04 <= 1000000 1/km: met",

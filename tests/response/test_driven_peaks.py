@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 import suspension_ctrl as sc
 from garage import DAMPED_FULL, DRIVER, FULL, HALF, QUARTER, struts_of
-from suspension_ctrl.response.driven_peaks import driven_peaks
+from suspension_ctrl.response.driven_peaks import at_rest, driven_peaks
 from suspension_ctrl.response.peaks import peaks
 
 BUMP = sc.SpeedBump(height=0.05, length=2.0)
@@ -149,3 +149,24 @@ def test_struts_without_a_response_in_time_are_named():
     car = with_axles(QUARTER, sc.parallel(sc.Spring(value=21e3), sc.series(KNEE, rubber)))
     with pytest.raises(ValueError, match=r"^struts .*response in time.*mount"):
         peaks(car, values_of(car), BUMP, 10.0, ["body_acceleration"])
+
+
+@pytest.mark.parametrize("inerter", [0.0, 30.0])
+def test_a_laden_vehicle_stands_still_on_level_ground(inerter):
+    """The weight of a payload compresses springs and tyres; with an inerter beside the law too nothing moves."""
+    beside = [sc.Inerter(value=inerter)] if inerter else []
+    strut = sc.parallel(sc.Spring(), sc.TableDamper(velocity=[0.0, 1.0], force=[0.0, 1e3]), *beside)
+    car = sc.HalfCar(
+        body_mass=950.0, pitch_inertia=1500.0, front_wheel_mass=38.0, rear_wheel_mass=42.0,
+        front_tyre_stiffness=210e3, rear_tyre_stiffness=220e3, cg_to_front=1.3, cg_to_rear=1.6,
+        front_strut=strut, rear_strut=strut,
+    )  # fmt: skip
+    laden = sc.Payload(mass=250.0, position=(-1.0, 0.0)).on(car)
+    moving = ["body_acceleration", "pitch_acceleration", "rear_wheel_acceleration", ("acceleration", 1.0, 0.0)]
+    setting = {"front.spring": 25e3, "rear.spring": 30e3}
+    rest = at_rest(laden, setting, [*moving, "rear_suspension_travel", "rear_tyre_load"], False)
+    load = 250.0 * 9.80665 * 2.3 / 2.9  # of the rear axle
+    np.testing.assert_allclose(rest, [0.0, 0.0, 0.0, 0.0, -load / 30e3, -load], rtol=1e-9, atol=1e-9)
+    history = sc.simulate(laden, setting, sc.Step(height=0.04), 5.0)
+    assert abs(history["body_acceleration [m/s^2]"].iloc[0]) < 1e-9
+    assert not at_rest(car, setting, moving, False).any()

@@ -1,6 +1,6 @@
 """Peaks in an event of vehicles with force laws: designs integrated in time until their responses decay."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -8,9 +8,10 @@ import numpy as np
 
 from ..quantities import Bool, Real
 from ..roads.events import Event
-from ..vehicles.vehicle import Vehicle
+from ..vehicles.assembly import ResponseName
+from ..vehicles.vehicle import Setting, Vehicle
 from .motion.courses import course_over, road_at
-from .motion.drivable import Drivable, Motion
+from .motion.drivable import Drivable, Motion, integrated, motion_of
 from .motion.integration import responses_in_time
 from .motion.system import Course
 
@@ -55,7 +56,7 @@ class Passage(NamedTuple):
         options: Any = {"periodic": self.steady, "tolerance": _TOLERANCE, "road": self.road}
         found = responses_in_time(motion, self.course, self.time, **options)
         if motion.equations.constant.any():  # a payload
-            found -= responses_in_time(motion, _level(motion), np.zeros(1))
+            found -= _at_rest(motion)
         if jerks.any():
             found[:, jerks] = _slopes(found[:, jerks], self.time)
         return np.ascontiguousarray(found.T)
@@ -94,25 +95,15 @@ def driven_peaks(
     jerks = np.array([one != name for one, name in zip(plain, responses, strict=True)])
     smooth = all(vehicle.meanings[name].kind in _SMOOTH for name in responses)
     longest = 2 * _APART if smooth else _APART
-    passages = (_passage(event, vehicle, speed, beyond, longest) for beyond in _BEYOND)  # made as they are needed
-    made: list[Passage] = []
-    for p, values in enumerate(coefficients):
-        motion = drivable.motion(values)
-        for passage in _kept(made, passages):
-            history = passage.responses(motion, jerks)
+    for beyond in _BEYOND:
+        passage = _passage(event, vehicle, speed, beyond, longest)
+        for p in np.flatnonzero(~rested):
+            history = passage.responses(drivable.motion(coefficients[p]), jerks)
             highest[p], lowest[p] = passage.crest(history), -passage.crest(-history)
             rested[p] = passage.decayed(history)
-            if rested[p]:
-                break
+        if rested.all():
+            break
     return highest, lowest, rested
-
-
-def _kept(made: list[Passage], passages: Iterator[Passage]) -> Iterator[Passage]:
-    """Yield the passages that were made, then others, which are kept."""
-    yield from made
-    for passage in passages:
-        made.append(passage)
-        yield passage
 
 
 @lru_cache(_EVENTS)
@@ -128,7 +119,16 @@ def _slopes(values: Real, time: Real) -> Real:
     return np.vstack([slopes, slopes[-1:]])
 
 
-def _level(motion: Motion) -> Course:
-    """Return a level road."""
-    wheels = motion.equations.b.shape[1]
-    return Course(np.array([0.0, _APART]), np.zeros((1, wheels, 4)))
+def at_rest(vehicle: Vehicle, setting: Setting, responses: Sequence[ResponseName], lift_off: bool) -> Real:
+    """Return the responses (m,) with which `simulate` begins on level ground, by the weight of a payload."""
+    if not integrated(vehicle, lift_off):
+        return np.zeros(len(responses))
+    plain = vehicle.without_jerk(responses)
+    rest = _at_rest(motion_of(vehicle, vehicle.coefficients(setting), plain, lift_off))
+    return np.where([one == name for one, name in zip(plain, responses, strict=True)], rest, 0.0)
+
+
+def _at_rest(motion: Motion) -> Real:
+    """Return the responses (m,) on a level road."""
+    level = Course(np.array([0.0, _APART]), np.zeros((1, motion.equations.b.shape[1], 4)))
+    return responses_in_time(motion, level, np.zeros(1))[0]

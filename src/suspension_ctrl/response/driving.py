@@ -13,11 +13,10 @@ from ..roads.events import Event
 from ..roads.profiles import Profile
 from ..roads.rigs import Rig
 from ..vehicles.assembly import ResponseName, label
-from ..vehicles.networks import has_force_laws
 from ..vehicles.vehicle import Setting, Vehicle
 from .lift_off import tell_lift_off
 from .motion.courses import Passage
-from .motion.drivable import Motion, motion_of
+from .motion.drivable import Motion, integrated, motion_of
 from .motion.equations import roads_of
 from .motion.hold import Model, Wheels, states_of
 from .motion.integration import responses_in_time
@@ -161,7 +160,7 @@ def _drive_vehicle(
     lift_off: bool = False,
 ) -> "pd.DataFrame":
     names = list(vehicle.responses if responses is None else responses)
-    if lift_off or has_force_laws(vehicle.networks):
+    if integrated(vehicle, lift_off):
         plain = vehicle.without_jerk(names)
         motion = motion_of(vehicle, vehicle.coefficients(setting), plain, lift_off)
         jerks = [name != one for name, one in zip(names, plain, strict=True)]

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..quantities import column_headers
-from ..vehicles.networks import has_force_laws
 from ..vehicles.vehicle import Vehicle, assembled
+from .motion.drivable import integrated
 from .motion.equations import loads_of, static_loads
 
 if TYPE_CHECKING:
@@ -48,8 +48,7 @@ def tell_lift_off(vehicle: Vehicle, values: Mapping[str, float], table: "pd.Data
     if not (loads := loads_of(vehicle)):
         return
     place = "distance [m]" if "distance [m]" in table else "time [s]"
-    # an integrated motion counts from the static position without payload, whose weight is then a force
-    laden = not vehicle.networks or not (allowed or has_force_laws(vehicle.networks))
+    laden = not (vehicle.networks and integrated(vehicle, allowed))
     found, static = {}, static_loads(assembled(vehicle), values, laden=laden).tolist()
     for tyre, header, stands in zip(
         vehicle.tyres, column_headers(loads, dict.fromkeys(loads, "N")), static, strict=True

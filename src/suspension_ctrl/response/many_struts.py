@@ -91,9 +91,9 @@ def fill_loop(q: int, s: int, present: Bool, stiffness: Real, feedback: Real, so
         for j in range(q):
             row = loop[i * (q + s) + j]
             row[:] = 0.0
-            for l in range(q):  # noqa: E741
-                if present[l * q + j]:
-                    add_product(-1.0, feedback[i * q + l], stiffness[l * q + j], row)
+            for other in range(q):
+                if present[other * q + j]:
+                    add_product(-1.0, feedback[i * q + other], stiffness[other * q + j], row)
             for t in range(row.shape[1] if i == j else 0):
                 row[0, t] += 1.0
         for source in range(s):

@@ -77,11 +77,11 @@ def fill_static(networks: Networks, values: Real, state: Real, nodes: Real) -> N
         kind, ratio, force, stiffness = node[i, KIND], networks.ratio[i], 0.0, 0.0
         if kind >= PARALLEL:
             one, other = node[i, PART], node[i, PART + 1]
-            k, l = nodes[one, STIFFNESS], nodes[other, STIFFNESS]  # noqa: E741
-            force, stiffness = nodes[one, AT_ZERO] + nodes[other, AT_ZERO], k + l
+            upper, lower = nodes[one, STIFFNESS], nodes[other, STIFFNESS]
+            force, stiffness = nodes[one, AT_ZERO] + nodes[other, AT_ZERO], upper + lower
             if kind != PARALLEL and stiffness > 0.0:
-                force = (nodes[one, AT_ZERO] * l + nodes[other, AT_ZERO] * k) / stiffness
-                stiffness = k * l / stiffness
+                force = (nodes[one, AT_ZERO] * lower + nodes[other, AT_ZERO] * upper) / stiffness
+                stiffness = upper * lower / stiffness
             elif kind != PARALLEL:  # nothing holds the end between: beside an inerter the mean force is 0
                 inert = node[one, KIND] == INERTER or node[other, KIND] == INERTER
                 force = 0.0 if inert or abs(force) < _ODD else np.nan
@@ -112,8 +112,8 @@ def fill_positions(networks: Networks, values: Real, nodes: Real, d: Real, work:
     for i in range(values.size):
         if networks.order[i] == 0:
             for j in range(q):
-                for l in range(q):  # noqa: E741
-                    change[j, l] += values[i] * networks.gain[i, j, l]
+                for k in range(q):
+                    change[j, k] += values[i] * networks.gain[i, j, k]
     for t in range(networks.ports.shape[0]):
         for j in range(q):
             if networks.ports[t, j]:
@@ -123,8 +123,8 @@ def fill_positions(networks: Networks, values: Real, nodes: Real, d: Real, work:
         d[i] = networks.sag[i]
         for j in range(q):
             d[i] += c[i, j] * force[j]
-            for l in range(q):  # noqa: E741
-                matrix[i, l] -= c[i, j] * change[j, l]
+            for k in range(q):
+                matrix[i, k] -= c[i, j] * change[j, k]
     for p in range(q):
         for i in range(q):
             if i != p:

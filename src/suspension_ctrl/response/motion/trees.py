@@ -139,6 +139,6 @@ def numbers_of(program: Program, tree: Tree, values: Real) -> Numbers:
         order = 0 if tree.kind[i] == SPRING else 1 if tree.kind[i] == DAMPER else 2
         linear[order, tree.linear_slot[i]] += tree.linear_ratio[i] ** 2 * values[tree.coefficient[i]]
     knot, slope, base = np.zeros((laws, most)), np.zeros((laws, most + 1)), np.zeros((laws, most + 1))
-    for l in range(laws):  # noqa: E741
-        knots[l] = fill_law(program.laws, tree.source[l], values, knot[l], slope[l], base[l], power[l])
+    for i in range(laws):
+        knots[i] = fill_law(program.laws, tree.source[i], values, knot[i], slope[i], base[i], power[i])
     return Numbers(linear, knots, knot, slope, base, power)
