@@ -56,7 +56,9 @@ def ride(
     folder = results.results_folder(out)
     for name, one in tables.items():
         write_csv(folder / f"{name}.csv", one)
-    terminal.note(f"{title}: {', '.join(f'{name} {value:g} {units[name]}' for name, value in values.items())}.")
+    terminal.note(
+        f"{title}: {', '.join(f'{name} {value:g} {units[name]}'.rstrip() for name, value in values.items())}."
+    )
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table)
     show_tables(tables, linear)

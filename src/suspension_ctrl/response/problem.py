@@ -248,7 +248,7 @@ class RideProblem(Record):
         for name, (low, high) in self.bounds.items():
             unit, kind = self.units[name], self.kinds.get(name, "")
             if isinstance(kind, str):
-                yield f"{name} {low:g} to {high:g} {unit}{kind and f', {kind}'}"
+                yield f"{name} {low:g} to {high:g} {unit}".rstrip() + (kind and f", {kind}")
             else:
                 yield f"{name} {', '.join(f'{value:g}' for value in kind)} {unit}"
 
