@@ -39,6 +39,16 @@ def test_roads_have_spectrum_coherence_and_band_of_the_case():
     assert wanted[-1, 0, -1] < 0.3 < 0.99 < wanted[0, 0, 1]  # left and right differ, two wheels of a side do not
 
 
+def test_straight_pieces_have_the_spectrum_up_to_the_end_of_the_band():
+    """Of 160,000 lines of the last 2 Hz to 4 standard errors, 1 %; without compensation 2 % of the power is lost."""
+    case, total = sc.LoadCase(vehicle=QUARTER, road=ROAD, speed=SPEED), 0.0
+    for seed in range(400):
+        f, waves = lines_of(random_profile(case, BAND, 4 * LENGTH, seed))
+        last = (f > BAND[1] - 2) & (f <= BAND[1])
+        total += (np.abs(waves[last, 0]) ** 2 / 2 / (case.psd(f[last]) * SPEED / (4 * LENGTH))).mean()
+    assert total / 400 == pytest.approx(1.0, abs=0.01)
+
+
 @pytest.mark.parametrize("vehicle", [QUARTER, HALF, DRIVER.on(DAMPED_FULL)])
 def test_a_linear_trip_is_the_frequency_response_line_by_line(vehicle):
     """Wheels delayed by their place, under tracks of their own; the slope of straight pieces leaves 3e-3."""
