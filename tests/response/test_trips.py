@@ -40,7 +40,7 @@ def test_roads_have_spectrum_coherence_and_band_of_the_case():
 
 
 def test_straight_pieces_have_the_spectrum_up_to_the_end_of_the_band():
-    """Of 160,000 lines of the last 2 Hz to 4 standard errors, 1 %; without compensation 2 % of the power is lost."""
+    """Of 160,000 lines of the last 2 Hz to 4 standard errors, 1 %; without compensation 2 % is lost."""
     case, total = sc.LoadCase(vehicle=QUARTER, road=ROAD, speed=SPEED), 0.0
     for seed in range(400):
         f, waves = lines_of(random_profile(case, BAND, 4 * LENGTH, seed))

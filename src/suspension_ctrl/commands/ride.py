@@ -56,9 +56,7 @@ def ride(
     folder = results.results_folder(out)
     for name, one in tables.items():
         write_csv(folder / f"{name}.csv", one)
-    terminal.note(
-        f"{title}: {', '.join(f'{name} {value:g} {units[name]}'.rstrip() for name, value in values.items())}."
-    )
+    terminal.note(f"{title}: {told(values, units)}.")
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table)
     show_tables(tables, linear)
@@ -68,6 +66,11 @@ def ride(
 def given(values: Mapping[str, float | None]) -> dict[str, Any]:
     """Return the values that are not None."""
     return {name: value for name, value in values.items() if value is not None}
+
+
+def told(values: Mapping[str, float], units: Mapping[str, str]) -> str:
+    """Return the values in words, each with its unit."""
+    return ", ".join(f"{name} {value:g} {units[name]}".rstrip() for name, value in values.items())
 
 
 def tables_of(linear: "LinearisedVehicle") -> "dict[str, pd.DataFrame]":
