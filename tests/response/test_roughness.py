@@ -1,10 +1,12 @@
 """The roughness index beside closed forms on sines, the spectrum of a random road and Runge and Kutta."""
 
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.linalg import expm
 
 from suspension_ctrl import Iso8608Road
 from suspension_ctrl.response.roughness import SPEED, golden_car, international_roughness_index
@@ -117,7 +119,7 @@ def test_a_steady_slope_is_no_roughness():
 @pytest.mark.parametrize(
     ("profile", "message"),
     [
-        (sine(0.1, 100.0, 0.31), "must have steps of at most 0.3 m, got 0.31 m"),
+        (sine(0.1, 100.0, 0.31), "must have steps of at most 0.3048 m, got 0.31 m"),
         (sine(0.1, 11.0, 0.1), "must be at least 11.25 m long, got 11 m"),
     ],
 )
@@ -134,3 +136,77 @@ def test_the_base_length_is_rounded_half_up(step, intervals):
     by_hand = 4 * n * gain(n) * abs(np.sinc(n * intervals * step) * np.sinc(n * step))
     other = 4 * n * gain(n) * abs(np.sinc(n * (intervals - 1) * step) * np.sinc(n * step))
     assert abs(found / by_hand - 1) < abs(found / other - 1) / 4
+
+
+def by_sayers(height, step: float, average: bool = True) -> np.ndarray:
+    """Magnitudes [mm/m] by the rules of Sayers' paper (1995), written out: state transition over each step.
+
+    The base length is the nearest whole number of steps, half up (as in Fortran's NINT). The car begins on the
+    mean slope of 11 m. States: slopes of body and wheel, and their rates.
+    """
+    k_tyre, k, c, mu = 653.0, 63.3, 6.0, 0.15
+    a = np.array(
+        [[0, 1, 0, 0], [-k, -c, k, c], [0, 0, 0, 1], [k / mu, c / mu, -(k_tyre + k) / mu, -c / mu]]
+    )  # fmt: skip
+    transition = expm(a * step / (80 / 3.6))
+    partial = np.linalg.solve(a, (transition - np.eye(4)) @ [0, 0, 0, k_tyre / mu])
+    base = {0.02: 13, 0.1: 3, 0.25: 1, 0.3048: 1}[step] if average else 1
+    lead = {0.02: 550, 0.1: 110, 0.25: 44, 0.3048: 36}[step]
+    steady = (height[lead] - height[0]) / (lead * step)
+    state, found = np.array([steady, 0, steady, 0]), []
+    for i in range(len(height) - base):
+        state = transition @ state + partial * (height[i + base] - height[i]) / (base * step)
+        found.append(1e3 * abs(state[0] - state[2]))
+    return np.array(found)
+
+
+@pytest.mark.parametrize("average", [True, False])
+@pytest.mark.parametrize("step", [0.02, 0.1, 0.25, 0.3048])
+def test_index_is_that_of_sayers_rules(step, average):
+    profile = Iso8608Road("C").profile(1500 * step, step, 1)
+    by_rules = by_sayers(profile.height[:, 0], step, average)
+    found = international_roughness_index(profile, average=average)
+    np.testing.assert_allclose(found.tracks, by_rules.mean(), rtol=1e-9)
+    np.testing.assert_allclose(found.travel[:, 0], by_rules, rtol=1e-9, atol=1e-9)
+
+
+def segments_case() -> np.ndarray:
+    """Read heights [m] at 0.25 m of a road with known indices of its segments of 20 m."""
+    return np.loadtxt(Path(__file__).with_name("iri_by_segments.csv"), comments="#", skiprows=4)
+
+
+def test_the_car_drives_on_from_segment_to_segment():
+    """112 m at 0.25 m, indices of five segments of 20 m by the program of github michalsorel/iri @dcd1e58d."""
+    height = segments_case()
+    index = international_roughness_index(Profile(0.25 * np.arange(height.size), height[:, None]))
+    table = index.by_segment(20.0)
+    np.testing.assert_allclose(table["IRI [mm/m]"], [1.0224, 3.6102, 3.7065, 3.6562, 3.5118], atol=5e-5)
+    assert table["start [m]"].tolist() == [0, 20, 40, 60, 80]
+    assert table["end [m]"].tolist() == [20, 40, 60, 80, 100]
+    assert index.mean == pytest.approx(3.1568, abs=5e-5)
+
+
+def test_segments_of_any_length_hold_the_points_that_lie_in_them():
+    """By hand: points at 100, 200, ... mm to segments of 7.77 m; two tracks; from a distance of 500 m on."""
+    profile = Iso8608Road("C").profile(200.0, 0.1, 3, (0.75, -0.75))
+    moved = Profile(profile.distance + 500, profile.height, profile.tracks)
+    index = international_roughness_index(moved)
+    table = index.by_segment(7.77)
+    place = ((index.distance - 500 - 0.05) // 7.77).astype(int)
+    ends = np.arange(1, len(table) + 1) * 7.77
+    near = np.abs((index.distance - 500)[:, None] - ends).min(axis=1) < 0.11  # of the step across an edge
+    for k in range(len(table)):
+        inside = (place == k) & ~near
+        wanted = index.travel[inside].mean(axis=0)
+        np.testing.assert_allclose(table.loc[k].iloc[2:], wanted, rtol=0.06)
+    np.testing.assert_allclose(table["start [m]"], 500 + ends - 7.77)
+    assert list(table.columns[2:]) == ["IRI of track 1 [mm/m]", "IRI of track 2 [mm/m]"]
+    whole = international_roughness_index(profile).by_segment(200.0)
+    np.testing.assert_allclose(whole.iloc[0, 2:], index.tracks, rtol=1e-12)
+
+
+@pytest.mark.parametrize("length", [0.0, 0.49, 200.1, np.nan, "20"])
+def test_a_segment_longer_than_the_road_is_refused(length):
+    index = international_roughness_index(Iso8608Road("C").profile(200.0, 0.1, 3))
+    with pytest.raises(ValueError, match=r"^segment must be [^\n]*$"):
+        index.by_segment(length)
