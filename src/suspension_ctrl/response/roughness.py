@@ -53,8 +53,8 @@ class RoughnessIndex(Record):
     def by_segment(self, length: float) -> "pd.DataFrame":
         """Return the index of every whole segment of a `length` [m]; the car drives on from one to the next.
 
-        Columns are ``start [m]``, ``end [m]`` and ``IRI [mm/m]``, of several tracks ``IRI of track 1 [mm/m]`` and so
-        on. A shorter piece at the end is left out.
+        Columns are ``start [m]``, ``end [m]`` and ``IRI [mm/m]``, of several tracks ``IRI of track 1 [mm/m]`` etc.
+        A shorter piece at the end is left out.
         """
         import pandas as pd
 
