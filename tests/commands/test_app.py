@@ -106,8 +106,8 @@ def test_a_pipe_of_any_encoding_is_written(tmp_path, encoding, count):
 
 
 BAD = [
-    (["--vehicle", "car"], "vehicle must be one of cantero_2022_half, jian_2022_full, ", 2),
-    (["--vehicle", ""], "vehicle must be one of cantero_2022_half, jian_2022_full, ", 2),
+    (["--vehicle", "car"], "vehicle must be one of bmw_320i_full, cantero_2022_half, ", 2),
+    (["--vehicle", ""], "vehicle must be one of bmw_320i_full, cantero_2022_half, ", 2),
     (["--vehicle", "no.toml"], "No such file or directory: 'no.toml'", 1),
     (
         ["--vehicle", "bad.toml"],

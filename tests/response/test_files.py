@@ -153,7 +153,7 @@ def test_coefficients_without_bounds_stay_those_of_the_file(tmp_path):
         (None, None, -1.0, "speed must be finite and > 0 m/s, got -1.0"),
         (None, None, float("nan"), "speed must be finite and > 0 m/s, got nan"),
         (None, "", None, "road must be a class of ISO 8608 .* got ''"),
-        ("", None, None, "vehicle must be one of cantero_2022_half, .* got ''"),
+        ("", None, None, "vehicle must be one of bmw_320i_full, .* got ''"),
         ("cantero_2022_half", None, None, "vehicle must be a file with bounds, got 'cantero_2022_half'"),
     ],
 )

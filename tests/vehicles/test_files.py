@@ -175,6 +175,35 @@ def test_full_car_has_the_frequencies_of_its_matrices(bar, computed):
     np.testing.assert_allclose(found, computed, rtol=0, atol=5.1e-6)
 
 
+def test_saloon_with_published_parameters():
+    """Of stiffness and mass alone: the four decimals of another program, and energies written out, to rounding."""
+    file = load_vehicle("bmw_320i_full")
+    a, b, front, rear, tyre = 1.156196, 1.422717, 1.38684 / 2, 1.36398 / 2, 158240.08
+    travel = [
+        [1, y, -x, *(-np.eye(4)[i])] for i, (x, y) in enumerate([(a, front), (a, -front), (-b, rear), (-b, -rear)])
+    ]
+    springs = list(zip([24444.787, 24444.787, 19628.799, 19628.799], travel, strict=True))
+    springs += [(tyre, [0, 0, 0, *np.eye(4)[i]]) for i in range(4)]
+    springs += [(6914.882 / (2 * front) ** 2, list(np.subtract(travel[0], travel[1])))]
+    springs += [(2643.601 / (2 * rear) ** 2, list(np.subtract(travel[2], travel[3])))]
+    mine = frequencies(*by_energy([965.711, 207.265, 1565.818, *4 * [31.8961]], springs))
+    np.testing.assert_allclose(frequencies(*matrices(file)), mine, rtol=1e-12)
+    np.testing.assert_allclose(
+        mine, [1.4201, 1.4357, 2.3023, 11.8960, 11.9922, 12.0581, 12.3069], rtol=0, atol=5.1e-5
+    )
+
+
+def test_pounds_and_feet_of_the_saloon():
+    """What the source prints in pounds of force, feet and seconds; to the last digit of the file."""
+    car, pound, foot = load_vehicle("bmw_320i_full"), 4.4482216152605, 0.3048
+    assert car.vehicle.body_mass == pytest.approx(66.17221 * pound / foot, abs=5e-4)
+    assert car.vehicle.pitch_inertia == pytest.approx(1154.888 * pound * foot, abs=5e-4)
+    assert car.vehicle.front_tyre_stiffness == pytest.approx(10842.89 * pound / foot, abs=5e-3)
+    assert car.setting["front.spring"] == pytest.approx(1675 * pound / foot, abs=5e-4)
+    assert car.setting["rear.damper"] == pytest.approx(112.9981 * pound / foot, abs=5e-5)
+    assert car.setting["front_antiroll"] == pytest.approx(5100.155 * pound * foot, abs=5e-4)
+
+
 def test_full_car_in_full():
     file = load_vehicle("jian_2022_full")
     assert file.vehicle == FullCar(
@@ -403,7 +432,7 @@ def test_bad_files_are_one_line(tmp_path, text, message):
 
 @pytest.mark.parametrize("text", ["", "no_such_car", "yuen_ramli_2010.csv", "../paper/table1_vehicle", "a\x00"])
 def test_other_names_are_no_vehicles(text):
-    with pytest.raises(ValueError, match=r"^vehicle must be one of cantero_2022_half, [^\n]* file, got [^\n]*$"):
+    with pytest.raises(ValueError, match=r"^vehicle must be one of bmw_320i_full, [^\n]* file, got [^\n]*$"):
         load_vehicle(text)
 
 
