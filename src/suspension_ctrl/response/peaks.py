@@ -8,7 +8,7 @@ import numpy as np
 from ..quantities import Bool, Real, frozen_array
 from ..roads.events import Event
 from ..vehicles.networks import has_force_laws
-from ..vehicles.vehicle import Vehicle
+from ..vehicles.vehicle import AssembledVehicle, Vehicle
 from .driven_peaks import driven_peaks
 from .passing import passing
 
@@ -37,13 +37,18 @@ def _peaks(
 ) -> tuple[Real, Real]:
     """Return the peaks of designs, kept for other load cases with the event and for the other direction."""
     coefficients = np.frombuffer(numbers).reshape(designs, -1)
-    judge = driven_peaks if has_force_laws(vehicle.networks) else passing_peaks
+    judge = driven_peaks if has_force_laws(vehicle.networks) or _on_road(vehicle) else passing_peaks
     highest, lowest, rested = judge(vehicle, coefficients, event, speed, responses)
     if not rested.all():
         names = [one.name for one in vehicle.strut_coefficients]
         values = dict(zip(names, coefficients[int(rested.argmin())].tolist(), strict=True))
         raise ValueError(f"response to an event must decay within 72 s, got coefficients {values}")
     return frozen_array(highest), frozen_array(lowest)
+
+
+def _on_road(vehicle: Vehicle) -> bool:
+    """Whether a strut stands on a road: the kinks of its tension then depend on the design."""
+    return isinstance(vehicle, AssembledVehicle) and bool(vehicle.assembly.standing.any())
 
 
 def passing_peaks(

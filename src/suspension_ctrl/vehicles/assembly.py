@@ -52,7 +52,7 @@ def check_strut_names(parameter: str, names: Iterable[str]) -> None:
 
 
 class Link(NamedTuple):
-    """A spring and a damper in parallel between two ends; a strut has its ends alone."""
+    """A spring and a damper in parallel between two ends; a strut has its ends alone, the lower may be a road."""
 
     name: str
     lower: End
@@ -105,7 +105,7 @@ class Assembly(Record):
     masses: Mapping[str, float] = field(metadata=unit("kg"))  # that move vertically, ``body`` at its centre
     inertias: Mapping[str, float] = _NONE  # ``pitch``, ``roll`` [kg m^2] and elastic modes, of modal mass 1 [-]
     contacts: Mapping[str, Position] = field(metadata=unit("m"))  # where each tyre touches ``<tyre>_road``
-    tyres: tuple[Link, ...]  # each from its road to a wheel, in the order of `contacts`
+    tyres: tuple[Link, ...]  # from their roads to wheels; a contact without one has a strut on its road
     struts: tuple[Link, ...]
     strut_coefficients: tuple[StrutCoefficient, ...]
     responses: Mapping[str, Response]
@@ -117,8 +117,13 @@ class Assembly(Record):
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
             self._keep(**{name: FrozenMapping(value) if isinstance(value, Mapping) else tuple(value)})
-        if [tyre[:2] for tyre in self.tyres] != list(zip(self.contacts, self.roads, strict=True)):
-            raise ValueError(f"tyres must be {', '.join(self.contacts)}, each from its road, got {self.tyres}")
+        stand = {strut.lower for strut in self.struts}
+        needed = {tyre: road for tyre, road in zip(self.contacts, self.roads, strict=True) if road not in stand}
+        given = {tyre.name: tyre.lower for tyre in self.tyres}
+        named = dict(zip(self.contacts, self.roads, strict=True))
+        if len(given) < len(self.tyres) or not needed.items() <= given.items() <= named.items():
+            names = ", ".join(needed) or "those of contacts"
+            raise ValueError(f"tyres must be {names}, each from its road, got {self.tyres}")
         check_strut_names("struts", (strut.name for strut in self.struts))
         for end in (*(end for strut in self.struts for end in strut[1:3]), *(place for _, place in self.payload)):
             if isinstance(end, tuple):
@@ -162,6 +167,11 @@ class Assembly(Record):
         weights = np.array([self.masses.get(name, 0.0) for name in self.coordinates])
         return frozen_array(weights + sum(mass * self.shape(position) for mass, position in self.payload))
 
+    @cached_property
+    def standing(self) -> Real:
+        """Share (r, q) of the tension of each strut in the load on each road: 1 of a strut that stands on it."""
+        return frozen_array(-self.elongations(self.struts)[1].T)
+
     @property
     def sprung_mass(self) -> float:
         """Mass carried by the wheels, payload included [kg]."""
@@ -203,7 +213,7 @@ class Assembly(Record):
         """Return the vehicle without its struts; `Vehicle.plant` names the inputs and outputs.
 
         With coordinates z, roads x and tensions F of struts, links extend by E z + R x and struts by P z. The
-        masses M move by ``M z'' = -E^T (k (E z + R x) + c (E z' + R x')) - P^T F``.
+        masses M move by ``M z'' = -E^T (k (E z + R x) + c (E z' + R x')) - P^T F``; of struts on a road, -S x too.
         """
         checks.listed("responses", responses)
         n, r, q = len(self.coordinates), len(self.roads), len(self.struts)
@@ -213,18 +223,20 @@ class Assembly(Record):
             raise ValueError(
                 f"responses must differ, points by a millimetre or more, got {checks.shown(list(responses))}"
             )
-        p, _ = self.elongations(self.struts)
-        z, rate = np.eye(n, 2 * n + 2 * r + q), np.eye(n, 2 * n + 2 * r + q, n)
-        moved, read = np.vstack([rate, motion]), np.vstack([*rows.values(), p @ z, p @ rate])
-        damped = tension[: len(self.tyres), 2 * n + r : 2 * n + 2 * r].any()
+        p, s = self.elongations(self.struts)
+        columns = np.eye(2 * n + 2 * r + q)
+        z, rate, x, x_rate = np.split(columns[: 2 * (n + r)], [n, 2 * n, 2 * n + r])
+        ports = p @ z + s @ x, p @ rate + s @ x_rate
+        moved, read = np.vstack([rate, motion]), np.vstack([*rows.values(), *ports])
+        damped = tension[: len(self.tyres), 2 * n + r : 2 * n + 2 * r].any() or s.any()
         kept = np.delete(np.arange(2 * n, 2 * n + 2 * r + q), [] if damped else slice(r, 2 * r))
         states = np.arange(2 * n).reshape(2, n).T.ravel()  # a coordinate and its rate beside each other
         matrices = moved[np.ix_(states, states)], moved[np.ix_(states, kept)], read[:, states], read[:, kept]
         labels = [f"{name}_{what}" for name in self.coordinates for what in ("displacement", "velocity")]
         rates = [f"{road}_rate" for road in self.roads if damped]
         inputs = [*self.roads, *rates, *(joined(strut.name, "strut") for strut in self.struts)]
-        ports = [joined(strut.name, end) for end in ("deflection", "deflection_rate") for strut in self.struts]
-        return control.ss(*matrices, states=labels, inputs=inputs, outputs=[*rows, *ports], name="plant")
+        names = [joined(strut.name, end) for end in ("deflection", "deflection_rate") for strut in self.struts]
+        return control.ss(*matrices, states=labels, inputs=inputs, outputs=[*rows, *names], name="plant")
 
     def _motion(self) -> tuple[Real, Real]:
         """Accelerations (n, c) and tensions of tyres and supports (l, c) by z, z', x, x' and F, c in all."""
@@ -244,17 +256,18 @@ class Assembly(Record):
         kind, where = self.meanings[str(name)]
         if kind == "jerk":
             raise ValueError(f"response must be one of a plant, of closed(responses=[...]) a jerk too, got {name}")
-        n, columns = len(motion), np.eye(motion.shape[1])
-        displacement, velocity, roads = columns[:n], columns[n : 2 * n], columns[2 * n : 2 * n + len(self.roads)]
+        n, r, columns = len(motion), len(self.roads), np.eye(motion.shape[1])
+        displacement, velocity, x, x_rate = np.split(columns[: 2 * (n + r)], [n, 2 * n, 2 * n + r])
         if kind in ("displacement", "velocity", "acceleration"):
             moved = {"displacement": displacement, "velocity": velocity, "acceleration": motion}[kind]
             return np.asarray(self.shape(where) @ moved)
+        if kind == "load":
+            tyre = sum(tension[i] for i, link in enumerate(self.tyres) if link.name == where)
+            return np.asarray(tyre + self.standing[list(self.contacts).index(str(where))] @ columns[2 * (n + r) :])
         links = self.struts if kind in ("travel", "travel_rate", "strut_force") else self.tyres
         index = [link.name for link in links].index(str(where))
-        if kind == "load":
-            return tension[index]
         if kind == "strut_force":
             return columns[index - len(self.struts)]
         by_coordinate, by_road = self.elongations(links)
-        moved = velocity if kind == "travel_rate" else displacement
-        return np.asarray(by_coordinate[index] @ moved + by_road[index] @ roads)
+        moved, road = (velocity, x_rate) if kind == "travel_rate" else (displacement, x)
+        return np.asarray(by_coordinate[index] @ moved + by_road[index] @ road)

@@ -148,6 +148,8 @@ def fed_back(plant: tuple[Real, Real, Real, Real], gains: Real) -> tuple[Real, R
     (a, inputs, outputs, direct), q = plant, gains.shape[1]
     b, c, d, fed = inputs[:, -q:], outputs[-2 * q :], direct[:, -q:], direct[-2 * q :]
     if gains[2].any():
+        if fed[-q:, :-q][gains[2].any(axis=0)].any():
+            raise ValueError("struts that stand on a road must be without inerter, got one")
         c, fed = np.vstack([c, c[-q:] @ a]), np.vstack([fed, c[-q:] @ inputs])
     gain = np.hstack([*gains[: len(c) // q]])
     k = np.linalg.solve(np.eye(q) - gain @ fed[:, -q:], gain)

@@ -6,13 +6,14 @@ forces through the roll centres and at the wheels carry the rest (W. F. Milliken
 Vehicle Dynamics", SAE 1995, chapter 18).
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 
 from ..quantities import Checked, Real, unit
-from .assembly import GRAVITY, Assembly
+from .assembly import GRAVITY, Assembly, Network
 
 _TOPPLED = 180.0  # deg/g, roll gradient of a body that its struts and tyres do not hold upright
 _AXLES, _SIDES = ("front", "rear"), ("left", "right")
@@ -91,7 +92,7 @@ class Mechanics(NamedTuple):
     damping: Real
     by_stiffness: Real  # (v, n, n), of the struts for coefficients of 1
     by_damping: Real
-    tyre_loads: Real  # (t, n), tension of each tyre by coordinate
+    tyre_loads: Real  # (t, n), tension of each tyre by coordinate, without struts on its road
 
     @classmethod
     def of(cls, assembly: Assembly) -> "Mechanics":
@@ -104,28 +105,49 @@ class Mechanics(NamedTuple):
             np.array([p.T @ (q.gain * (q.order == order)) @ p for q in assembly.strut_coefficients])
             for order in (0, 1)
         )
-        return cls(assembly, e.T @ (k * e), e.T @ (c * e), stiff, damp, (k * e)[: len(assembly.tyres)])
+        loads = np.zeros((len(assembly.contacts), e.shape[1]))
+        loads[[list(assembly.contacts).index(tyre.name) for tyre in assembly.tyres]] = (k * e)[
+            : len(assembly.tyres)
+        ]
+        return cls(assembly, e.T @ (k * e), e.T @ (c * e), stiff, damp, loads)
 
     def stiffness_of(self, coefficients: Real) -> Real:
         """Return the stiffness matrices (p, n, n) of designs with these coefficients (p, v)."""
         total = self.stiffness + weighted_sum(coefficients, self.by_stiffness)
-        names = [one.name for one in self.assembly.strut_coefficients]
         p, _ = self.assembly.elongations(self.assembly.struts)
-        for network in self.assembly.networks:
-            own = dict(zip((name.removeprefix(network.prefix) for name in names), coefficients.T, strict=True))
-            stiffness = np.broadcast_to(network.strut.static_stiffness(own), len(coefficients))
+        for network, stiffness in self._networks(coefficients):
             total = total + np.multiply.outer(stiffness, p.T * network.share @ p)
         return total
+
+    def _networks(self, coefficients: Real) -> Iterator[tuple[Network, Real]]:
+        """Yield each network with its stiffness (p,)."""
+        names = [one.name for one in self.assembly.strut_coefficients]
+        for network in self.assembly.networks:
+            own = dict(zip((name.removeprefix(network.prefix) for name in names), coefficients.T, strict=True))
+            yield network, np.broadcast_to(network.strut.static_stiffness(own), len(coefficients))
+
+    def _loads(self, coefficients: Real, displacement: Real) -> Real:
+        """Return the tension (p, t) on each road at displacements (p, n)."""
+        loads = (self.tyre_loads @ displacement[..., None])[..., 0]
+        standing = self.assembly.standing
+        if not standing.any():
+            return np.asarray(loads)
+        p, _ = self.assembly.elongations(self.assembly.struts)
+        gains = np.array([one.gain * (one.order == 0) for one in self.assembly.strut_coefficients])
+        struts = weighted_sum(coefficients, gains)
+        for network, stiffness in self._networks(coefficients):
+            struts = struts + np.multiply.outer(stiffness, np.diag(network.share))
+        return np.asarray(loads + (standing @ struts @ p @ displacement[..., None])[..., 0])
 
     def static_loads(self, coefficients: Real) -> Real:
         """Return the load (p, t) of each tyre on level ground [N]."""
         try:
             displacement = np.linalg.solve(
                 self.stiffness_of(coefficients), -GRAVITY * self.assembly.weights[:, None]
-            )
+            )[..., 0]
         except np.linalg.LinAlgError:
             raise ValueError("struts must have a spring that carries the vehicle, got none") from None
-        return np.asarray(-(self.tyre_loads @ displacement)[..., 0])
+        return -self._loads(coefficients, displacement)
 
     def roll_gradient(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Return the roll angle (p,) per lateral acceleration [deg/g], at most 180: the body topples."""
@@ -135,7 +157,7 @@ class Mechanics(NamedTuple):
 
     def front_load_transfer(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Return the share (p,) of the front axle in the lateral load transfer [-], void if the body topples."""
-        loads = (self.tyre_loads @ self._lean(coefficients, geometry)[..., None])[..., 0]
+        loads = self._loads(coefficients, self._lean(coefficients, geometry))
         front, rear = (loads[:, list(self.assembly.contacts).index(f"{axle}_left")] for axle in _AXLES)
         return front / (front + rear)
 

@@ -73,6 +73,10 @@ class Drivable(NamedTuple):
         known, q = loads_of(vehicle), len(vehicle.struts)
         if lift_off and not known:
             raise ValueError("lift_off must be of a vehicle with masses and loads of all tyres, got another")
+        if lift_off and any((assembled(vehicle).assembly.standing @ one.share).any() for one in vehicle.networks):
+            raise ValueError(
+                "lift_off must be of a vehicle with springs and dampers alone on its roads, got others"
+            )
         loads = known if lift_off else []
         every = list(dict.fromkeys([*names, *loads]))
         system = checked_model(vehicle.plant(every))

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import control
 import numpy as np
+from scipy.linalg import block_diag
 
 from ...quantities import Integer, Real
 from ...vehicles.assembly import GRAVITY, Assembly, ResponseName
@@ -72,14 +73,17 @@ def roads_of(closed: object) -> list[str]:
 def equations_of(matrices: tuple[Real, Real, Real, Real], r: int, q: int) -> tuple[Equations, Outputs]:
     """Return equations and outputs of A, B, C, D; inputs are r roads, their rates, a constant 1 and q tensions."""
     (a, b, c, d), last = matrices, matrices[1].shape[1] - q
-    ports = slice(len(c) - 2 * q, None)
-    if q and d[ports].any():
-        raise ValueError("deflections must depend on roads and tensions through states alone, got others")
-    nothing, parts = np.zeros(0), (a, b[:, :r], b[:, r : last - 1], b[:, last:], b[:, last - 1], c[ports])
-    a, b, g, f, constant, c_ports = (np.array(part, order="C") for part in parts)
+    ports, standing = slice(len(c) - 2 * q, None), d[len(c) - 2 * q : len(c) - q, :r]
+    if q and (d[ports] != np.pad(block_diag(standing, standing), ((0, 0), (0, d.shape[1] - 2 * r)))).any():
+        raise ValueError("deflections must depend on roads by their heights alone and on no tension, got others")
+    nothing = np.zeros(0)
+    parts = (a, b[:, :r], b[:, r : last - 1], b[:, last:], b[:, last - 1], c[ports], standing)
+    a, b, g, f, constant, c_ports, standing = (np.array(part, order="C") for part in parts)
     outputs = Outputs(c, d[:, :r], d[:, r : last - 1], d[:, last:], d[:, last - 1])
     none = np.zeros((0, len(a)))
-    return Equations(a, b, g, f, constant, c_ports, none, nothing, nothing, nothing, none.T.copy()), outputs
+    return Equations(
+        a, b, g, f, constant, c_ports, standing, none, nothing, nothing, nothing, none.T.copy()
+    ), outputs
 
 
 def matrices_of(

@@ -33,7 +33,7 @@ def place(course: Course, piece: int, time: float, z: Real) -> None:
 def react(e: Equations, tree: Tree, numbers: Numbers, work: Work, order: int) -> None:
     """Put in what the states of an order give: tensions, values of laws and tyres, rates of the tree."""
     if tree.slots:
-        _pull(tree, numbers, work, order)
+        _pull(e, tree, numbers, work, order)
     laws = tree.of_rate.size
     for t in range(e.static.size):
         tension = -e.static[t] if order == 0 else 0.0
@@ -45,7 +45,7 @@ def react(e: Equations, tree: Tree, numbers: Numbers, work: Work, order: int) ->
 
 
 @uncounted(error_model="numpy", forceinline=True)
-def _pull(tree: Tree, numbers: Numbers, work: Work, order: int) -> None:
+def _pull(e: Equations, tree: Tree, numbers: Numbers, work: Work, order: int) -> None:
     """Put in the tensions of the networks and the rates of their states."""
     q, laws, slots = work.tension.shape[1], tree.of_rate.size, work.slots
     for p in range(q):
@@ -54,6 +54,10 @@ def _pull(tree: Tree, numbers: Numbers, work: Work, order: int) -> None:
         for p in range(q):
             slots[DEFLECTION, p] += work.ports[i, p] * work.x[order, i]
             slots[RATE, p] += work.ports[i, q + p] * work.x[order, i]
+    for p in range(q if order < ROAD else 0):
+        for r in range(e.standing.shape[1]):
+            slots[DEFLECTION, p] += e.standing[p, r] * work.z[0, order, r]
+            slots[RATE, p] += e.standing[p, r] * work.z[1, order, r]
     deflect(tree, work, order)
     for _ in range(_ITERATIONS if order == 0 and tree.curved else 1):
         if order == 0:

@@ -19,7 +19,8 @@ ROAD = 4  # terms of the road, a cubic
 class Equations(NamedTuple):
     """x' = a x + b z + g z' + f F + constant: v states of a vehicle, roads z and tensions F of the networks.
 
-    Behind these states come those of the tree. Ports are c x, deflections and rates. The tension of tyre t is
+    Behind these states come those of the tree. Ports are c x, deflections and rates, and of struts on a road
+    `standing` times z, and times z'. The tension of tyre t is
     ``load x + by_road z + by_rate z'``. Where tyres may lift off it is at most the static load; what is beyond
     acts on the states by `push`.
     """
@@ -30,6 +31,7 @@ class Equations(NamedTuple):
     f: Real  # (v, q)
     constant: Real  # (v,)
     c: Real  # (2q, v)
+    standing: Real  # (q, r)
     load: Real  # (t, v), t = 0 where tyres stay on the road
     by_road: Real  # (t,)
     by_rate: Real  # (t,)
