@@ -147,7 +147,7 @@ class Mechanics(NamedTuple):
             )[..., 0]
         except np.linalg.LinAlgError:
             raise ValueError("struts must have a spring that carries the vehicle, got none") from None
-        return -self._loads(coefficients, displacement)
+        return -self._loads(coefficients, np.asarray(displacement, dtype=float))
 
     def roll_gradient(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Return the roll angle (p,) per lateral acceleration [deg/g], at most 180: the body topples."""
