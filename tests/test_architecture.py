@@ -30,7 +30,8 @@ PUBLIC = {
     "ACC", "DLC", "DTL", "FrontLoadTransfer", "Limit", "LoadCase", "Measure", "Peak", "RideProblem",
     "Bottoming", "DamperPower", "LargestPeak", "Lift", "Topping", "time_in_zones", "RollDamping",
     "RollGradient", "RootSumSquare", "SWS", "Term", "exposure", "international_roughness_index", "load_problem",
-    "save_problem",    "certify", "LiftOffWarning", "linearised", "response_psds", "ride", "simulate", "weighting",
+    "save_problem",    "certify", "LiftOffWarning", "linearised", "response_psds", "ride", "simulate",
+    "weighted_rms", "weighting",
     "FailureWarning", "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run",
     "Sampling", "minimise", "non_dominated", "Study",
 }  # fmt: skip

@@ -27,6 +27,7 @@ from .response.problem import RideProblem as RideProblem
 from .response.responses import response_psds as response_psds
 from .response.responses import ride as ride
 from .response.roughness import international_roughness_index as international_roughness_index
+from .response.weighted_spectra import weighted_rms as weighted_rms
 from .response.weightings import weighting as weighting
 from .response.zones import time_in_zones as time_in_zones
 from .roads.bumps import Ramp as Ramp

@@ -84,9 +84,8 @@ def test_running_rms_of_what_is_steady():
 
 @pytest.mark.parametrize("name", filters())
 def test_weighted_sine_has_the_filters_magnitude(name):
-    """At the frequency that the bilinear transform gives; the start is over after 40 s (Wf: 400 s)."""
-    slow = name == "Wf"
-    dt, f, seconds = (0.02, 0.25, 800.0) if slow else (0.002, 4.0, 60.0)
+    """At the frequency that the bilinear transform gives; the start is over after 40 s (Wf: 400 s, Wh: 10 s)."""
+    dt, f, seconds = {"Wf": (0.02, 0.25, 800.0), "Wh": (0.0005, 16.0, 20.0)}.get(name, (0.002, 4.0, 60.0))
     t = dt * np.arange(round(seconds / dt))
     late = weighted(np.sin(2 * np.pi * f * t), dt, name)[t.size // 2 :]
     moved = np.tan(np.pi * f * dt) / (np.pi * dt)

@@ -153,7 +153,10 @@ def test_any_layout_of_designs_is_taken():
     ("changes", "message"),
     [
         ({"speed": 0.0}, "speed must be finite and > 0 m/s, got 0.0"),
-        ({"weighting": "Wz"}, "weighting must be one of Wk, Wd, Wf, Wc, We, Wj, Wb, Wk-table, Wb-table, got 'Wz'"),
+        (
+            {"weighting": "Wz"},
+            "weighting must be one of Wk, Wd, Wf, Wc, We, Wj, Wb, Wm, Wh, Wk-table, Wb-table, got 'Wz'",
+        ),
         ({"band": (20.0, 0.0)}, "band must be finite with 0 <= lower < upper [Hz], got (20.0, 0.0)"),
         ({"band": (0.0, 1.0, 2.0)}, "band must be finite with 0 <= lower < upper [Hz], got (0.0, 1.0, 2.0)"),
         ({"band": None}, "band must be finite with 0 <= lower < upper [Hz], got None"),

@@ -1,5 +1,7 @@
+import csv
 import pickle
 import re
+from pathlib import Path
 
 import control
 import numpy as np
@@ -11,7 +13,7 @@ from suspension_ctrl.response import weightings
 # ISO 8041-1, Table 1: factor at the reference angular frequency [rad/s]
 REFERENCE = {
     "Wb": (100, 0.8126), "Wc": (100, 0.5145), "Wd": (100, 0.1261), "We": (100, 0.06287),
-    "Wf": (2.5, 0.3888), "Wj": (100, 1.019), "Wk": (100, 0.7718),
+    "Wf": (2.5, 0.3888), "Wh": (500, 0.2020), "Wj": (100, 1.019), "Wk": (100, 0.7718), "Wm": (100, 0.3362),
 }  # fmt: skip
 
 
@@ -24,6 +26,21 @@ def printed(value: float) -> float:
 def test_filters_equal_the_standard_at_its_reference_frequency(name):
     omega, factor = REFERENCE[name]
     assert printed(abs(weighting(name)(1j * omega))) == factor
+
+
+def annex_b(name: str) -> list[tuple[int, float]]:
+    """Bands and design-goal factors of a weighting in Tables B.1 to B.9."""
+    lines = (Path(__file__).parent / "iso8041_annex_b.csv").read_text(encoding="utf-8").splitlines()
+    rows = csv.DictReader(line for line in lines if not line.startswith("#"))
+    return [(int(row["band"]), float(row[name])) for row in rows if row[name]]
+
+
+@pytest.mark.parametrize("name", weightings.filters())
+def test_filters_equal_annex_b_of_the_standard_to_its_digits(name):
+    goals = annex_b(name)
+    assert len(goals) == {"Wf": 21, "Wh": 38}.get(name, 37)
+    for band, factor in goals:
+        assert printed(abs(weighting(name)(2j * np.pi * 10 ** (band / 10)))) == factor, band
 
 
 @pytest.mark.parametrize("name", ["Wk", "Wb"])
@@ -102,7 +119,7 @@ def test_any_system_is_a_weighting_by_its_magnitude():
             control.tf([1], [1, 1], 0.1),
             "weighting must have one input and one output in continuous time, got 1 and 1",
         ),
-        (3.0, "weighting must be one of Wk, Wd, Wf, Wc, We, Wj, Wb, Wk-table, Wb-table, got 3.0"),
+        (3.0, "weighting must be one of Wk, Wd, Wf, Wc, We, Wj, Wb, Wm, Wh, Wk-table, Wb-table, got 3.0"),
     ],
 )
 def test_what_is_no_weighting(system, message):

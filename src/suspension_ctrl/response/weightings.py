@@ -1,4 +1,4 @@
-"""Frequency weightings of ISO 2631 for human exposure to whole-body vibration, as filters and as table.
+"""Frequency weightings of ISO 2631 and ISO 5349 for human exposure to vibration, as filters and as table.
 
 The filters are the analogue ones of ISO 8041-1, the table its design-goal factors in one-third-octave bands.
 """
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import checks, datafiles
-from ..quantities import Real, Record, frozen_array
+from ..quantities import Complex, Real, Record, frozen_array
 from ..vehicles.feedback import numbers_of, system_of
 
 
@@ -35,6 +35,8 @@ class TabulatedWeighting:
         segment = np.clip(np.searchsorted(log_band, log_f) - 1, 0, log_band.size - 2)
         slope = np.diff(log_factor)[segment] / np.diff(log_band)[segment]
         return np.exp(log_factor[segment] + slope * (log_f - log_band[segment]))
+
+    response = factor  # a table has no phase
 
     def _table(self) -> tuple[Real, Real]:
         column = self.name.removesuffix("-table").lower()
@@ -70,7 +72,11 @@ class SystemWeighting(Record):
 
     def factor(self, f: ArrayLike) -> Real:
         """Magnitude of the weighting at the frequencies `f` (n,) [Hz], shape (n,) [-]."""
-        return np.abs(self.system(2j * np.pi * np.asarray(f, dtype=float)))
+        return np.abs(self.response(f))
+
+    def response(self, f: ArrayLike) -> Complex:
+        """Return magnitude and phase of the weighting at the frequencies `f` (n,) [Hz], shape (n,) [-]."""
+        return np.asarray(self.system(2j * np.pi * np.asarray(f, dtype=float)))
 
     def __str__(self) -> str:
         return str(self.name)
@@ -103,12 +109,13 @@ def by_name(weighting: Weighting) -> TabulatedWeighting | SystemWeighting:
 
 
 def weighting(name: str) -> control.TransferFunction:
-    """Return a weighting filter of ISO 2631 as a transfer function.
+    """Return a weighting filter of ISO 2631 or ISO 5349 as a transfer function.
 
     Parameters
     ----------
     name : str
-        One of ``Wk, Wd, Wf, Wc, We, Wj`` (ISO 2631-1) and ``Wb`` (ISO 2631-4).
+        One of ``Wk, Wd, Wf, Wc, We, Wj`` (ISO 2631-1), ``Wb`` (ISO 2631-4), ``Wm`` (buildings, ISO 2631-2) and
+        ``Wh`` (the hand, ISO 5349-1).
 
     Returns
     -------
