@@ -1,4 +1,4 @@
-"""Equilibrium of a vehicle: linear equations, and laws on the segments that carry it."""
+"""Equilibrium of a vehicle: laws on the segments that carry it."""
 
 from dataclasses import replace
 
@@ -7,26 +7,10 @@ import pytest
 
 import suspension_ctrl as sc
 from garage import QUARTER
-from suspension_ctrl.response.motion.equilibrium import solve
 
 STANDS = sc.parallel(
     sc.TableSpring(deflection=[-0.1, -0.02, 0.0, 0.1], force=[-9e3, -500.0, 0.0, 1e3]), sc.Damper(value=1500.0)
 )
-
-
-@pytest.mark.parametrize("seed", range(20))
-def test_linear_equations_are_solved(seed):
-    rng, n = np.random.default_rng(seed), 7
-    a, x = rng.standard_normal((n, n)), rng.standard_normal(n)
-    system = np.column_stack([a, a @ x])
-    solve(system)
-    np.testing.assert_allclose(system[:, -1], x, rtol=1e-9)
-
-
-def test_an_unknown_without_a_pivot_is_zero():
-    system = np.array([[2.0, 0.0, 4.0], [0.0, 0.0, 0.0]])
-    solve(system)
-    assert system[:, -1].tolist() == [2.0, 0.0]
 
 
 def test_a_payload_rests_on_the_segment_that_carries_it():

@@ -7,7 +7,7 @@ from scipy.linalg import expm
 import suspension_ctrl as sc
 from garage import FULL, struts_of
 from suspension_ctrl.response.motion.drivable import Drivable
-from suspension_ctrl.response.motion.equilibrium import find_segments
+from suspension_ctrl.response.motion.equilibrium import begin, find_segments
 from suspension_ctrl.response.motion.expansion import accelerate, place, react, states_at
 from suspension_ctrl.response.motion.system import TERMS, Course, work_of
 from suspension_ctrl.response.motion.trees import numbers_of
@@ -43,6 +43,7 @@ def test_a_power_of_the_rate_has_the_series_of_that_power(exponent):
     car = sc.QuarterCar(body_mass=300.0, wheel_mass=40.0, tyre_stiffness=2e5, strut=strut)
     motion = Drivable.of(car).motion(np.array(list(car.coefficients({}).values())))
     work, numbers = work_of(motion.equations, motion.tree), numbers_of(motion.program, motion.tree, motion.values)
+    begin(numbers, work)
     find_segments(motion.equations, motion.tree, numbers, work, np.array([0.0, -0.5, 0.01, 0.3]))
     for order in range(TERMS + 1):
         react(motion.equations, motion.tree, numbers, work, order)

@@ -52,7 +52,8 @@ def locate(numbers: Numbers, work: Work, i: int) -> bool:
 def first_exit(e: Equations, work: Work, terms: int, longest: float, tolerance: float) -> tuple[float, int]:
     """Return when a law or tyre first leaves its segment, and which; after the longest time none, -1."""
     at, which, own, reach = longest, -1, work.own, work.reach
-    reach[:] = 0.0
+    for i in range(reach.size):
+        reach[i] = 0.0
     for k in range(terms, 0, -1):
         for i in range(reach.size):
             reach[i] = (reach[i] + abs(own[k, i])) * longest

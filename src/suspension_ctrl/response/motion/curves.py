@@ -29,11 +29,12 @@ def fill_law(laws: Laws, law: int, values: Real, knot: Real, slope: Real, base: 
         knot[0], knot[1], count = -CREEP, CREEP, 2
         slope[1] = power[0] * CREEP ** (power[1] - 1)
         slope[2] = 0.0
-        base[:] = 0.0
         return count
     base[0], middle = 0.0, 0
     for i in range(count):
         base[i + 1] = base[i] + (slope[i] - slope[i + 1]) * knot[i]
         middle = i + 1 if knot[i] < 0 else middle
-    base[: count + 1] -= base[middle]
+    rest = base[middle]
+    for i in range(count + 1):
+        base[i] -= rest
     return count

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...compiled import compilable
+from ...compiled import compiled
 from ...quantities import Real
 from .crossings import bound, locate
 from .expansion import accelerate, place, react
@@ -14,91 +14,56 @@ _AT_REST = 1e-6  # m/s, m/s^2, largest derivative in equilibrium
 _SINGULAR = 1e-13  # of the largest singular value: none
 
 
-@compilable(error_model="numpy")
-def derivative(e: Equations, tree: Tree, numbers: Numbers, work: Work, x: Real) -> None:
-    """Put in the derivative of states, ``work.x[1]``, and the present values of laws and tyres."""
-    work.x[0] = x
-    react(e, tree, numbers, work, 0)
-    accelerate(e, work, 0)
+@compiled(error_model="numpy")
+def fill_derivatives(e: Equations, tree: Tree, numbers: Numbers, work: Work, x: Real, found: Real) -> None:
+    """Fill in the derivatives (k, n) of states (k, n), and the values of laws and tyres at the last."""
+    for p in range(x.shape[0]):
+        for i in range(x.shape[1]):
+            work.x[0, i] = x[p, i]
+        react(e, tree, numbers, work, 0)
+        accelerate(e, work, 0)
+        for i in range(x.shape[1]):
+            found[p, i] = work.x[1, i]
 
 
-@compilable(error_model="numpy")
-def find_segments(e: Equations, tree: Tree, numbers: Numbers, work: Work, x: Real) -> None:
-    """Set the segments of laws and tyres at a start, from those at 0 on, one knot at a time."""
+def begin(numbers: Numbers, work: Work) -> None:
+    """Set the segments of laws and tyres to those at 0."""
     work.own[0] = 0.0
     for i in range(work.segment.size):
         locate(numbers, work, i)
+
+
+def find_segments(e: Equations, tree: Tree, numbers: Numbers, work: Work, x: Real) -> None:
+    """Set the segments of laws and tyres at a start, from the present ones on, one knot at a time."""
+    found = np.empty((1, x.size))
     for _ in range(_ITERATIONS):
-        derivative(e, tree, numbers, work, x)
-        found = True
-        for i in range(work.segment.size):
-            beyond = int(work.own[0, i] > work.bounds[1, i]) - int(work.own[0, i] < work.bounds[0, i])
-            if beyond != 0:
-                found = False
-                work.segment[i] += beyond
-                bound(numbers, work, i)
-        if found:
+        fill_derivatives(e, tree, numbers, work, x[None], found)
+        beyond = (work.own[0] > work.bounds[1]).astype(int) - (work.own[0] < work.bounds[0])
+        if not beyond.any():
             break
+        work.segment[:] += beyond
+        for i in np.flatnonzero(beyond).tolist():
+            bound(numbers, work, i)
 
 
-@compilable(error_model="numpy")
 def settle(e: Equations, tree: Tree, numbers: Numbers, course: Course, work: Work, x: Real) -> bool:
     """Put in the states of equilibrium on the first heights by Newton's method; return whether it was found.
 
-    The equations are linear while no law leaves its segment; laws of the rate stay on that of 0 m/s.
+    The equations are linear while no law leaves its segment; laws of the rate stay on that of 0 m/s. States on
+    which nothing depends are 0.
     """
-    n = x.size
-    slopes = np.zeros((n, n + 1))
     place(course, 0, 0.0, work.z)
     work.z[1] = 0.0
     x[:] = 0.0
-    work.own[0] = 0.0
-    for i in range(work.segment.size):
-        locate(numbers, work, i)
+    begin(numbers, work)
+    by_deflection = np.flatnonzero(~tree.of_rate).tolist()
     for _ in range(_ITERATIONS):
-        derivative(e, tree, numbers, work, x)
-        slopes[:, n] = -work.x[1]
-        for j in range(n):
-            x[j] += 1.0
-            derivative(e, tree, numbers, work, x)
-            x[j] -= 1.0
-            slopes[:, j] = work.x[1] + slopes[:, n]
-        solve(slopes)
-        x += slopes[:, n]
-        derivative(e, tree, numbers, work, x)
-        found = True
-        for i in range(tree.of_rate.size):
-            if not tree.of_rate[i] and locate(numbers, work, i):
-                found = False
-        if found:
-            return bool(np.abs(work.x[1]).max() < _AT_REST)
+        points = np.vstack([x + np.eye(x.size), x])
+        found = np.empty_like(points)
+        fill_derivatives(e, tree, numbers, work, points, found)
+        moved = [locate(numbers, work, law) for law in by_deflection]
+        if not any(moved) and np.abs(found[-1]).max() < _AT_REST:
+            return True
+        if not any(moved):
+            x -= np.linalg.lstsq((found[:-1] - found[-1]).T, found[-1], rcond=_SINGULAR)[0]
     return False
-
-
-@compilable(error_model="numpy")
-def solve(system: Real) -> None:
-    """Put the solution into the last column of linear equations (n, n + 1); unknowns without a pivot are 0."""
-    n = system.shape[0]
-    order, smallest = np.arange(n), 0.0
-    for k in range(n):
-        row, column = k, k
-        for i in range(k, n):
-            for j in range(k, n):
-                if abs(system[i, j]) > abs(system[row, column]):
-                    row, column = i, j
-        for j in range(n + 1):
-            system[k, j], system[row, j] = system[row, j], system[k, j]
-        for i in range(n):
-            system[i, k], system[i, column] = system[i, column], system[i, k]
-        order[k], order[column] = order[column], order[k]
-        pivot = system[k, k]
-        smallest = max(smallest, abs(pivot) * _SINGULAR)
-        for j in range(k, n + 1):
-            system[k, j] = system[k, j] / pivot if abs(pivot) > smallest else 0.0
-        for i in range(n):
-            factor = system[i, k] if i != k else 0.0
-            for j in range(k, n + 1):
-                system[i, j] -= factor * system[k, j]
-    solution = system[:, n].copy()
-    for k in range(n):
-        system[order[k], n] = solution[k]

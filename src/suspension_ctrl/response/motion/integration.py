@@ -75,10 +75,9 @@ def _run(motion: Motion, course: Course, state: Real, time: Real, tolerance: flo
 
     ValueError without equilibrium to begin in; ArithmeticError if the integration makes no progress.
     """
-    equations, program, tree, values, *_ = motion
-    rows = np.empty((time.size, motion.states + equations.f.shape[1]))
+    rows = np.empty((time.size, motion.states + motion.equations.f.shape[1]))
     time = np.minimum(time, course.knots[-1])
-    end = drive(equations, program, tree, values, course, state, tolerance, time, rows)
+    end = drive(motion, course, state, tolerance, time, rows)
     if end == NO_EQUILIBRIUM:
         raise ValueError("struts must hold the vehicle in equilibrium, got others")
     if end != REACHED:

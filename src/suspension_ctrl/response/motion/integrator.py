@@ -8,9 +8,9 @@ import numpy as np
 
 from ...compiled import compiled, uncounted
 from ...quantities import Real
-from ...vehicles.networks import Program
 from .crossings import first_exit, switch
-from .equilibrium import find_segments, settle
+from .drivable import Motion
+from .equilibrium import begin, find_segments, settle
 from .expansion import accelerate, place, react, states_at
 from .system import TERMS, Course, Equations, Work, work_of
 from .trees import Numbers, Tree, numbers_of
@@ -71,7 +71,7 @@ def _go_on(work: Work, terms: int, step: float, state: Real) -> None:
         work.size[i] = max(work.size[i], abs(state[i]) + _FLOOR)
 
 
-@uncounted(error_model="numpy")
+@compiled(error_model="numpy")
 def _travel(
     e: Equations,
     tree: Tree,
@@ -103,27 +103,19 @@ def _travel(
     return REACHED
 
 
-@compiled(error_model="numpy")
-def drive(
-    e: Equations,
-    program: Program,
-    tree: Tree,
-    values: Real,
-    course: Course,
-    state: Real,
-    tolerance: float,
-    times: Real,
-    rows: Real,
-) -> int:
-    """Take the states (n,) over a course with coefficients (c,) of the struts; return how it ends.
+def drive(motion: Motion, course: Course, state: Real, tolerance: float, times: Real, rows: Real) -> int:
+    """Take the states (n,) over a course; return how it ends.
 
     States and tensions (m, n + q) at times (m,) are filled in. States of NaN are put in first, in equilibrium on
     the first heights.
     """
-    numbers, work = numbers_of(program, tree, values), work_of(e, tree)
-    if np.isnan(state[0]) and not settle(e, tree, numbers, course, work, state):
+    e, tree = motion.equations, motion.tree
+    numbers, work = numbers_of(motion.program, tree, motion.values), work_of(e, tree)
+    if not np.isnan(state[0]):
+        begin(numbers, work)
+    elif not settle(e, tree, numbers, course, work, state):
         return NO_EQUILIBRIUM
     place(course, 0, 0.0, work.z)
     find_segments(e, tree, numbers, work, state)
     work.size[:] = np.abs(state) + _FLOOR
-    return _travel(e, tree, numbers, course, work, state, tolerance, times, rows)
+    return int(_travel(e, tree, numbers, course, work, state, tolerance, times, rows))

@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...compiled import compilable
 from ...quantities import Integer, Real
 from .trees import Tree
 
@@ -64,16 +63,22 @@ class Work(NamedTuple):
     size: Real  # (n,), largest magnitude of each state
 
 
-@compilable(error_model="numpy")
 def work_of(e: Equations, tree: Tree) -> Work:
     """Return zeros beside the columns."""
-    v, r, q, laws, t = e.a.shape[0], e.b.shape[1], e.f.shape[1], tree.of_rate.size, e.static.size
-    n, columns, ports = v + tree.states, np.zeros((v + 2 * r + q, v)), np.zeros((v, 2 * q))
-    columns[:v], columns[v : v + r] = e.a.T, e.b.T
-    columns[v + r : v + 2 * r], columns[v + 2 * r :] = e.g.T, e.f.T
-    ports[:] = e.c.T
-    x, z, tension = np.zeros((TERMS + 2, n)), np.zeros((2, ROAD, r)), np.zeros((TERMS + 1, q))
-    own, curved = np.zeros((TERMS + 1, laws + t)), np.zeros((TERMS + 1, laws))
-    slots, law, segment = np.zeros((8, tree.slots)), np.zeros((2, laws)), np.zeros(laws + t, dtype=np.int64)
-    bounds, reach = np.zeros((2, laws + t)), np.zeros(laws + t)
-    return Work(columns, ports, x, z, tension, own, curved, slots, law, segment, bounds, reach, np.zeros(n))
+    q, laws, t = e.f.shape[1], tree.of_rate.size, e.static.size
+    n = len(e.a) + tree.states
+    return Work(
+        columns=np.vstack([e.a.T, e.b.T, e.g.T, e.f.T]),
+        ports=np.ascontiguousarray(e.c.T),
+        x=np.zeros((TERMS + 2, n)),
+        z=np.zeros((2, ROAD, e.b.shape[1])),
+        tension=np.zeros((TERMS + 1, q)),
+        own=np.zeros((TERMS + 1, laws + t)),
+        curved=np.zeros((TERMS + 1, laws)),
+        slots=np.zeros((8, tree.slots)),
+        law=np.zeros((2, laws)),
+        segment=np.zeros(laws + t, dtype=np.int64),
+        bounds=np.zeros((2, laws + t)),
+        reach=np.zeros(laws + t),
+        size=np.zeros(n),
+    )

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...compiled import compilable
+from ...compiled import compiled
 from ...quantities import Bool, Integer, Real
 from ...vehicles.assembly import Network
 from ...vehicles.networks import DAMPER, INERTER, LAW, PARALLEL, SERIES, SPRING, Program, elements_of
@@ -130,7 +130,7 @@ def _check_in_time(networks: Sequence[Network]) -> None:
             raise ValueError(f"struts must be {needed}, got {network.prefix}{element.name}")
 
 
-@compilable(error_model="numpy")
+@compiled(error_model="numpy")
 def numbers_of(program: Program, tree: Tree, values: Real) -> Numbers:
     """Return the numbers for coefficients (c,) of the vehicle."""
     laws, most = tree.source.size, 2 * program.laws.number.shape[2]
