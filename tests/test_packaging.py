@@ -47,7 +47,7 @@ def install(distributions, checkout, tmp_path_factory):
     venv.create(folder)
     commands = folder / ("Scripts" if sys.platform == "win32" else "bin")
     outside = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    pip = [sys.executable, "-m", "pip", "--python", commands / "python", "install", "--quiet"]
+    pip = [sys.executable, "-m", "pip", "--python", commands / "python", "install", "--quiet", "--no-compile"]
 
     def run(command: str, *arguments: object, cwd: Path = folder) -> subprocess.CompletedProcess:
         done = [commands / command, *map(str, arguments)]

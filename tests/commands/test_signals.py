@@ -40,6 +40,14 @@ terminal.run_script(main)
 """
 
 
+@pytest.fixture(autouse=True)
+def interruptible():
+    """A job in the background of a shell ignores Ctrl-C, and with it all that it starts."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 def start(folder: Path, how: str, program: str = PROGRAM) -> subprocess.Popen:
     return subprocess.Popen([sys.executable, "-c", program, how], cwd=folder, stderr=subprocess.PIPE, text=True)
 
