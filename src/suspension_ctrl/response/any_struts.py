@@ -19,9 +19,13 @@ from .network_rows import (
     STIFFNESS,
     Networks,
     elements,
+    fill,
     fill_direct,
     fill_rows,
     fill_share,
+    moves,
+    rows_of,
+    setting_of,
     stiffness_at,
 )
 from .working_point import MOST, NEAR, Points, begin, fill_damping, fill_values, improve, keep, linearise
@@ -49,16 +53,15 @@ def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
     """Return the mean squares (p, k) of designs (p, v), and fill in their working points if there is room."""
     struts, networks = any_struts.struts, any_struts.networks
     law, square, count, number = networks.law, networks.square, networks.laws.most, networks.laws.number
-    values, omega, n, m = networks.setting.copy(), struts.omega, struts.omega.size, networks.row.size
-    direct, rows, share = np.empty((m, DIRECT)), np.zeros((1 + networks.row.max(), 2, n)), np.empty(n)
+    omega, n, m, q = struts.omega, struts.omega.size, networks.row.size, networks.sag.size
+    values, rows, (loops, squares, ports) = setting_of(networks), rows_of(networks, n), sizes_of(struts)
+    direct, share = np.empty((m, DIRECT)), np.empty(n)
     curve, state, nodes = np.empty(number.shape[:3]), np.empty((count.size, STATES)), np.empty((m, 3))
-    q = networks.sag.size
     position, work, damping = np.zeros(q), np.empty((3, q, q)), np.empty(networks.root.size)
-    entries = (struts.sizes[:, 0] * (2 * struts.sizes[:, 0] + struts.sizes[:, 1])).sum()
-    room, present = np.empty((entries, 2, n)), np.empty((struts.sizes[:, 0] ** 2).sum(), dtype=np.bool_)
-    tension, value = np.empty((struts.sizes[:, 0].max(), 2, n)), np.empty((2, n))
+    room, present = np.empty((loops, 2, n)), np.empty(squares, dtype=np.bool_)
+    tension, value = np.empty((ports, 2, n)), np.empty((2, n))
     added, found = np.empty(designs.shape[1]), np.empty(struts.channel.size)
-    anywhere = points.iterations.size > 0 or (law[:, OF_RATE] == 0).any()
+    anywhere = points.iterations.size > 0 or moves(networks)
     result = np.empty((designs.shape[0], struts.channel.size))
     for p in range(designs.shape[0]):
         fill_values(networks.variable, designs, p, values)
@@ -83,6 +86,16 @@ def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
         for term in range(struts.channel.size):
             result[p, term] = found[struts.channel[term]] if reached else np.nan
     return result
+
+
+@compilable()
+def sizes_of(struts: ManyStruts) -> tuple[int, int, int]:
+    """Return the rows of all loops and of all stiffness matrices, and the most struts of a block."""
+    loops, squares, most = 0, 0, 0  # reductions of numpy take long to compile
+    for b in range(struts.sizes.shape[0]):
+        q, s = struts.sizes[b, 0], struts.sizes[b, 1]
+        loops, squares, most = loops + q * (2 * q + s), squares + q * q, max(most, q)
+    return loops, squares, most
 
 
 @uncounted()
@@ -132,7 +145,7 @@ def fill_next(any_struts: AnyStruts, state: Real, direct: Real, rows: Real, shar
     """Fill in the deviations that result for every law."""
     networks, omega, law = any_struts.networks, any_struts.struts.omega, any_struts.networks.law
     for i in range(state.shape[0]):
-        share[:] = networks.square[i]
+        fill(share, networks.square[i])
         if law[i, IN_SERIES]:
             fill_share(networks, omega, i, direct, rows, share)
         seen = any_struts.density[law[i, OF_RATE]]
@@ -170,7 +183,7 @@ def weighted_square(value: Real, density: Real, share: Real) -> float:
 def fill_terms(any_struts: AnyStruts, present: Bool, room: Real, tension: Real, value: Real, found: Real) -> None:
     """Fill in the distinct mean squares of the responses."""
     struts, row, entry, start, output = any_struts.struts, 0, 0, 0, 0
-    found[:] = 0.0
+    fill(found, 0.0)
     for b in range(struts.sizes.shape[0]):
         q, s, k = struts.sizes[b]
         stiffness, loop = room[start : start + q * q], room[start + q * q : start + q * (2 * q + s)]

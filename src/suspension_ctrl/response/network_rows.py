@@ -6,6 +6,8 @@ The dynamic stiffness of a node is that of its direct elements, which are in par
 
 from typing import NamedTuple
 
+import numpy as np
+
 from ..compiled import compilable
 from ..quantities import Bool, Integer, Real
 from ..vehicles.networks import INERTER, LAW, MEASURED, PARALLEL, RUBBER, Laws
@@ -46,6 +48,34 @@ class Networks(NamedTuple):
     compliance: Real  # (q, q), deflections by tensions at 0 Hz around nominal struts [m/N]
     nominal: Real  # (q, q), stiffness of nominal struts [N/m]
     sag: Real  # (q,), deflections by payload on nominal struts [m]
+
+
+# Loops in place of reductions and copies of numpy, which take long to compile.
+@compilable()
+def setting_of(networks: Networks) -> Real:
+    """Return a copy of the coefficients (c,) of the vehicle."""
+    values = np.empty(networks.setting.size)
+    for i in range(values.size):
+        values[i] = networks.setting[i]
+    return values
+
+
+@compilable()
+def rows_of(networks: Networks, n: int) -> Real:
+    """Return rows (1 + x, 2, n) of zeros for all nodes."""
+    most = 0
+    for i in range(networks.row.size):
+        most = max(most, networks.row[i])
+    return np.zeros((1 + most, 2, n))
+
+
+@compilable()
+def moves(networks: Networks) -> bool:
+    """Whether a law depends on the mean deflection."""
+    found = 0
+    for i in range(networks.law.shape[0]):
+        found += networks.law[i, OF_RATE] == 0
+    return found > 0
 
 
 @compilable(error_model="numpy", forceinline=True)
@@ -123,11 +153,18 @@ def join(
         row[0, i], row[1, i] = factor * (re * real + im * imaginary), factor * (im * real - re * imaginary)
 
 
+@compilable()
+def fill(row: Real, value: float) -> None:
+    """Fill in a value throughout (n,)."""
+    for i in range(row.size):
+        row[i] = value
+
+
 @compilable(error_model="numpy")
 def fill_share(networks: Networks, omega: Real, law: int, direct: Real, rows: Real, share: Real) -> None:
     """Fill in |own deflection over deflection of the port|^2 (n,) of a law in series."""
     node, ratio, row, own = networks.node, networks.ratio, networks.row, -1
-    share[:] = networks.square[law]
+    fill(share, networks.square[law])
     for i in range(ratio.size):
         one, other = node[i, PART], node[i, PART + 1]
         if node[i, LAW_OF] == law:

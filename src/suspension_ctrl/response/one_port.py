@@ -15,9 +15,13 @@ from .network_rows import (
     STATES,
     Networks,
     elements,
+    fill,
     fill_direct,
     fill_rows,
     fill_share,
+    moves,
+    rows_of,
+    setting_of,
     stiffness_at,
 )
 from .ports import Ports
@@ -110,8 +114,8 @@ def room_for(networks: Networks, n: int) -> Room:
     """Return work arrays at n frequencies."""
     laws, nodes, number = networks.law.shape[0], networks.row.size, networks.laws.number
     curve, state = np.empty((laws, 3, number.shape[2])), np.empty((laws, STATES))
-    rows, gain = np.zeros((1 + networks.row.max(), 2, n)), np.empty((4, n))
-    values, statics, direct = networks.setting.copy(), np.empty((nodes, 3)), np.empty((nodes, DIRECT))
+    rows, gain = rows_of(networks, n), np.empty((4, n))
+    values, statics, direct = setting_of(networks), np.empty((nodes, 3)), np.empty((nodes, DIRECT))
     position, work, damping = np.zeros(1), np.empty((3, 1, 1)), np.empty(1)
     return Room(values, curve, state, statics, position, work, damping, direct, rows, gain, np.empty(n))
 
@@ -120,7 +124,7 @@ def room_for(networks: Networks, n: int) -> Room:
 def solve(port: OnePort, designs: Real, points: Points) -> Real:
     """Return the mean squares (p, k) of designs (p, v), and fill in their working points if there is room."""
     networks, room = port.networks, room_for(port.networks, port.omega.size)
-    statics = points.iterations.size > 0 or (networks.law[:, OF_RATE] == 0).any()
+    statics = points.iterations.size > 0 or moves(networks)
     result = np.empty((designs.shape[0], port.terms))
     for p in range(designs.shape[0]):
         fill_row(port, room, designs, p, statics, points, result)
@@ -183,7 +187,7 @@ def fill_next(port: OnePort, room: Room) -> None:
     """Fill in the deviations that result for every law, by the closed loop."""
     networks, share, state = port.networks, room.share, room.state
     for i in range(state.shape[0]):
-        share[:] = networks.square[i]
+        fill(share, networks.square[i])
         if networks.law[i, IN_SERIES]:
             fill_share(networks, port.omega, i, room.direct, room.rows, share)
         state[i, NEXT] = np.sqrt(weighted(room.gain, port.excitation, networks.law[i, OF_RATE], share))
