@@ -6,6 +6,11 @@ from .response.histories import exposure as exposure
 from .response.lift_off import LiftOffWarning as LiftOffWarning
 from .response.linearisation import linearised as linearised
 from .response.load_case import LoadCase as LoadCase
+from .response.measures.comfort import SEAT as SEAT
+from .response.measures.comfort import TotalValue as TotalValue
+from .response.measures.dose import A8 as A8
+from .response.measures.dose import MSDV as MSDV
+from .response.measures.dose import VDV as VDV
 from .response.measures.gaussian import Bottoming as Bottoming
 from .response.measures.gaussian import LargestPeak as LargestPeak
 from .response.measures.gaussian import Lift as Lift

@@ -174,7 +174,7 @@ class Scores:
         sign = np.sign(one.scale)
         if one.worst_case:
             return float(sign * (sign * values).max())
-        power = 1 if one.by_function else 2
+        power = one.cases[0].power if one.by_function else 2
         return float((self.shares @ values**power) ** (1 / power))
 
     def errors(self, designs: Real, nodes: int) -> list[Real]:
@@ -212,10 +212,10 @@ class Scores:
         functions = [one.values for one in score.cases if one.values]
         by_case = np.array([values(one) for values, one in zip(functions, designs, strict=True)])
         if not score.worst_case:
-            mean = np.zeros(by_case.shape[1])
+            mean, power = np.zeros(by_case.shape[1]), score.cases[0].power
             for share, values in zip(self.shares, by_case, strict=True):  # in order, for one design as for many
-                mean += share * values
-            return mean
+                mean += share * values**power
+            return np.asarray(mean ** (1 / power))
         sign = np.sign(score.scale)
         return np.asarray(sign * (sign * by_case).max(axis=0))
 

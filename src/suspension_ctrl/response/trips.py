@@ -47,6 +47,15 @@ class Trip(NamedTuple):
         factor = weightings.by_name(term.weighting).factor(f) if term.weighting else 1.0
         return float((power * factor**2 * (2 * np.pi * f) ** term.moment).sum())
 
+    def weighted(self, term: "Term") -> Real:
+        """Return the history (n,) of a term about its mean behind its weighting, in the steady state."""
+        history = self.histories[label(term.response)]
+        lines = np.fft.rfft(history - history.mean())
+        if term.weighting:
+            f = np.arange(1, lines.size) / self.duration
+            lines[1:] *= weightings.by_name(term.weighting).response(f)
+        return term.factor * np.fft.irfft(lines, history.size)
+
     def spectra(self) -> tuple[Real, dict[str, Real]]:
         """Return the middles (k,) of parts of the band, and the mean spectra (k,) of all responses in them."""
         frequency = middles(self.band)

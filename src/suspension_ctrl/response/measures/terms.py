@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 """Regular expression of a number."""
+POINT = rf"\(\s*({NUMBER})\s*,\s*({NUMBER})\s*\)"
+"""Regular expression of a point of the body, with a group for each coordinate."""
 
 _LARGEST = 1e6  # factor, and coordinate of a point [m]: squares times those of any response are finite
 
@@ -92,7 +94,8 @@ class Designs(NamedTuple):
 class CaseMeasure(NamedTuple):
     """A measure in a load case: the root of the sum of its mean squares or of the largest, or a function.
 
-    A function of designs may ask them for the mean squares of the terms. Beside it stands a function of a trip and
+    A function of designs may ask them for the mean squares of the terms; its mean over load cases is that of a
+    power of it. Beside it stands a function of a trip and
     the coefficients (c,), or of a vehicle in an event with its setting, without or with tyres that lift off. A
     measure that depends on neither has none.
     """
@@ -100,6 +103,7 @@ class CaseMeasure(NamedTuple):
     terms: tuple[Term, ...] = ()
     largest: bool = False
     values: Callable[[Designs], Real] | None = None
+    power: float = 1.0
     in_trip: "Callable[[Trip, Real], float] | None" = None
     in_event: Callable[[Vehicle, Mapping[str, float], bool], float] | None = None
 

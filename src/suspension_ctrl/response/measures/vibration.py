@@ -12,11 +12,10 @@ from ...vehicles.vehicle import Vehicle, assembled
 from ..load_case import LoadCase
 from ..weightings import Weighting
 from .measure import Measure
-from .terms import NUMBER, CaseMeasure, Term, checked_point, place_text
+from .terms import NUMBER, POINT, CaseMeasure, Term, checked_point, place_text
 
-_POINT = rf"\(\s*({NUMBER})\s*,\s*({NUMBER})\s*\)"
 _PLUS = re.compile(r"\+(?![^(]{0,99}\))")  # outside the parentheses of a point
-_TERM = re.compile(rf"(?:({NUMBER})\s+)?(?:(\S+)\s+)?(\w+|acceleration\s*{_POINT})")
+_TERM = re.compile(rf"(?:({NUMBER})\s+)?(?:(\S+)\s+)?(\w+|acceleration\s*{POINT})")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -33,14 +32,30 @@ class PlacedMeasure(Measure):
     @classmethod
     def read(cls, rest: str, **options: Any) -> Measure:
         """Return the measure of a text after its word; options name and maximise."""
-        point = re.fullmatch(_POINT, rest)
+        point = re.fullmatch(POINT, rest)
         return cls((float(point[1]), float(point[2])) if point else rest, **options)
 
     def _rest(self) -> str:
         return place_text(self.where)
 
 
-class ACC(PlacedMeasure, word="ACC", unit="m/s^2"):
+class AccelerationMeasure(PlacedMeasure):
+    """A measure of the vertical acceleration at a seat, at a point of the body or at its centre of gravity."""
+
+    def response(self, vehicle: Vehicle) -> ResponseName:
+        """Return the acceleration at the place."""
+        if not isinstance(self.where, str):
+            return ("acceleration", *self.where)
+        known = ((name, vehicle.meanings[name]) for name in vehicle.responses)
+        vertical = [r for r, m in known if m.kind == "acceleration" and m.where not in ("pitch", "roll")]
+        if (name := f"{self.where or 'body'}_acceleration") not in vertical:
+            places = ", ".join(r.removesuffix("_acceleration") for r in vertical)
+            got = checks.shown(self.where)
+            raise ValueError(f"{self.word} must be of one of {places} or a point (x, y), got {got}")
+        return name
+
+
+class ACC(AccelerationMeasure, word="ACC", unit="m/s^2"):
     """Root mean square of a vertical acceleration with the weighting of the problem, equation (6).
 
     Parameters
@@ -60,18 +75,6 @@ class ACC(PlacedMeasure, word="ACC", unit="m/s^2"):
     def in_case(self, case: LoadCase, weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError if the vehicle has no such place."""
         return CaseMeasure((Term(self.response(case.vehicle), weighting),))
-
-    def response(self, vehicle: Vehicle) -> ResponseName:
-        """Return the acceleration at the place."""
-        if not isinstance(self.where, str):
-            return ("acceleration", *self.where)
-        known = ((name, vehicle.meanings[name]) for name in vehicle.responses)
-        vertical = [r for r, m in known if m.kind == "acceleration" and m.where not in ("pitch", "roll")]
-        if (name := f"{self.where or 'body'}_acceleration") not in vertical:
-            places = ", ".join(r.removesuffix("_acceleration") for r in vertical)
-            got = checks.shown(self.where)
-            raise ValueError(f"{self.word} must be of one of {places} or a point (x, y), got {got}")
-        return name
 
 
 class WheelMeasure(PlacedMeasure):

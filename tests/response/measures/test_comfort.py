@@ -1,0 +1,141 @@
+"""Total value and SEAT factor on each vehicle, by hand from python-control's responses."""
+
+import numpy as np
+import pytest
+
+import suspension_ctrl as sc
+from garage import DRIVER, FULL, HALF, PASSENGER, QUARTER, ROAD, SPEED, mean_squares, struts_of
+from suspension_ctrl import SEAT, Limit, Measure, Plant, RideProblem, TotalValue
+from suspension_ctrl.response.certifying import certify
+
+BAND, NODES = (0.1, 20.0), 512
+SEATED = PASSENGER.on(DRIVER.on(FULL))
+FLOOR = ("acceleration", 0.3, 0.4)  # below the driver
+
+
+def value(vehicle, measure) -> float:
+    table = sc.ride(vehicle, struts_of(vehicle), ROAD, SPEED, band=BAND, measures=[measure])
+    return table["value"].iloc[0]
+
+
+def total(vehicle, *terms) -> float:
+    """Root sum of squares of responses with weightings and factors."""
+    squares = mean_squares(vehicle, struts_of(vehicle), [term[:2] for term in terms], BAND, NODES)
+    return float(np.sqrt(np.array([term[2] for term in terms]) ** 2 @ squares))
+
+
+SEAT_AXES = [
+    ("driver_acceleration", "Wk", 1.0),
+    ("roll_acceleration", "We", 0.63),
+    ("pitch_acceleration", "We", 0.4),
+]
+CASES = [
+    (QUARTER, "total", [("body_acceleration", "Wk", 1.0), ("body_acceleration", "Wd", 0.4),
+                        ("body_acceleration", "Wk", 0.4)]),
+    (QUARTER, "total at feet 0.3", [("body_acceleration", "Wk", 0.4)]),
+    (HALF, "total (1, 0) at seat 0.5", [(("acceleration", 1.0, 0.0), "Wk", 1.0), ("pitch_acceleration", "Wd", 0.5),
+                                        ("pitch_acceleration", "We", 0.4)]),
+    (SEATED, "total driver at seat", SEAT_AXES),
+    (SEATED, "total driver", [*SEAT_AXES, ("driver_acceleration", "Wd", 0.4), (FLOOR, "Wk", 0.4)]),
+    (SEATED, "total driver at feet -0.2 back 0.6 seat 30cm", [
+        *SEAT_AXES, ("pitch_acceleration", "Wd", 0.3), ("roll_acceleration", "Wd", 0.3),
+        ("driver_acceleration", "Wd", 0.4), ("pitch_acceleration", "Wc", 0.8 * 0.6),
+        ("roll_acceleration", "Wd", 0.5 * 0.6),
+        (FLOOR, "Wk", 0.4), ("pitch_acceleration", "Wk", 0.25 * 0.2), ("roll_acceleration", "Wk", 0.25 * 0.2),
+    ]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("vehicle", "text", "terms"), CASES)
+def test_total_value_has_the_factors_of_the_standard(vehicle, text, terms):
+    assert value(vehicle, text) == pytest.approx(total(vehicle, *terms), rel=1e-7)
+
+
+def test_horizontal_acceleration_is_that_of_a_point_of_a_turning_body():
+    """A point at height h moves by h sin(pitch) forward; about rest its acceleration is h times that of pitch."""
+    t, h, step = np.arange(0.0, 2.0, 1e-4), 0.7, 1e-4
+    pitch = 1e-3 * np.sin(5 * t)
+    forward = np.gradient(np.gradient(h * np.sin(pitch), step), step)[5:-5]
+    np.testing.assert_allclose(forward, h * -25 * pitch[5:-5], rtol=1e-3, atol=1e-6)
+
+
+def test_a_seat_isolates_by_its_factor():
+    expected = total(SEATED, ("driver_acceleration", "Wk", 1.0)) / total(SEATED, (FLOOR, "Wk", 1.0))
+    assert value(SEATED, "SEAT driver") == pytest.approx(expected, rel=1e-7)
+    assert value(SEATED, SEAT("passenger")) != pytest.approx(expected, rel=1e-3)
+
+
+def test_a_stiff_seat_has_the_factor_one():
+    stiff = sc.Seat(mass=1.0, spring=1e7, damper=1e3, position=(0.3, 0.4), name="box").on(FULL)
+    assert value(stiff, "SEAT box") == pytest.approx(1.0, rel=1e-3)
+
+
+def test_the_factor_is_a_limit_of_a_problem_and_confirmed_in_time():
+    seated = DRIVER.on(QUARTER)
+    bounds = {"spring": (15e3, 25e3), "damper": (1e3, 2e3)}
+    problem = RideProblem(
+        seated, ROAD, speed=SPEED, bounds=bounds, band=BAND, measures=["SEAT driver", "total driver"],
+        constraints=[Limit(SEAT("driver"), 0.5)],
+    )  # fmt: skip
+    seat, _, over = problem.evaluate([[2e4, 1500.0]])[0]
+    assert over == pytest.approx(seat / 0.5 - 1, rel=1e-12)
+    table = certify(problem, [2e4, 1500.0], length=2000.0, seeds=range(4)).to_frame().loc["1"]
+    assert table["simulated"]["SEAT driver"] == pytest.approx(seat, rel=0.02)
+    assert table["low"]["total driver"] <= table["linearised"]["total driver"] <= table["high"]["total driver"]
+
+
+@pytest.mark.parametrize(
+    ("text", "measure"),
+    [
+        ("total", TotalValue()),
+        ("total driver", TotalValue("driver")),
+        ("total at seat", TotalValue(points={"seat": None})),
+        ("total seat at seat 30cm feet", TotalValue("seat", {"feet": None, "seat": 0.3})),
+        ("total (1, 2) at back -0.5", TotalValue((1, 2), {"back": -0.5})),
+        ("SEAT driver", SEAT("driver")),
+    ],
+)
+def test_texts_and_objects_are_the_same(text, measure):
+    from dataclasses import replace
+
+    assert replace(Measure.parse(text), name="") == measure
+    assert Measure.parse(str(measure)) == measure
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Measure.parse("total at"), "total must be followed by a place and points with heights, as in "),
+        (
+            lambda: Measure.parse("total driver at head"),
+            "total must be followed by a place and points .* got 'driver",
+        ),
+        (lambda: TotalValue("driver", {"head": 0.3}), "points must be one of seat, back, feet, got 'head'"),
+        (lambda: TotalValue("driver", 0.3), "points must be a mapping of seat, back, feet to heights .* got 0.3"),
+        (
+            lambda: TotalValue(points={"seat": 1e4}),
+            "height of seat must be a number from -1000.0 to 1000.0, got 10000",
+        ),
+        (lambda: value(SEATED, "total guest"), "total must be of one of body, driver, passenger or a point"),
+        (lambda: value(SEATED, "SEAT guest"), "SEAT must be of one of driver, passenger, got 'guest'"),
+        (lambda: value(FULL, "SEAT"), "SEAT must be of one of seats, of which the vehicle has none, got ''"),
+        (lambda: value(SEATED, "SEAT front_left"), "SEAT must be of one of driver, passenger, got 'front_left'"),
+    ],
+)
+def test_what_is_not_there_is_named_in_one_line(make, message):
+    with pytest.raises(ValueError, match=rf"^{message}[^\n]*$"):
+        make()
+
+
+def test_a_plant_has_no_floor_below_a_seat():
+    plant = Plant(
+        DRIVER.on(QUARTER).plant(["body_acceleration", "driver_acceleration"]), contacts={"": (0.0, 0.0)},
+        struts=("", "driver"),
+    )  # fmt: skip
+    case = sc.LoadCase(vehicle=plant, road=ROAD, speed=SPEED)
+    assert [term.response for term in TotalValue("driver", {"seat": 0.3}).in_case(case, None).terms] == [
+        "driver_acceleration"
+    ]
+    for measure in (SEAT("driver"), TotalValue("driver")):
+        with pytest.raises(ValueError, match="^vehicle must be one of masses and links"):
+            measure.in_case(case, None)
