@@ -15,39 +15,40 @@ SEATED = DRIVER.on(FULL)
 BOUNDS = {"spring": (15e3, 25e3), "damper": (1e3, 2e3)}
 
 
-def value(vehicle, measure) -> float:
-    table = sc.ride(vehicle, struts_of(vehicle), ROAD, SPEED, band=BAND, measures=[measure])
-    return table["value"].iloc[0]
+def value(vehicle, *measures) -> list[float]:
+    table = sc.ride(vehicle, struts_of(vehicle), ROAD, SPEED, band=BAND, measures=measures)
+    return table["value"].iloc[: len(measures)].to_list()
 
 
 def rms(vehicle, response, weighting) -> float:
     return float(np.sqrt(mean_squares(vehicle, struts_of(vehicle), [(response, weighting)], BAND, NODES)[0]))
 
 
-@pytest.mark.parametrize("height", [None, 0.0, 0.1, -2.0, 5.0])
-@pytest.mark.parametrize(("word", "factor"), [("A8", 0.5), ("VDV", (3 * 2 * HOUR) ** 0.25)])
-def test_the_worst_axis_counts_over_two_hours(word, factor, height):
+def test_the_worst_axis_counts_over_two_hours():
     """Far above or below the centre of gravity pitch or roll outweighs the vertical axis."""
-    axes = [rms(SEATED, "driver_acceleration", "Wk")]
-    axes += [1.4 * abs(height or 0) * rms(SEATED, f"{name}_acceleration", "Wd") for name in ("pitch", "roll")]
-    text = f"{word} driver 2h" + ("" if height is None else f" at {height}")
-    assert value(SEATED, text) == pytest.approx(factor * max(axes), rel=1e-7)
-    assert (max(axes) > axes[0]) == (height in (-2.0, 5.0))
+    vertical = rms(SEATED, "driver_acceleration", "Wk")
+    turning = 1.4 * max(rms(SEATED, f"{name}_acceleration", "Wd") for name in ("pitch", "roll"))
+    heights = [0.0, 0.1, -2.0, 5.0]
+    texts = ["driver 2h", *(f"driver 2h at {height}" for height in heights)]
+    worst = np.array([vertical, *(max(vertical, abs(height) * turning) for height in heights)])
+    assert (worst > vertical).tolist() == [False, False, False, True, True]
+    found = value(SEATED, *(f"{word} {text}" for word in ("A8", "VDV") for text in texts))
+    np.testing.assert_allclose(found[:5], 0.5 * worst, rtol=1e-7)
+    np.testing.assert_allclose(found[5:], (3 * 2 * HOUR) ** 0.25 * worst, rtol=1e-7)
 
 
-@pytest.mark.parametrize("vehicle", [QUARTER, HALF, SEATED])
+@pytest.mark.parametrize("vehicle", [QUARTER, HALF])
 def test_axes_that_a_vehicle_lacks_are_left_out(vehicle):
     turns = [name for name in ("pitch", "roll") if f"{name}_acceleration" in vehicle.meanings]
     axes = [1.4 * 3.0 * rms(vehicle, f"{name}_acceleration", "Wd") for name in turns]
-    assert value(vehicle, "A8 at 3") == pytest.approx(
-        max([*axes, rms(vehicle, "body_acceleration", "Wk")]), rel=1e-7
-    )
+    axes.append(rms(vehicle, "body_acceleration", "Wk"))
+    assert value(vehicle, "A8 at 3") == pytest.approx([max(axes)], rel=1e-7)
 
 
 def test_motion_sickness_dose_grows_with_the_root_of_time():
     expected = rms(HALF, ("acceleration", 1.0, 0.0), "Wf")
-    assert value(HALF, "MSDV (1, 0) 30min") == pytest.approx(expected * np.sqrt(1800.0), rel=1e-7)
-    assert value(HALF, "MSDV (1, 0)") == pytest.approx(expected * 60.0, rel=1e-7)
+    found = value(HALF, "MSDV (1, 0) 30min", "MSDV (1, 0)")
+    assert found == pytest.approx([expected * np.sqrt(1800.0), expected * 60.0], rel=1e-7)
 
 
 def test_the_dose_of_gaussian_noise_is_that_of_its_root_mean_square():
@@ -74,7 +75,7 @@ def test_doses_over_load_cases_add_up_by_time():
 
 
 def test_driving_in_time_confirms_the_doses():
-    """Over 8 roads of 4 km the mean lies within its interval, but one time in twenty for each of three."""
+    """Over 4 roads of 2 km A(8) and VDV lie within their intervals; MSDV has few waves at 0.2 Hz."""
     problem = RideProblem(
         QUARTER,
         sc.Iso8608Road("C"),
@@ -83,7 +84,7 @@ def test_driving_in_time_confirms_the_doses():
         band=(0.1, 20.0),
         measures=["A8 1h", "VDV 1h", "MSDV"],
     )
-    table = certify(problem, [2e4, 1500.0], length=4000.0).to_frame().loc["1"]
+    table = certify(problem, [2e4, 1500.0], length=2000.0, seeds=range(4)).to_frame().loc["1"]
     for name in ("A8 1h", "VDV 1h"):
         assert table["linearised"][name] == pytest.approx(table["simulated"][name], rel=0.02)
         assert table["low"][name] <= table["linearised"][name] <= table["high"][name]
@@ -142,5 +143,5 @@ def test_wrong_types_are_refused_in_one_line():
     for make in (lambda: A8("driver", "4h"), lambda: VDV(height="high"), lambda: MSDV(duration=None)):
         with pytest.raises(ValueError, match=r"^(duration|height) must be a number from [^\n]*$"):
             make()
-    with pytest.raises(ValueError, match="^A8 must be of one of body, driver or a point"):
+    with pytest.raises(ValueError, match=r"^A8 must be of one of body, driver or a point"):
         value(SEATED, "A8 guest")
