@@ -64,6 +64,9 @@ class DoseMeasure(AccelerationMeasure):
         return f"followed by a place and a time, as in '{cls.word} driver 2h'"
 
     def _rest(self) -> str:
+        return self._place_and_time()
+
+    def _place_and_time(self) -> str:
         parts = [place_text(self.where), "" if self.duration == self._default() else _time_text(self.duration)]
         return " ".join(filter(None, parts))
 
@@ -97,7 +100,7 @@ class AxesMeasure(DoseMeasure):
 
     def _rest(self) -> str:
         height = "" if self.height is None else f"at {number_text(self.height)}"
-        return f"{super()._rest()} {height}".strip()
+        return f"{self._place_and_time()} {height}".strip()
 
 
 class A8(AxesMeasure, word="A8", unit="m/s^2"):
