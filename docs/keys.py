@@ -188,7 +188,7 @@ def page() -> str:
     parts.append(table("An element in a property file, with `file`", Mounting))
     parts += ["### `[struts]`, `[bounds]`" + STRUTS, "## Roads\n"]
     parts += [table(f'`kind = "{kind}"`', record) for kind, record in ROADS.items()]
-    parts.append(table('`kind = "measured"` of a CSV file, with `coherence` as above', MeasuredFile))
+    parts.append(table('`kind = "measured"` of a file, with `coherence` as above', MeasuredFile))
     parts += [table(f'`[coherence]`, `kind = "{kind}"`', record) for kind, record in COHERENCES.items()]
     parts.append(table('`[coherence]`, `kind = "tabulated"` of a CSV file', TabulatedFile))
     parts += ["## Problems\n", table("A problem", ProblemDocument), table("`[[cases]]`", CaseDocument)]

@@ -19,6 +19,7 @@ from suspension_ctrl import (
     Iso8608Road,
     MeasuredRoad,
     Plant,
+    ProfileWarning,
     TableDamper,
     TableSpring,
     datafiles,
@@ -32,7 +33,7 @@ from suspension_ctrl.paper import experiment
 from suspension_ctrl.response.files import load_problem
 from suspension_ctrl.roads.files import load_road
 from suspension_ctrl.roads.measured import COHERENCE, read_curve
-from suspension_ctrl.roads.profiles import read_profile, write_profile
+from suspension_ctrl.roads.profile_files import load_profile, save_profile
 from suspension_ctrl.tables import read_columns
 from suspension_ctrl.vehicles.files import load_vehicle
 
@@ -49,6 +50,32 @@ PIECES = (
     b"\x00", b"\xff", b"\x1b[31m", "\u202e".encode(), b"\r", b"\n", b"\t", b";", b",", b'"', b"'", b"[", b"]",
     b"{", b"=", b"#", b"%", b"[" * 5000, b"a." * 400, b"../", b"\xef\xbb\xbf",
 )  # fmt: skip
+
+ERD = b"""ERDFILEV2.00
+ 2, 200, -1, 8, 5, 0.25, -1,
+XUNITS  m
+SHORTNAMLElev.  RElev.
+UNITSNAMm       in
+END
+"""
+CRG = b"""$CT
+A road
+$
+$ROAD_CRG
+REFERENCE_LINE_INCREMENT = 0.25
+LONG_SECTION_V_RIGHT = -0.75
+LONG_SECTION_V_INCREMENT = 0.75
+$
+$KD_DEFINITION
+#:%s
+D:reference line banking,m/m
+D:long section 1,m
+D:long section 2,m
+D:long section 3,m
+$
+$$$$
+"""
+"""Headers of small files of a profile."""
 
 
 class Reader(NamedTuple):
@@ -84,7 +111,17 @@ def readers() -> dict[str, Reader]:
         "road": Reader(load_road, ".toml", (*toml["roads"], measured)),
         "problem": Reader(load_problem, ".toml", toml["studies"]),
         "plant": Reader(Plant.from_csv, ".csv", (plant,)),
-        "profile": Reader(lambda path: international_roughness_index(read_profile(path)), ".csv", profiles),
+        "profile": Reader(lambda path: international_roughness_index(load_profile(path)), ".csv", profiles),
+        "profile in ERD": Reader(load_profile, ".erd", (ERD + b"0.001 0.002\n" * 200,)),
+        "numbers of ERD": Reader(_read_numbers, ".bin", (np.linspace(0, 1, 400, dtype="<f4").tobytes(),)),
+        "profile in OpenCRG": Reader(
+            load_profile,
+            ".crg",
+            (
+                CRG % b"LRFI" + b" 0.0010000 0.0020000 *missing*-0.0040000\n" * 200,
+                CRG % b"KRBI" + np.linspace(0, 1, 800, dtype=">f4").tobytes(),
+            ),
+        ),
         "measured road": Reader(
             MeasuredRoad.from_csv, ".csv", (*profiles, curve % (b"psd [m^3]", b"1e-3", b"1e-5", b"1e-8"))
         ),
@@ -107,6 +144,13 @@ def readers() -> dict[str, Reader]:
         ),
         "property of a stop": Reader(load_property, ".bum", _properties(".bum")),
     }
+
+
+def _read_numbers(path: Path) -> object:
+    """Read a binary file beside the header of an ERD file."""
+    header = path.with_suffix(".erd")
+    header.write_bytes(ERD.replace(b"5, 0.25", b"1, 0.25"))
+    return load_profile(header)
 
 
 def _shipped(folder: str) -> tuple[bytes, ...]:
@@ -133,7 +177,7 @@ def _profiles() -> tuple[bytes, ...]:
     """One profile in five spellings."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "profile.csv"
-        write_profile(path, Iso8608Road("C").profile(75.0, 0.25, seed=1))
+        save_profile(path, Iso8608Road("C").profile(75.0, 0.25, seed=1))
         text = path.read_bytes()
     rows = text.partition(b"\n")[2]
     semicolons = text.replace(b",", b";").replace(b".", b",")
@@ -194,6 +238,7 @@ def fuzz(reader: Reader, count: int, seed: int = 0) -> Outcome:
     read, refused, slowest, failures = 0, 0, 0.0, []
     with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
         warnings.simplefilter("error")
+        warnings.simplefilter("ignore", ProfileWarning)
         (Path(folder) / "good.csv").write_bytes(_profiles()[0])
         path = Path(folder) / f"fuzz{reader.suffix}"
         for number in range(count):

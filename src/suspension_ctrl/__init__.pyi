@@ -49,6 +49,9 @@ from .roads.edges import Step as Step
 from .roads.files import load_road as load_road
 from .roads.files import save_road as save_road
 from .roads.measured import MeasuredRoad as MeasuredRoad
+from .roads.profile_files import ProfileWarning as ProfileWarning
+from .roads.profile_files import load_profile as load_profile
+from .roads.profile_files import save_profile as save_profile
 from .roads.profiles import Profile as Profile
 from .roads.rigs import RigChirp as RigChirp
 from .roads.rigs import RigSine as RigSine

@@ -18,6 +18,7 @@ from ..schema.writing import content, toml
 from ..tables import write_text
 from .coherence import COHERENCES, Tabulated
 from .measured import COHERENCE, MeasuredRoad, read_curve
+from .profile_files import ENDINGS
 from .road import Road
 from .spectra import Iso8608Road, PowerLawRoad, TwoSlopeRoad
 
@@ -30,20 +31,29 @@ _CLASS = re.compile(r"([A-Z])(?:-(lower|upper))?")
 
 @dataclass(frozen=True, kw_only=True)
 class MeasuredFile:
-    """Keys of a measured road in a CSV file.
+    """Keys of a measured road in a file of a profile, or of a spectrum as CSV.
 
     Parameters
     ----------
     file : str
-        Path of the CSV file from this one.
+        Path of the file from this one.
+    columns : sequence of str
+        Names of the columns in place of the header.
+    step : float
+        Distance of the rows of a profile without distances [m].
     track_width : float
-        Distance of the columns ``left [m]`` and ``right [m]`` of a profile [m].
+        Distance of ``left`` and ``right`` of a profile [m].
+    tracks : sequence of float
+        Places across the surface of an OpenCRG file, positive to the left [m].
     segment : float
         Length of a segment of a profile for Welch's method [m].
     """
 
     file: str
+    columns: tuple[str, ...] = ()
+    step: float | None = field(default=None, metadata=unit("m"))
     track_width: float | None = field(default=None, metadata=unit("m"))
+    tracks: tuple[float, ...] = field(default=(), metadata=unit("m"))
     segment: float | None = field(default=None, metadata=unit("m"))
 
 
@@ -70,7 +80,8 @@ def load_road(source: str | PathLike[str], *, allow_outside: bool = False) -> Ro
     ----------
     source : str or path-like
         A class of ISO 8608 at its geometric mean, ``"C"``, or at a limit, ``"C-lower"`` or ``"C-upper"``; or the
-        path of a CSV file (see `MeasuredRoad.from_csv`) or of a TOML file.
+        path of a file of a profile (``.csv``, ``.txt``, ``.erd``, ``.crg``, see `load_profile`), of a spectrum
+        (``.csv``) or of a TOML file.
     allow_outside : bool
         Whether a TOML file may name CSV files that are neither beside it nor below, links resolved.
 
@@ -103,10 +114,11 @@ def load_road(source: str | PathLike[str], *, allow_outside: bool = False) -> Ro
     path = Path(source)
     if named := _CLASS.fullmatch(str(source)):
         return Iso8608Road(named[1], level=named[2] or "geometric mean")
-    if path.suffix == ".csv":
+    ending = path.suffix.lower()
+    if ending in ENDINGS:
         return MeasuredRoad.from_csv(path)
-    if path.suffix != ".toml":
-        known = "a class of ISO 8608 such as C, C-lower or C-upper, or the path of a .csv or .toml file"
+    if ending != ".toml":
+        known = f"a class of ISO 8608 such as C, C-lower or C-upper, or a file {', '.join(ENDINGS)} or .toml"
         raise ValueError(f"road must be {known}, got {checks.shown(str(source))}")
     with document(path, allow_outside) as table:
         return read_road(table)

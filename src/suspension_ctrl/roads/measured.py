@@ -1,12 +1,13 @@
 """Measured roads: the spectrum and the coherence of a profile, or a spectrum from a table.
 
-CSV files over wavenumber have the columns ``wavenumber [cycle/m]`` and ``psd [m^3]`` or ``coherence [-]``. Lines
+Tables over wavenumber have the columns ``wavenumber [cycle/m]`` and ``psd [m^3]`` or ``coherence [-]``. Lines
 that start with ``#`` name the source.
 """
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from os import PathLike
+from pathlib import Path
 
 import numpy as np
 
@@ -15,7 +16,9 @@ from ..documents import naming
 from ..quantities import Complex, Integer, Real, frozen_array, unit
 from ..tables import read_table
 from .coherence import Coherence, Isotropic, Tabulated
-from .profiles import DISTANCE, Profile, profile_of
+from .columns import DISTANCE, belonging, kind_of
+from .profile_files import ERD, OPENCRG, load_profile, profile_of
+from .profiles import Profile
 from .road import Road
 
 WAVENUMBER, PSD, COHERENCE = "wavenumber [cycle/m]", "psd [m^3]", "coherence [-]"
@@ -126,31 +129,41 @@ class MeasuredRoad(Road):
         cls,
         path: str | PathLike[str],
         *,
+        columns: Sequence[str] | None = None,
+        step: float | None = None,
         track_width: float | None = None,
+        tracks: Sequence[float] | None = None,
         segment: float | None = None,
         coherence: Coherence | None = None,
     ) -> "MeasuredRoad":
-        """Read a profile or a spectrum, by the names of the columns; see `profiles` and `from_profile`.
+        """Read a file of a profile, see `load_profile`, or a table of a spectrum.
 
         Raises
         ------
         ValueError
-            Naming the file: if its table is neither, the road is not as above, or a spectrum comes with a
-            `track_width` or `segment`; OSError if it cannot be read.
+            Naming the file: if it holds neither, the road is not as above, or a spectrum comes with another option
+            than `coherence`; OSError if it cannot be read.
         """
-        names, values = read_table(path)
+        kind, source = Path(path).suffix.lower(), str(path)
+        if kind in (ERD, OPENCRG):
+            profile = load_profile(path, columns=columns, step=step, track_width=track_width, tracks=tracks)
+            with naming(path):
+                return cls.from_profile(profile, segment=segment, coherence=coherence, source=source)
+        names, values = read_table(path, belonging, names=columns)
         with naming(path):
-            if not names and (values > 0).all():
+            if not names and step is None and (values > 0).all():
                 needed = f"{WAVENUMBER!r} and {PSD!r}, or {DISTANCE!r} and heights"
                 raise ValueError(f"columns must have names, {needed}, got none")
-            if names[:1] in ([], [DISTANCE]):  # without names no spectrum, as that is above zero
-                profile = profile_of(names, values, track_width)
+            if tracks is not None:
+                raise ValueError(f"tracks must be given for a {OPENCRG} file only, got {checks.shown(tracks)}")
+            if not names or any(map(kind_of, names)):  # without names no spectrum, as that is above zero
+                profile = profile_of(source, names, values, step=step, track_width=track_width)
                 del values  # of a large profile, before its spectrum takes memory
-                return cls.from_profile(profile, segment=segment, coherence=coherence, source=str(path))
+                return cls.from_profile(profile, segment=segment, coherence=coherence, source=source)
             n, density = curve_of(names, values, PSD)
-            if track_width is not None or segment is not None:
-                raise ValueError("a spectrum takes neither track_width nor segment")
-            return cls(n, density, coherence=coherence or Isotropic(), source=str(path))
+            if not (step is track_width is segment is None):
+                raise ValueError("a spectrum takes neither step nor track_width nor segment")
+            return cls(n, density, coherence=coherence or Isotropic(), source=source)
 
     @property
     def band(self) -> tuple[float, float]:
@@ -195,7 +208,8 @@ def read_curve(path: str | PathLike[str], quantity: str) -> tuple[Real, Real]:
 def curve_of(names: Sequence[str], values: Real, quantity: str) -> tuple[Real, Real]:
     """Return wavenumbers and a quantity of a table, see `read_curve`."""
     if list(names or [WAVENUMBER, quantity]) != [WAVENUMBER, quantity] or values.shape[1] != 2:
-        raise ValueError(f"columns must be {WAVENUMBER!r} and {quantity!r}, got {checks.shown(names)}")
+        or_profile = ", or a distance and heights" if quantity == PSD else ""
+        raise ValueError(f"columns must be {WAVENUMBER!r} and {quantity!r}{or_profile}, got {checks.shown(names)}")
     n, curve = values.T
     checks.ascending(WAVENUMBER, n)
     return n, curve

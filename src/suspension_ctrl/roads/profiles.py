@@ -1,28 +1,17 @@
-"""Profiles: the elevation of one or several tracks along the road, realised from a spectrum or measured.
+"""Profiles: the elevation of one or several tracks along the road, realised from a spectrum or measured."""
 
-A CSV file of a profile has the columns ``distance [m]`` and ``height [m]``, or ``left [m]`` and ``right [m]``, or
-for tracks anywhere such as ``height at y = 0.75 m [m]``. Lines that start with ``#`` name the source.
-"""
-
-import re
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from os import PathLike
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import checks
-from ..documents import naming
 from ..quantities import Real, Record, frozen_array, unit
-from ..tables import read_table, write_csv
 
 UNEVEN = 0.01  # largest deviation of a step from the mean step, relative
-DISTANCE, HEIGHT, LEFT, RIGHT = "distance [m]", "height [m]", "left [m]", "right [m]"
 _CLOSEST = 1e-6  # m, least mean distance between two points
-_TRACK = re.compile(r"height at y = (-?\d+(?:\.\d+)?(?:e-?\d+)?) m \[m\]", re.ASCII)
-_TRACK_COLUMN = "height at y = {} m [m]"
+_FINER = 4  # most points of an even profile for each of an uneven one
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -72,6 +61,22 @@ class Profile(Record):
         _check_even(distance)
         self._keep(distance=distance, height=height, tracks=tuple(tracks.tolist()))
 
+    @classmethod
+    def from_uneven(cls, distance: ArrayLike, height: ArrayLike, tracks: Sequence[float] = (0.0,)) -> "Profile":
+        """Return a profile of points at uneven distances (n,), straight between them.
+
+        The even step is the mean step over the least whole number that makes it no longer than the shortest step,
+        four at most.
+        """
+        x, h = np.asarray(distance, dtype=float), np.asarray(height, dtype=float)
+        if x.ndim != 1 or x.size < 2 or h.shape != (x.size, len(tracks)):
+            got = f"{h.shape} for {x.shape} and {len(tracks)}"
+            raise ValueError(f"height must have the shape (distances, tracks), got {got}")
+        mean = _check_ascending(x)
+        finer = min(math.ceil(mean / float(np.diff(x).min()) * (1 - UNEVEN)), _FINER)
+        even = np.linspace(x[0], x[-1], (x.size - 1) * finer + 1)
+        return cls(even, np.stack([np.interp(even, x, one) for one in h.T], axis=1), tuple(tracks))
+
     @property
     def step(self) -> float:
         """Mean distance between two points [m]."""
@@ -87,60 +92,26 @@ class Profile(Record):
         return np.stack([np.interp(where, self.distance, track) for track in self.height.T], axis=-1)
 
 
-def _check_even(distance: Real) -> None:
+def is_even(distance: Real) -> bool:
+    """Whether all steps of distances (n,) are within 1 % of their mean."""
     steps = np.diff(distance)
-    mean = (distance[-1] - distance[0]) / steps.size
+    return bool((np.abs(steps - steps.mean()) <= UNEVEN * steps.mean()).all())
+
+
+def _check_ascending(distance: Real) -> float:
+    """Return the mean step [m]; ValueError unless distances (n,) ascend in steps that are not tiny."""
+    steps = np.diff(distance)
+    mean = float(distance[-1] - distance[0]) / steps.size
     if not (steps > 0).all():
         raise ValueError(f"distance must ascend, got {distance[np.argmax(~(steps > 0)) + 1]} out of order")
     if mean < _CLOSEST:
         raise ValueError(f"distance must have steps of {_CLOSEST:g} m at least, got {mean:g} m")
+    return mean
+
+
+def _check_even(distance: Real) -> None:
+    mean, steps = _check_ascending(distance), np.diff(distance)
     worst = int(np.abs(steps - mean).argmax())
     if not abs(steps[worst] - mean) <= UNEVEN * mean:
         got = f"{steps[worst]:g} m after {distance[worst]:g} m"
         raise ValueError(f"distance must be even, each step within {UNEVEN:.0%} of the mean {mean:g} m, got {got}")
-
-
-def read_profile(path: str | PathLike[str], track_width: float | None = None) -> Profile:
-    """Read a profile from a CSV file; columns ``left [m]`` and ``right [m]`` need the track width [m].
-
-    Two columns without names are distance and height.
-    """
-    table = read_table(path)
-    with naming(path):
-        return profile_of(*table, track_width)
-
-
-def profile_of(names: Sequence[str], values: Real, track_width: float | None = None) -> Profile:
-    """Return the profile of a table (n, c) with columns of these names, see `read_profile`."""
-    if not names and values.shape[1] == 2:
-        names = [DISTANCE, HEIGHT]
-    if names[:1] != [DISTANCE] or len(names) < 2:
-        raise ValueError(f"first column must be {DISTANCE!r} and then heights, got {checks.shown(names)}")
-    return Profile(values[:, 0], values[:, 1:], _tracks(names[1:], track_width))
-
-
-def write_profile(path: str | PathLike[str], profile: Profile) -> None:
-    """Write a profile for `read_profile`, to the last bit; on an error no file is written."""
-    import pandas as pd
-
-    names = [_TRACK_COLUMN.format(np.format_float_positional(y, trim="-")) for y in profile.tracks]
-    columns = [DISTANCE, *([HEIGHT] if profile.tracks == (0.0,) else names)]
-    write_csv(Path(path), pd.DataFrame(np.column_stack([profile.distance, profile.height]), columns=columns))
-
-
-def _tracks(names: Sequence[str], width: float | None) -> tuple[float, ...]:
-    """Places of the tracks of the height columns [m]."""
-    if names == [LEFT, RIGHT]:
-        if width is None:
-            raise ValueError(f"{LEFT!r} and {RIGHT!r} need a track width in m, got none")
-        checks.positive("track width", width, "m")
-        return width / 2, -width / 2
-    if width is not None:
-        raise ValueError(f"a track width goes with {LEFT!r} and {RIGHT!r} only, got {checks.shown(names)}")
-    if names == [HEIGHT]:
-        return (0.0,)
-    for name in names:
-        if not _TRACK.fullmatch(name):
-            known = f"{HEIGHT!r}, or {LEFT!r} and {RIGHT!r}, or all like {_TRACK_COLUMN.format(0.75)!r}"
-            raise ValueError(f"columns after {DISTANCE!r} must be {known}, got {checks.shown(name)}")
-    return tuple(float(y) for name in names for y in _TRACK.findall(name))

@@ -5,11 +5,11 @@ import errno
 import json
 import os
 import re
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO
 from uuid import uuid4
 
 import numpy as np
@@ -26,27 +26,40 @@ if TYPE_CHECKING:
 UNFINISHED = ".unfinished-"
 """Prefix of the name of a temporary file."""
 
-_MEGABYTES = 100  # of a file
+MEGABYTES = 100
+"""Largest size of a file of numbers [MB]."""
+
 _DEVICES = r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)"  # reserved names of Windows, with any ending
 
 
+@contextmanager
+def reading(path: str | PathLike[str]) -> Iterator[TextIO]:
+    """Open a text file of moderate size; ValueError if it is none."""
+    checks.regular(Path(path), MEGABYTES)
+    try:
+        with Path(path).open(encoding="utf-8-sig", newline="") as file:
+            yield file
+    except (UnicodeDecodeError, csv.Error) as error:
+        got = "another encoding" if isinstance(error, UnicodeDecodeError) else "quotes that do not end"
+        raise ValueError(f"the file must be CSV in UTF-8, got {got}") from None
+
+
 def read_table(
-    path: str | PathLike[str], columns: Sequence[str] | None = None, rows: int = 2
+    path: str | PathLike[str],
+    columns: Sequence[str] | Callable[[Sequence[str]], Sequence[int]] | None = None,
+    rows: int = 2,
+    names: Sequence[str] | None = None,
 ) -> tuple[list[str], Real]:
     """Return the names of columns (c,), empty without a header, and finite values (n, c), n >= `rows`.
 
-    Only the given `columns` are returned; the others may hold texts. A ValueError names the file.
+    Only the given `columns` are returned, by their names or by a function from all names to indices; the others
+    may hold texts. `names` of all columns take the place of a header. A ValueError names the file.
     """
     with naming(path):
-        checks.regular(Path(path), _MEGABYTES)
-        try:
-            with Path(path).open(encoding="utf-8-sig", newline="") as file:
-                layout = Layout.of(file.readlines(HEAD))
-                wanted = layout.places(columns)
-                values = layout.values(file, wanted)
-        except (UnicodeDecodeError, csv.Error) as error:
-            got = "another encoding" if isinstance(error, UnicodeDecodeError) else "quotes that do not end"
-            raise ValueError(f"the file must be CSV in UTF-8, got {got}") from None
+        with reading(path) as file:
+            layout = Layout.of(file.readlines(HEAD)).renamed(names)
+            wanted = layout.places(columns)
+            values = layout.values(file, wanted)
         if len(values) < rows:
             raise ValueError(f"rows of numbers must be {rows} or more, got {len(values)}")
         return [layout.names[i] for i in wanted if layout.names], values

@@ -5,7 +5,7 @@ Lines that start with ``#`` or ``%`` are comments.
 """
 
 import csv
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 from math import isnan, nan
 from typing import TYPE_CHECKING, Any, NamedTuple, Self, TextIO
@@ -47,7 +47,7 @@ class Layout(NamedTuple):
         if not texts:
             raise ValueError("the file must begin with the names of its columns, got nothing")
         (first, top), row = texts[0], texts[min(1, len(texts) - 1)][1].partition(comment)[0]
-        if bare := _separator(top.partition(comment)[0]):
+        if bare := _separator(top.partition(comment)[0], single=True):
             row = top.partition(comment)[0]
         separator = bare or _separator(row) or next((one for one in "\t;," if one in top), ",")
         names, cells = [] if bare else _without_last(_cells(top, separator)), _cells(row, separator)
@@ -55,8 +55,19 @@ class Layout(NamedTuple):
         comma = separator != "," and any("," in line for _, line in texts[after:])
         return cls(names, width, cells, first + after, separator, "," if comma else ".", comment)
 
-    def places(self, columns: Sequence[str] | None) -> list[int]:
-        """Return the indices of the columns, by default of all; ValueError if one is missing."""
+    def renamed(self, names: Sequence[str] | None) -> Self:
+        """Return the layout with other names of its columns, if given; ValueError unless as many."""
+        if names is None:
+            return self
+        checks.listed("columns", names)
+        if len(names) != self.width:
+            raise ValueError(f"columns must be names of {self.width} columns, got {checks.shown(list(names))}")
+        return self._replace(names=[str(name).strip() for name in names])
+
+    def places(self, columns: Sequence[str] | Callable[[Sequence[str]], Sequence[int]] | None) -> list[int]:
+        """Return the indices of the columns, by default and without names of all; ValueError if one is missing."""
+        if callable(columns):
+            return list(columns(self.names) if self.names else range(self.width))
         for name in columns or ():
             if name not in self.names:
                 raise ValueError(f"columns must include {name!r}, got {checks.shown(self.names)}")
@@ -137,8 +148,10 @@ def _without_last(cells: list[str]) -> list[str]:
     return cells[:-1] if len(cells) > 1 and not cells[-1] else cells
 
 
-def _separator(line: str) -> str | None:
-    """Return the separator of a line of two or more numbers; None for another line."""
+def _separator(line: str, *, single: bool = False) -> str | None:
+    """Return the separator of a line of two or more numbers, blanks of a `single` one; None for another line."""
+    if single and not isnan(_number(line.strip(), ".")):
+        return " "
     for one in "\t;, ":
         signs = "." if one == "," else ".,"
         cells = _without_last(_cells(line, one)) if one in line.strip() else [""]
