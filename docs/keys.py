@@ -23,6 +23,7 @@ from suspension_ctrl.vehicles.files import KINDS as VEHICLES
 from suspension_ctrl.vehicles.files import Document as VehicleDocument
 from suspension_ctrl.vehicles.handling import RollGeometry
 from suspension_ctrl.vehicles.mounted import FlexibleBody, Payload, Seat, Shape
+from suspension_ctrl.vehicles.plant_files import Contact
 from suspension_ctrl.vehicles.property_files import Mounting
 from suspension_ctrl.vehicles.strut_files import KINDS as ELEMENTS
 from suspension_ctrl.vehicles.strut_files import element_keys
@@ -113,6 +114,7 @@ FORMS = {
     float: "number", float | None: "number", int | None: "whole number", bool: "true or false", str: "text",
     tuple[str, ...]: "array of texts", tuple[float, float]: "array of 2 numbers",
     tuple[float, ...]: "array of numbers", str | Mapping[str, Any]: "text or table",
+    tuple[str, ...] | Mapping[str, Any]: "array of texts or table",
     **dict.fromkeys([Real, ArrayLike, ArrayLike | None], "array of numbers"),
 }  # fmt: skip
 
@@ -179,6 +181,7 @@ def page() -> str:
     """Return the page."""
     parts = [HEAD, "## Vehicles\n"]
     parts += [table(f'`kind = "{kind}"`', record) for kind, record in VEHICLES.items()]
+    parts += [table("`[[contacts]]` of a plant", Contact)]
     parts += [table("Beside them, of every vehicle", VehicleDocument), table("`[[seats]]`", Seat)]
     parts += [table("`[flexible_body]`", FlexibleBody), table("`[[flexible_body.shapes]]`", Shape)]
     parts += [table("`[roll_geometry]`", RollGeometry), LAYOUTS]

@@ -21,6 +21,7 @@ ROOMS = {
 PUBLIC = {
     "FlexibleBody", "FullCar", "HalfCar", "Payload", "Plant", "QuarterCar", "RollGeometry", "Seat",
     "VehicleFile", "load_vehicle", "save_vehicle", "load_property", "save_property", "damper_figure",
+    "load_system", "save_system",
     "BilinearDamper", "BumpStop", "Damper", "DigressiveDamper", "Friction", "Inerter", "MeasuredStiffness",
     "PowerDamper", "ReboundStop", "Rubber", "Spring", "TableDamper", "TableSpring", "parallel", "series",
     "Constant", "Exponential", "Iso8608Road", "Isotropic", "MeasuredRoad", "PowerLawRoad", "Profile", "Tabulated",

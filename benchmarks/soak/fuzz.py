@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+import control
 import numpy as np
 
 from suspension_ctrl import (
@@ -25,7 +26,10 @@ from suspension_ctrl import (
     datafiles,
     international_roughness_index,
     load_property,
+    load_system,
+    load_vehicle,
     save_property,
+    save_system,
 )
 from suspension_ctrl.commands.bode import read_designs
 from suspension_ctrl.documents import FileError
@@ -35,7 +39,6 @@ from suspension_ctrl.roads.files import load_road
 from suspension_ctrl.roads.measured import COHERENCE, read_curve
 from suspension_ctrl.roads.profile_files import load_profile, save_profile
 from suspension_ctrl.tables import read_columns
-from suspension_ctrl.vehicles.files import load_vehicle
 
 MISTAKES = 21  # most lines of an error
 SECONDS, MEGABYTES = 20.0, 500.0
@@ -111,6 +114,7 @@ def readers() -> dict[str, Reader]:
         "road": Reader(load_road, ".toml", (*toml["roads"], measured)),
         "problem": Reader(load_problem, ".toml", toml["studies"]),
         "plant": Reader(Plant.from_csv, ".csv", (plant,)),
+        **_systems(),
         "profile": Reader(lambda path: international_roughness_index(load_profile(path)), ".csv", profiles),
         "profile in ERD": Reader(load_profile, ".erd", (ERD + b"0.001 0.002\n" * 200,)),
         "numbers of ERD": Reader(_read_numbers, ".bin", (np.linspace(0, 1, 400, dtype="<f4").tobytes(),)),
@@ -171,6 +175,56 @@ def _properties(ending: str) -> tuple[bytes, ...]:
         save_property(path, elements[ending], **mounting)
         text = path.read_bytes()
     return text, b"$ \xfc ! a comment\r\n" + text.replace(b"\n", b"\r\n")
+
+
+def _systems() -> dict[str, Reader]:
+    """Return readers of a quarter car's plant in files of other programs, and of a vehicle file that names one."""
+    system = load_vehicle("yuen_ramli_2010").vehicle.plant()
+    with tempfile.TemporaryDirectory() as folder:
+        for ending in (".mat", ".npz", ".a"):
+            save_system(Path(folder) / f"good{ending}", system)
+        _write_universal(Path(folder) / "good.uff", system)
+        good = {path.suffix: path.read_bytes() for path in Path(folder).iterdir()}
+
+    def beside(path: Path) -> Path:
+        """Return a path that has the files of the system beside it."""
+        for ending, content in good.items():
+            for stem in {"good", path.stem}:
+                if (other := path.with_name(stem + ending)) != path:
+                    other.write_bytes(content)
+        return path
+
+    toml = (
+        b'kind = "plant"\nfile = "good.npz"\n[included]\nspring = "1 kN/m"\n'
+        b"[bounds]\ndamper_N_s_per_m = [500, 4000]\n",
+        b'kind = "plant"\nfile = "good.a"\ninputs = ["front_road [mm]", "-front_strut [kN]"]\n'
+        b'outputs = ["body_acceleration [g]", "", "", "front_deflection [m]", ""]\n'
+        b'[[contacts]]\nwheel = "front"\nposition_m = [1, 0]\n',
+    )
+    return {
+        "MATLAB's matrices": Reader(load_system, ".mat", (good[".mat"],)),
+        "NumPy's matrices": Reader(load_system, ".npz", (good[".npz"],)),
+        "matrices as text": Reader(lambda path: load_system(beside(path)), ".a", (good[".a"],)),
+        "Universal File": Reader(load_system, ".uff", (good[".uff"],)),
+        "vehicle file of a plant": Reader(lambda path: load_vehicle(beside(path)), ".toml", toml),
+    }
+
+
+def _write_universal(path: Path, system: control.StateSpace) -> None:
+    """Write the deflection by road and strut of a quarter car as datasets 58."""
+    import pyuff
+
+    f = np.arange(1, 41) * 0.5
+    sets = [
+        pyuff.prepare_58(
+            binary=0, func_type=4, rsp_node=3, rsp_dir=3, ref_node=node, ref_dir=3, id1="a rig", x=f,
+            data=system.frequency_response(2 * np.pi * f)["deflection", name].frdata.ravel(), abscissa_spacing=1,
+            abscissa_min=0.5, abscissa_inc=0.5, rsp_ent_name="NONE", ref_ent_name="NONE",
+            ordinate_spec_data_type=8, orddenom_spec_data_type=8, z_axis_spec_data_type=0,
+        )
+        for node, name in enumerate(system.input_labels, start=1)
+    ]  # fmt: skip
+    pyuff.UFF(str(path)).write_sets(sets, "overwrite")
 
 
 def _profiles() -> tuple[bytes, ...]:

@@ -101,3 +101,5 @@ from .vehicles.struts import Rubber as Rubber
 from .vehicles.struts import Spring as Spring
 from .vehicles.struts import parallel as parallel
 from .vehicles.struts import series as series
+from .vehicles.system_files import load_system as load_system
+from .vehicles.system_files import save_system as save_system

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from ..response.linearisation import LinearisedVehicle
-    from ..vehicles.vehicle import AssembledVehicle
+    from ..vehicles.vehicle import Vehicle
 
 PAPERS = "yuen_ramli_2010"
 
@@ -29,7 +29,7 @@ def ride(
     weighting: o.Weighting = None,
     out: o.Out = None,
 ) -> None:
-    """Print the ride, the modes and the springs of one vehicle.
+    """Print the ride, the modes and the springs of one vehicle; of a plant the ride alone.
 
     The vehicle is from a file, with its own struts, or a quarter car with given masses, tyre, spring and damper.
     Writes ride.csv, modes.csv, springs.csv and, of force laws, laws.csv to a folder; its path is the last line
@@ -40,6 +40,7 @@ def ride(
     from ..response.load_case import LoadCase
     from ..response.responses import ride
     from ..tables import write_csv
+    from ..vehicles.vehicle import AssembledVehicle
     from . import results, terminal
 
     masses = {"body_mass": body_mass, "wheel_mass": wheel_mass, "tyre_stiffness": tyre_stiffness}
@@ -51,15 +52,18 @@ def ride(
     case, (low, high) = LoadCase(vehicle=car, road=problem.road, speed=problem.speed), problem.band
     table = ride(car, values, case.road, speed=case.speed, weighting=problem.weighting, band=problem.band)
     table = (table if table.note.any() else table.drop(columns="note")).reset_index()
-    linear = linearised(car, values, case.road, case.speed, band=problem.band)
-    tables = {"ride": table, **tables_of(linear)}
+    tables, linear = {"ride": table}, None
+    if isinstance(car, AssembledVehicle):
+        linear = linearised(car, values, case.road, case.speed, band=problem.band)
+        tables |= tables_of(linear)
     folder = results.results_folder(out)
     for name, one in tables.items():
         write_csv(folder / f"{name}.csv", one)
     terminal.note(f"{title}: {told(values, units)}.")
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table)
-    show_tables(tables, linear)
+    if linear is not None:
+        show_tables(tables, linear)
     print(folder)
 
 
@@ -99,7 +103,7 @@ def show_tables(tables: "Mapping[str, pd.DataFrame]", linear: "LinearisedVehicle
 
 def chosen_vehicle(
     name: str | None, masses: Mapping[str, float | None], allow_outside: bool
-) -> "tuple[str, AssembledVehicle, Mapping[str, float]]":
+) -> "tuple[str, Vehicle, Mapping[str, float]]":
     """Return title, vehicle and setting of a file, or of a quarter car with these masses."""
     from ..vehicles.cars import QuarterCar
     from ..vehicles.files import load_vehicle

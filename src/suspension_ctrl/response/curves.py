@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 
 from ..quantities import Complex, Real, signal_unit
+from ..vehicles.plants import Plant
 from . import weightings
 from .linearisation import linear_at
 from .problem import RideProblem
@@ -74,9 +75,11 @@ def curve_table(curves: DesignCurves) -> pd.DataFrame:
 
 
 def oscillations(problem: RideProblem, label: str, design: Sequence[float]) -> pd.DataFrame:
-    """Return design, mode, natural frequency [Hz] and damping ratio of the oscillating modes of a design."""
+    """Return design, mode, natural frequency [Hz] and damping ratio of the oscillating modes; of a plant none."""
+    columns = ["design", "mode", "natural frequency [Hz]", "damping ratio [-]"]
     vehicle, setting = linear_at(problem.cases[0], setting_of(problem, design), problem.band)
+    if isinstance(vehicle, Plant):
+        return pd.DataFrame(columns=columns)
     modes = vehicle.modes(setting)
     found = modes[modes["damping ratio [-]"] < 1].assign(design=label)
-    columns = ["design", "name", "frequency [Hz]", "damping ratio [-]"]
-    return found[columns].rename(columns={"name": "mode", "frequency [Hz]": "natural frequency [Hz]"})
+    return found.rename(columns={"name": "mode", "frequency [Hz]": "natural frequency [Hz]"})[columns]

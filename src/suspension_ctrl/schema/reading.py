@@ -186,8 +186,8 @@ def _without_table(one: Key, key: str, value: Any, typed: bool) -> Any:
     form = one.form
     if form == str | tuple[float, ...]:
         form = str if isinstance(value, str) else tuple[float, ...]
-    if form == str | Mapping[str, Any]:
-        form = Mapping[str, Any] if isinstance(value, dict) else str
+    if form in (str | Mapping[str, Any], tuple[str, ...] | Mapping[str, Any]):
+        form = Mapping[str, Any] if isinstance(value, dict) else get_args(form)[0]
     return _NUMERIC[form](one, key, value, typed) if form in _NUMERIC else _fitting(form, key, value)
 
 

@@ -21,10 +21,13 @@ from .assembly import StrutCoefficient
 from .cars import FullCar, HalfCar, QuarterCar
 from .handling import RollGeometry
 from .mounted import FlexibleBody, Mounted, Part, Payload, Seat
+from .plant_files import PlantFile, read_plant
 from .strut_files import UNREAD
-from .vehicle import AssembledVehicle, Vehicle, assembled
+from .vehicle import AssembledVehicle, Vehicle
 
-KINDS: dict[str, type[AssembledVehicle]] = {"quarter-car": QuarterCar, "half-car": HalfCar, "full-car": FullCar}
+KINDS: dict[str, type[AssembledVehicle] | type[PlantFile]] = {
+    "quarter-car": QuarterCar, "half-car": HalfCar, "full-car": FullCar, "plant": PlantFile,
+}  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -51,7 +54,7 @@ class VehicleFile(Record):
     (500, 4000)
     """
 
-    vehicle: AssembledVehicle
+    vehicle: Vehicle
     setting: Mapping[str, float] = FrozenMapping({})
     bounds: Mapping[str, tuple[float, float]] = FrozenMapping({})
     roll_geometry: RollGeometry | None = None
@@ -59,7 +62,8 @@ class VehicleFile(Record):
     source: str = ""
 
     def __post_init__(self) -> None:
-        assembled(self.vehicle)
+        if not isinstance(self.vehicle, Vehicle):
+            raise ValueError(f"vehicle must be a Vehicle, got {checks.shown(self.vehicle)}")
         self._keep(setting=FrozenMapping(self.setting), bounds=FrozenMapping(self.bounds))
 
 
@@ -154,7 +158,8 @@ def read_vehicle(table: Table, mistakes: Mistakes) -> VehicleFile:
     values = read(table, {**KIND, **keys_of(kind), **keys_of(Document)}, mistakes)
     sound = len(mistakes) == before  # else numbers that stand in cause further errors
     unread = {one.name: UNREAD for one in keys_of(kind).values() if one.own and bad(values.get(one.name))}
-    car = constructed(kind, values | unread, table.name, mistakes if sound else Mistakes())
+    made = constructed(kind, values | unread, table.name, mistakes if sound else Mistakes())
+    car = _plant(made, table, mistakes) if isinstance(made, PlantFile) else made
     parts = {"flexible_body": values["flexible_body"]} if "flexible_body" in values else {}
     parts |= numbered("seats", values) | numbered("payload", values)
     vehicle = mounted(car, parts, table.name, mistakes if sound or "flexible_body" not in values else Mistakes())
@@ -171,20 +176,28 @@ def read_vehicle(table: Table, mistakes: Mistakes) -> VehicleFile:
     )
 
 
+def _plant(file: PlantFile, table: Table, mistakes: Mistakes) -> Vehicle:
+    """Return the plant of a file without the struts that its model includes."""
+    plant = read_plant(file, table, mistakes)
+    if bad(plant) or not file.included:
+        return plant
+    known, inner = [one.name for one in plant.strut_coefficients], table.inner("included", file.included)
+    before, included = len(mistakes), read_coefficients(inner, plant, float, mistakes, given=known)
+    return BAD if len(mistakes) > before else plant.without(included)
+
+
 def numbered(name: str, values: Mapping[str, Any]) -> dict[str, Part]:
     """Return the parts in the array `name` of a table's values by their keys, ``seats[1]``."""
     parts = values.get(name, ())
     return {} if parts is BAD else {f"{name}[{i}]": part for i, part in enumerate(parts, start=1)}
 
 
-def mounted(
-    vehicle: AssembledVehicle, parts: Mapping[str, Part], name: str, mistakes: Mistakes
-) -> AssembledVehicle:
+def mounted(vehicle: Vehicle, parts: Mapping[str, Part], name: str, mistakes: Mistakes) -> Vehicle:
     """Return the vehicle with parts by their keys in the table `name`, `BAD` if one does not fit."""
     for key, part in parts.items():
         if bad(vehicle, part):
             return BAD
-        on: AssembledVehicle = BAD
+        on: Vehicle = BAD
         with mistakes.noted(), fields_named(type(part), f"{name}{key}."):
             on = part.on(vehicle)
         vehicle = on

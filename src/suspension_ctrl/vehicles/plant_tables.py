@@ -1,4 +1,4 @@
-"""Tables of measured frequency responses as CSV files.
+"""Tables of frequency responses as CSV files.
 
 The first column is ``frequency [Hz]``; two more for each output and input are called as in
 ``body_acceleration/front_road real [m/s^2/m]`` and ``body_acceleration/front_road imag [m/s^2/m]``.
@@ -6,17 +6,28 @@ The first column is ``frequency [Hz]``; two more for each output and input are c
 
 import re
 from itertools import product
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import control
 import numpy as np
 
 from .. import checks
 from ..quantities import Real, signal_unit
+from ..tables import read_table
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 FREQUENCY = "frequency [Hz]"
 _COLUMN = re.compile(r"([\w-]+)/(\w+) (real|imag) \[(.*)\]", re.ASCII)
 _INPUT = re.compile(r"(?:\w+_)?(road|road_rate|strut)", re.ASCII)
 _INPUT_UNITS = {"road": "m", "road_rate": "m/s", "strut": "N"}
+
+
+def read_responses(path: Path) -> control.FrequencyResponseData:
+    """Return the system of a CSV file."""
+    return frequency_responses(*read_table(path))
 
 
 def frequency_responses(names: list[str], values: Real) -> control.FrequencyResponseData:
@@ -37,6 +48,27 @@ def frequency_responses(names: list[str], values: Real) -> control.FrequencyResp
             raise ValueError(f"columns must include {output}/{given} {part}, got none")
     h = [[parts[o, i, "real"] + 1j * parts[o, i, "imag"] for i in inputs] for o in outputs]
     return control.frd(h, omega, inputs=inputs, outputs=outputs)
+
+
+def response_table(system: control.FrequencyResponseData) -> "pd.DataFrame":
+    """Return the table from which `frequency_responses` makes the system; ValueError for other signals."""
+    import pandas as pd
+
+    columns = {FREQUENCY: system.omega / (2 * np.pi)}
+    for output, given in product(system.output_labels, system.input_labels):
+        values = system.frdata[system.output_labels.index(output), system.input_labels.index(given)]
+        unit = f"{signal_unit(output)}/{input_unit(given)}"
+        for part, numbers in (("real", values.real), ("imag", values.imag)):
+            column = f"{output}/{given} {part} [{unit}]"
+            _part(column)
+            columns[column] = numbers
+    return pd.DataFrame(columns)
+
+
+def input_unit(name: str) -> str:
+    """Return the unit of an input by its name, ``""`` if it is no road or strut."""
+    found = _INPUT.fullmatch(name)
+    return _INPUT_UNITS[found[1]] if found else ""
 
 
 def _part(name: str) -> tuple[str, str, str]:

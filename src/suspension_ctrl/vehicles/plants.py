@@ -15,11 +15,12 @@ from ..documents import naming
 from ..quantities import FrozenMapping, Record, unit
 from ..tables import read_table
 from .assembly import Position, Response, ResponseName, StrutCoefficient, check_strut_names, joined, label
-from .feedback import System, numbers_of, selected, system_of, with_copies, with_rates
+from .feedback import System, around, gains_by_order, numbers_of, selected, system_of, with_copies, with_rates
 from .networks import placed
 from .plant_tables import frequency_responses
+from .signals import Names, renamed
 from .struts import Damper, Spring, parallel
-from .vehicle import Vehicle
+from .vehicle import Setting, Vehicle, coefficients_by_name
 
 _LEAST = 4  # lines of a cubic spline
 _CLOSEST = 1e-6  # Hz, least distance of lines: its powers in a spline are finite
@@ -30,7 +31,8 @@ _KINDS = {
     "suspension_travel_rate": "travel_rate", "strut_force": "strut_force",
 }  # fmt: skip
 _OUTPUT = re.compile(rf"(?:(\w+)_)?({'|'.join(_KINDS)})", re.ASCII)
-_ONE_WHEEL = FrozenMapping({"": (0.0, 0.0)})
+ONE_WHEEL = FrozenMapping({"": (0.0, 0.0)})
+"""Contact of one wheel without a name."""
 
 
 def _brief(system: System) -> str:
@@ -92,7 +94,7 @@ class Plant(Record, Vehicle):
     """
 
     system: System = field(metadata={"show": _brief})
-    contacts: Mapping[str, Position] = field(default=_ONE_WHEEL, metadata=unit("m"))
+    contacts: Mapping[str, Position] = field(default=ONE_WHEEL, metadata=unit("m"))
     struts: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -114,12 +116,79 @@ class Plant(Record, Vehicle):
 
     @classmethod
     def from_csv(
-        cls, path: str | PathLike[str], contacts: Mapping[str, Position] = _ONE_WHEEL, struts: Sequence[str] = ()
+        cls, path: str | PathLike[str], contacts: Mapping[str, Position] = ONE_WHEEL, struts: Sequence[str] = ()
     ) -> "Plant":
         """Read a table of frequency responses, see `plant_tables`; errors name the file."""
         names, values = read_table(path)
         with naming(path):
             return cls(frequency_responses(names, values), contacts, tuple(struts))
+
+    @classmethod
+    def named(
+        cls,
+        system: System,
+        *,
+        inputs: Names | None = None,
+        outputs: Names | None = None,
+        contacts: Mapping[str, Position] = ONE_WHEEL,
+        struts: Sequence[str] = (),
+    ) -> "Plant":
+        """Return the vehicle of a system with other names, units and signs, as of `load_system`.
+
+        Parameters
+        ----------
+        system : control.StateSpace or control.FrequencyResponseData
+        inputs, outputs : sequence of str, or mapping of str to str, optional
+            For each signal its name here with the unit that it has in the system, ``"front_strut [kN]"``; a minus
+            sign before it, ``"-front_strut [kN]"``, of a force positive in compression or a downward
+            acceleration. In their order, ``""`` for a signal without use, or by their names in the system. A road
+            may be given by its rate alone, ``"front_road_rate [m/s]"``.
+            All with their own names and in SI units if not given.
+        contacts, struts
+            As of `Plant`.
+
+        Raises
+        ------
+        ValueError
+            If names are not as above, or about the system as `Plant`.
+
+        Examples
+        --------
+        A quarter car of MATLAB's guide to active suspensions, whose actuator pushes body and wheel apart with a
+        force in kN. It has a spring and a damper already, which `without` takes out:
+
+        >>> import control
+        >>> import suspension_ctrl as sc
+        >>> mb, mw, bs, ks, kt = 300.0, 60.0, 1000.0, 16000.0, 190000.0
+        >>> body = [-ks / mb, -bs / mb, ks / mb, bs / mb]
+        >>> wheel = [ks / mw, bs / mw, -(ks + kt) / mw, -bs / mw]
+        >>> a, b = [[0, 1, 0, 0], body, [0, 0, 0, 1], wheel], [[0, 0], [0, 1e3 / mb], [0, 0], [kt / mw, -1e3 / mw]]
+        >>> system = control.ss(a, b, [[1, 0, -1, 0], body], [[0, 0], [0, 1e3 / mb]])
+        >>> plant = sc.Plant.named(
+        ...     system, inputs=["road [m]", "-strut [kN]"], outputs=["deflection [m]", "body_acceleration [m/s^2]"]
+        ... ).without((ks, bs))
+        >>> table = sc.ride(plant, (16e3, 1500.0), sc.Iso8608Road("C"), speed=20.0, measures=["ACC", "SWS"])
+        >>> print(table["value"].head(2).round(4).to_dict())
+        {'ACC': 1.258, 'SWS': 0.011}
+        """
+        return cls(renamed(system, inputs, outputs), contacts, tuple(struts))
+
+    def without(self, setting: Setting) -> "Plant":
+        """Return the plant without springs and dampers that the model already has at its struts.
+
+        Parameters
+        ----------
+        setting : mapping of str to float or (float, float), or (float, float)
+            Their coefficients, as of ``closed``; those that the model does not have may be missing.
+        """
+        values, known = coefficients_by_name(setting, {}), {one.name: one for one in self.strut_coefficients}
+        for name, value in values.items():
+            checks.one_of("setting", name, known)
+            known[name].check(name, value)
+        bare = around(self.system, -gains_by_order(known.values(), values, len(self.struts)))
+        forces = {joined(strut, "strut_force") for strut in self.struts}  # then of all that is at the strut
+        outputs = [name for name in bare.output_labels if name not in forces]
+        return Plant(selected(bare, outputs, bare.input_labels, "plant"), self.contacts, self.struts)
 
     @property
     def meanings(self) -> Mapping[str, Response]:
@@ -190,7 +259,8 @@ def _check_signals(system: System, roads: Sequence[str], struts: Sequence[str], 
     if not struts:
         raise ValueError(f"system must have an input like 'front_strut', got {', '.join(system.input_labels)}")
     inputs, outputs = system.input_labels, system.output_labels
-    ports = [*roads, *(joined(strut, "strut") for strut in struts)]
+    by_rate = [f"{road}_rate" if f"{road}_rate" in inputs and road not in inputs else road for road in roads]
+    ports = [*by_rate, *(joined(strut, "strut") for strut in struts)]
     deflections = [joined(strut, "deflection") for strut in struts]
     for kind, needed, labels in (("input", ports, inputs), ("output", deflections, outputs)):
         for name in needed:
