@@ -248,7 +248,7 @@ def test_a_problem_that_a_file_cannot_hold_is_refused_in_one_line(tmp_path, chan
             "a file must hold one of power-law, two-slope, iso-8608, measured, got 'C'",
         ),
         (lambda path: save_problem(path, 3), "problem must be a RideProblem, got 3"),
-        (lambda path: VehicleFile(vehicle=3), "vehicle must be one of masses and links .*, got a int"),
+        (lambda path: VehicleFile(vehicle=3), "vehicle must be a Vehicle, got 3"),
     ],
 )
 def test_other_objects_are_refused_in_one_line(tmp_path, save, message):

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from suspension_ctrl import Iso8608Road, QuarterCar, load_vehicle, ride
+from suspension_ctrl import Iso8608Road, QuarterCar, load_vehicle, ride, save_system
 
 QUARTER = ("--body-mass", 400, "--wheel-mass", 45, "--tyre-stiffness", "220e3")
 
@@ -35,6 +35,24 @@ def test_ride_of_a_file_with_a_coefficient_changed(called, tmp_path):
     assert "25 m/s; 0.5 to 20 Hz." in said
     assert "ACC weighted with Wb" in said
     assert said.splitlines()[-1] == "out"
+
+
+def test_commands_take_a_plant_of_another_program(called, tmp_path):
+    """Whose modes are unknown: its ride alone, and a Bode plot without natural frequencies."""
+    save_system(tmp_path / "car.mat", load_vehicle("yuen_ramli_2010").vehicle.plant())
+    (tmp_path / "car.toml").write_text(
+        'kind = "plant"\nfile = "car.mat"\n[struts]\nspring_N_per_m = 22e3\ndamper_N_s_per_m = 1500\n'
+        "[bounds]\nspring_N_per_m = [1e4, 3e4]\ndamper_N_s_per_m = [500, 4000]\n"
+    )
+    done = called("ride", "--vehicle", "car.toml", "--road", "C", "--out", "out")
+    assert done.returncode == 0, done.stderr
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["ride.csv"]
+    found = pd.read_csv(tmp_path / "out" / "ride.csv").set_index("name").value
+    wanted = ride(load_vehicle("yuen_ramli_2010").vehicle, (22e3, 1500.0), Iso8608Road("C"), 20.0).value
+    np.testing.assert_allclose(found, wanted[found.index], rtol=1e-12)
+    done = called("bode", "--vehicle", "car.toml", "--road", "C", "--out", "bode")
+    assert done.returncode == 0, done.stderr
+    assert len(pd.read_csv(tmp_path / "bode" / "natural_frequencies.csv")) == 0
 
 
 def test_ride_of_a_quarter_car_by_flags(called, tmp_path):

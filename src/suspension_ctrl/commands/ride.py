@@ -40,7 +40,6 @@ def ride(
     from ..response.load_case import LoadCase
     from ..response.responses import ride
     from ..tables import write_csv
-    from ..vehicles.vehicle import AssembledVehicle
     from . import results, terminal
 
     masses = {"body_mass": body_mass, "wheel_mass": wheel_mass, "tyre_stiffness": tyre_stiffness}
@@ -52,19 +51,23 @@ def ride(
     case, (low, high) = LoadCase(vehicle=car, road=problem.road, speed=problem.speed), problem.band
     table = ride(car, values, case.road, speed=case.speed, weighting=problem.weighting, band=problem.band)
     table = (table if table.note.any() else table.drop(columns="note")).reset_index()
-    tables, linear = {"ride": table}, None
-    if isinstance(car, AssembledVehicle):
-        linear = linearised(car, values, case.road, case.speed, band=problem.band)
-        tables |= tables_of(linear)
+    linear = linearised(car, values, case.road, case.speed, band=problem.band) if has_modes(car) else None
+    tables = {"ride": table, **tables_of(linear)}
     folder = results.results_folder(out)
     for name, one in tables.items():
         write_csv(folder / f"{name}.csv", one)
     terminal.note(f"{title}: {told(values, units)}.")
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table)
-    if linear is not None:
-        show_tables(tables, linear)
+    show_tables(tables, linear)
     print(folder)
+
+
+def has_modes(vehicle: "Vehicle") -> bool:
+    """Whether a vehicle is one of masses and links."""
+    from ..vehicles.vehicle import AssembledVehicle
+
+    return isinstance(vehicle, AssembledVehicle)
 
 
 def given(values: Mapping[str, float | None]) -> dict[str, Any]:
@@ -77,8 +80,10 @@ def told(values: Mapping[str, float], units: Mapping[str, str]) -> str:
     return ", ".join(f"{name} {value:g} {units[name]}".rstrip() for name, value in values.items())
 
 
-def tables_of(linear: "LinearisedVehicle") -> "dict[str, pd.DataFrame]":
-    """Return the tables of modes and springs and, if there are force laws, of laws."""
+def tables_of(linear: "LinearisedVehicle | None") -> "dict[str, pd.DataFrame]":
+    """Return the tables of modes and springs and, if there are force laws, of laws; none of a plant."""
+    if linear is None:
+        return {}
     from ..vehicles.rates import rates_of
 
     modes = linear.modes().filter(regex=r"^name$|\]$")  # no amplitudes
@@ -86,12 +91,14 @@ def tables_of(linear: "LinearisedVehicle") -> "dict[str, pd.DataFrame]":
     return {"modes": modes, "springs": rates_of(linear, linear.coefficients()), **laws}
 
 
-def show_tables(tables: "Mapping[str, pd.DataFrame]", linear: "LinearisedVehicle") -> None:
+def show_tables(tables: "Mapping[str, pd.DataFrame]", linear: "LinearisedVehicle | None") -> None:
     """Show modes and springs, and force laws at their working point with the mean travel that they cause."""
     import pandas as pd
 
     from . import terminal
 
+    if linear is None:
+        return
     terminal.show("Modes", tables["modes"], dict.fromkeys(tables["modes"].columns[1:], 3))
     terminal.show("Springs" + " at the working point" * bool(linear.laws), tables["springs"])
     if linear.laws:

@@ -89,7 +89,7 @@ class _Array(NamedTuple):
         if kind == _CELL:
             return [" ".join(self._texts_of(cell, order)) for _, cell in self.elements]
         if kind == _CHARACTERS:
-            return self._texts(order)
+            return self.texts(order)
         if self.flags & _COMPLEX or (kind != _SPARSE and kind not in _DENSE):
             raise ValueError(f"array of class {kind}")
         return self._sparse(order) if kind == _SPARSE else self._numbers(order).reshape(self.shape, order="F")
@@ -99,9 +99,9 @@ class _Array(NamedTuple):
         inner = _Array.of(cell, order)
         if inner.flags & 0xFF != _CHARACTERS and 0 not in inner.shape:
             raise ValueError(f"cell of class {inner.flags & 0xFF}")
-        return inner._texts(order) if 0 not in inner.shape else []
+        return inner.texts(order) if 0 not in inner.shape else []
 
-    def _texts(self, order: str) -> list[str]:
+    def texts(self, order: str) -> list[str]:
         kind, data = next(self.elements)
         encoding = _TEXTS[kind] + ({"<": "-le", ">": "-be"}[order] if _TEXTS[kind] == "utf-16" else "")
         return _rows(list(bytes(data).decode(encoding)), self.shape)
