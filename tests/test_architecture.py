@@ -31,14 +31,15 @@ PUBLIC = {
     "A8", "ACC", "DLC", "DTL", "MSDV", "SEAT", "TotalValue", "VDV",
     "FrontLoadTransfer", "Limit", "LoadCase", "Measure", "Peak", "RideProblem",
     "Bottoming", "DamperPower", "LargestPeak", "Lift", "Topping", "time_in_zones", "RollDamping",
-    "RollGradient", "RootSumSquare", "SWS", "Term", "exposure", "international_roughness_index", "load_problem",
+    "RollGradient", "RootSumSquare", "SWS", "Term", "exposure", "exposure_by_axis",
+    "international_roughness_index", "load_problem",
     "save_problem",    "certify", "LiftOffWarning", "linearised", "response_psds", "ride", "simulate",
     "weighted_rms", "weighting",
     "FailureWarning", "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run",
     "Sampling", "minimise", "non_dominated", "Study",
 }  # fmt: skip
 
-COMMANDS = {"commands/ride.py", "commands/weighting.py"}
+COMMANDS = {"commands/exposure.py", "commands/ride.py", "commands/weighting.py"}
 """Modules named after the function whose results they print: they are what a user types."""
 
 STANDARD_NAMES = {"search/trace.py"}

@@ -3,6 +3,7 @@ from .response.driving import simulate as simulate
 from .response.files import load_problem as load_problem
 from .response.files import save_problem as save_problem
 from .response.histories import exposure as exposure
+from .response.human_exposure import exposure_by_axis as exposure_by_axis
 from .response.lift_off import LiftOffWarning as LiftOffWarning
 from .response.linearisation import linearised as linearised
 from .response.load_case import LoadCase as LoadCase

@@ -51,10 +51,11 @@ def test_mtvv_of_a_decaying_burst(decay):
     t = DT * np.arange(8000)
     history = np.exp(-t / decay)
     linear = decay / 2 * (1 - np.exp(-2 / decay))
-    assert exposure(history, DT).mtvv ** 2 == pytest.approx(linear, abs=DT)
+    assert exposure(history, DT, keep_offset=True).mtvv ** 2 == pytest.approx(linear, abs=DT)
     rate = 2 / decay
     courses = t * np.exp(-t) if rate == 1 else (np.exp(-t) - np.exp(-rate * t)) / (rate - 1)
-    assert exposure(history, DT, integration="exponential").mtvv ** 2 == pytest.approx(courses.max(), abs=DT)
+    found = exposure(history, DT, integration="exponential", keep_offset=True)
+    assert found.mtvv**2 == pytest.approx(courses.max(), abs=DT)
 
 
 @pytest.mark.parametrize("integration", ["linear", "exponential"])
@@ -127,7 +128,7 @@ def test_digital_filter_beside_the_filter_behind_the_vehicle():
 def test_measures_scale_and_are_ordered(history, factor):
     """r.m.s. <= peak, MTVV <= peak, VDV between those of Jensen and of the peak; all are of the first degree."""
     history = np.append(history, 1.0)
-    one, other = exposure(history, 0.02), exposure(factor * history, 0.02)
+    one, other = (exposure(k * history, 0.02, keep_offset=True) for k in (1, factor))
     for name in ("rms", "peak", "mtvv", "vdv"):
         assert getattr(other, name) == pytest.approx(factor * getattr(one, name), rel=1e-9)
     assert one.rms <= one.peak * (1 + 1e-12)
@@ -155,9 +156,21 @@ def test_measures_scale_and_are_ordered(history, factor):
         ),
         (
             lambda: exposure([1.0], 0.1),
-            "acceleration must last 1 s at least and not be zero throughout, got 0.1 s",
+            "acceleration must last 1 s at least and not be constant throughout, got 0.1 s",
         ),
-        (lambda: exposure(np.zeros(99), 0.1), "acceleration must last 1 s at least and not be zero throughout"),
+        (lambda: exposure(np.full(99, 9.81), 0.1), "acceleration must last 1 s at least and not be constant"),
+        (
+            lambda: exposure(np.full(999, 9.81), 0.01, "Wk"),
+            "acceleration must last 1 s at least and not be constant",
+        ),
+        (lambda: exposure(sine(5.0, 3.0), DT, settling=2.5), "acceleration must last 1 s .*, got 0.5 s, peak"),
+        (lambda: exposure(sine(5.0, 3.0), DT, settling=1e9), "acceleration must last 1 s .*, got 0 s, peak 0"),
+        (lambda: exposure(sine(5.0, 3.0), DT, settling=-1.0), "settling must be finite and >= 0 s, got -1.0"),
+        (lambda: exposure(["a", "b"], 0.1), r"acceleration must be an array of real numbers, got \['a', 'b'\]"),
+        (
+            lambda: exposure(np.zeros(99), 0.1),
+            "acceleration must last 1 s at least and not be constant throughout",
+        ),
     ],
 )
 def test_rejects_impossible_histories(make, message):
@@ -167,7 +180,32 @@ def test_rejects_impossible_histories(make, message):
 
 def test_exposure_weights_in_one_step():
     history = np.random.default_rng(4).normal(size=2000)
-    assert exposure(history, 0.005, "Wk") == exposure(weighted(history, 0.005, "Wk"), 0.005)
-    assert repr(exposure(np.ones(400), 0.005)).startswith("Exposure(rms=1 m/s^2, peak=1 m/s^2, ")
+    kept = [exposure(history, 0.005, "Wk", keep_offset=True)]
+    kept.append(exposure(weighted(history, 0.005, "Wk"), 0.005, keep_offset=True))
+    assert kept[0] == kept[1]
+    repr_of_ones = repr(exposure(np.ones(400), 0.005, keep_offset=True))
+    assert repr_of_ones.startswith("Exposure(rms=1 m/s^2, peak=1 m/s^2, ")
     with pytest.raises(ValueError, match=r"^weighting must be one of Wk, Wd, .*, got 'Wz'$"):
         exposure(history, 0.005, "Wz")
+
+
+@pytest.mark.parametrize("weighting_name", [None, "Wk", "Wd"])
+def test_gravity_and_offsets_do_not_count(weighting_name):
+    history = np.random.default_rng(5).normal(size=6000)
+    plain = exposure(history, 0.005, weighting_name)
+    shifted = exposure(history + 9.80665, 0.005, weighting_name)
+    assert shifted.offset == pytest.approx(plain.offset + 9.80665, rel=1e-12)
+    for name in ("rms", "peak", "mtvv", "vdv"):
+        assert getattr(shifted, name) == pytest.approx(getattr(plain, name), rel=1e-9)
+    assert exposure(history + 9.80665, 0.005, weighting_name, keep_offset=True).rms > 1.2 * plain.rms
+
+
+def test_settling_takes_the_start_of_the_filter_out():
+    """A sine of whole waves behind the filter has the filter's factor once its start is over."""
+    history = sine(1.0, 40.0, 0.005)
+    digital = np.tan(np.pi * 0.005) / (np.pi * 0.005)
+    expected = abs(weighting("Wk")(2j * np.pi * digital)) / np.sqrt(2)
+    found = exposure(history, 0.005, "Wk", settling=20.0)
+    assert found.rms == pytest.approx(expected, rel=1e-9)
+    assert found.duration == pytest.approx(20.0)
+    assert exposure(history, 0.005, "Wk").rms != pytest.approx(expected, rel=1e-4)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from typer import Typer
 
-from . import bode, compare, optimum, ride, weighting
+from . import bode, compare, exposure, optimum, ride, weighting
 
 app = Typer(
     add_completion=False, pretty_exceptions_enable=False,
@@ -32,4 +32,9 @@ _add(
     "--vehicle jian_2022_full --road C --speed 20",
     "--vehicle minaker_half --setting front.damper=2000",
     "--body-mass 400 --wheel-mass 45 --tyre-stiffness 22e4 \\\n      --spring 25e3 --damper 2e3 --road C",
+)
+_add(
+    exposure.exposure,
+    "seat.csv --duration 4h",
+    "drive.csv --axes body_acceleration=z --settling 5s",
 )

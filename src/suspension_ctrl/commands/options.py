@@ -5,7 +5,7 @@ from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
-from typer import BadParameter, Option
+from typer import Argument, BadParameter, Option
 
 
 def whole_number(text: str) -> int:
@@ -131,5 +131,10 @@ Seeds = Annotated[Whole, _whole("Runs of each algorithm in --quality.  [default:
 Target = Annotated[float, _real("Share of the reference hypervolume to reach [-].")]
 Jobs = Annotated[Whole, _whole("Processes for the runs of --quality.")]
 Scheduler = Annotated[Text, _option("ADDRESS", "Dask scheduler for them: tcp://host:8786, tls://host:8786.")]
+Histories = Annotated[Path, Argument(metavar="FILE", help="CSV file of accelerations.")]
+Axes = Annotated[Text, _option("COLUMN=AXIS,...", "Axes of columns with other names: body_acceleration=z.")]
+Step = Annotated[Real, _real("Time step [s] of a file without times, or with a unit: 5ms.", "s")]
+Duration = Annotated[Real, _real("Time of exposure in a day [s], or with a unit: 4h.  [default: 8h]", "s")]
+Settling = Annotated[Real, _real("Time [s] at the start in which filters settle, not counted.  [default: 0]", "s")]
 Out = Annotated[File, _option("FOLDER", "Folder for the results, absent or empty.  [default: a new one]")]
 Resumed = Annotated[File, _option("FOLDER", "Folder: absent, empty, or of the same command, to resume it.")]

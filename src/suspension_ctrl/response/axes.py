@@ -1,4 +1,4 @@
-"""Axes in which vibration enters a person: weightings and multiplying factors of the standards."""
+"""Axes in which vibration enters a person: weightings, multiplying factors, values of daily exposure."""
 
 from typing import NamedTuple
 
@@ -20,3 +20,19 @@ AXES = {
 }  # fmt: skip
 """By point and axis: a seated person at seat, backrest and feet (ISO 2631-1, 8.2.2.1), a standing one on a floor
 (8.2.2.2), a hand on a grip (ISO 5349-1, 4.5). x is forward, y to the left, z up."""
+
+VERTICAL, HORIZONTAL = Axis("Wk", 1.0), Axis("Wd", 1.4)
+"""Axes of daily exposure of the whole body (ISO 2631-1, 7.2.3; Directive 2002/44/EC, Annex, part B)."""
+DAY = 8 * 3600.0
+"""Reference duration of daily exposure [s]."""
+
+
+class DailyValues(NamedTuple):
+    """Exposure action value and exposure limit value of Directive 2002/44/EC, article 3."""
+
+    action: float
+    limit: float
+
+
+WHOLE_BODY_A8, WHOLE_BODY_VDV = DailyValues(0.5, 1.15), DailyValues(9.1, 21.0)  # m/s^2, m/s^1.75
+HAND_A8 = DailyValues(2.5, 5.0)  # m/s^2

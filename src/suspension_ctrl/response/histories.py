@@ -26,6 +26,7 @@ class Exposure(Record):
     mtvv: float = field(metadata=unit("m/s^2"))  # maximum transient vibration value, of the running r.m.s. (6.3.1)
     vdv: float = field(metadata=unit("m/s^1.75"))  # vibration dose value (6.3.2)
     duration: float = field(metadata=unit("s"))  # T
+    offset: float = field(default=0.0, metadata=unit("m/s^2"))  # mean of the history, removed from it
 
     @property
     def crest_factor(self) -> float:
@@ -88,56 +89,83 @@ def running_rms(
 
 
 def exposure(
-    acceleration: ArrayLike, time_step: float, weighting: str | None = None, *, integration: str = "linear"
+    acceleration: ArrayLike,
+    time_step: float,
+    weighting: str | None = None,
+    *,
+    integration: str = "linear",
+    settling: float = 0.0,
+    keep_offset: bool = False,
 ) -> Exposure:
     """Return the measures of an acceleration that is weighted already, or by a filter.
+
+    The mean of the history, such as gravity or the offset of a sensor, is removed first: switched on at the start
+    it would make the filter swing. It is the ``offset`` of the result.
 
     Parameters
     ----------
     acceleration : (n,) array_like
-        [m/s^2], of a second at least and not zero throughout.
+        [m/s^2], of a second at least after the settling, and not constant throughout.
     time_step : float
         Between two samples [s].
     weighting : str, optional
         Filter of ISO 2631 to be applied first, see `weighted`: ``"Wk"``.
     integration : str
         Of the running r.m.s. with a time constant of 1 s: ``"linear"`` or ``"exponential"``.
+    settling : float
+        Time at the start in which the filter settles, not counted in the measures [s].
+    keep_offset : bool
+        Whether the mean stays in the history.
 
     Examples
     --------
-    A shock of 0.1 s in a sine of 4 Hz raises MTVV and VDV much more than the r.m.s. value:
+    Gravity in a history makes no difference:
 
     >>> import numpy as np
     >>> import suspension_ctrl as sc
     >>> t = np.arange(0.0, 60.0, 0.005)  # s
     >>> sine = np.sin(2 * np.pi * 4.0 * t)  # m/s^2
+    >>> for acceleration in (sine, sine + 9.80665):
+    ...     found = sc.exposure(acceleration, 0.005, "Wk")
+    ...     print(f"r.m.s. {found.rms:.3f} m/s^2, offset {abs(found.offset):.2f} m/s^2")
+    r.m.s. 0.684 m/s^2, offset 0.00 m/s^2
+    r.m.s. 0.684 m/s^2, offset 9.81 m/s^2
+
+    A shock of 0.1 s in a sine of 4 Hz raises MTVV and VDV much more than the r.m.s. value:
+
     >>> shock = sine + np.where(abs(t - 30.0) < 0.05, 8.0, 0.0)
     >>> for acceleration in (sine, shock):
     ...     found = sc.exposure(acceleration, 0.005)
     ...     print(f"r.m.s. {found.rms:.2f}, MTVV {found.mtvv:.2f} m/s^2, VDV {found.vdv:.1f} m/s^1.75")
     r.m.s. 0.71, MTVV 0.71 m/s^2, VDV 2.2 m/s^1.75
-    r.m.s. 0.78, MTVV 2.57 m/s^2, VDV 4.5 m/s^1.75
+    r.m.s. 0.78, MTVV 2.56 m/s^2, VDV 4.5 m/s^1.75
     """
-    if weighting is not None:
-        acceleration = weighted(acceleration, time_step, weighting)
     history = _checked(acceleration, time_step)
+    checks.not_negative("settling", settling, "s")
+    offset = 0.0 if keep_offset else float(history.mean())
+    rounding = 1e-12 * float(np.abs(history).max())
+    history = history - offset
+    if weighting is not None:
+        history = weighted(history, time_step, weighting)
+    history = history[round(min(settling / time_step, history.size)) :]
     duration = history.size * time_step
-    peak = float(np.abs(history).max())
-    if duration < 1.0 - 1e-9 or peak == 0:
+    peak = float(np.abs(history).max(initial=0.0))
+    if duration < 1.0 - 1e-9 or peak <= rounding:
         got = f"{duration:g} s, peak {peak:g}"
-        raise ValueError(f"acceleration must last 1 s at least and not be zero throughout, got {got}")
+        raise ValueError(f"acceleration must last 1 s at least and not be constant throughout, got {got}")
     return Exposure(
         rms=float(np.sqrt(np.mean(history**2))),
         peak=peak,
         mtvv=float(running_rms(history, time_step, integration=integration).max()),
         vdv=float(time_step * np.sum(history**4)) ** 0.25,
         duration=duration,
+        offset=offset,
     )
 
 
 def _checked(acceleration: ArrayLike, time_step: float) -> Real:
     checks.positive("time_step", time_step, "s")
-    history = np.asarray(acceleration, dtype=float)
+    history = checks.reals("acceleration must be", acceleration)
     if history.ndim != 1 or history.size == 0 or not np.isfinite(history).all():
         raise ValueError(f"acceleration must be finite and of shape (n,), n >= 1, got shape {history.shape}")
     return history

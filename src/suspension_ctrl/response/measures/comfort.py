@@ -11,10 +11,10 @@ from ... import checks
 from ...quantities import FrozenMapping, Real, quantity, unit
 from ...vehicles.assembly import ResponseName
 from ...vehicles.vehicle import Vehicle, assembled
-from ..axes import AXES
+from ..axes import AXES, VERTICAL
 from ..load_case import LoadCase
 from ..weightings import Weighting
-from .dose import VERTICAL, horizontal_terms
+from .dose import horizontal_terms
 from .measure import Measure
 from .terms import NUMBER, CaseMeasure, Designs, Term, number_text, place_text
 from .vibration import AccelerationMeasure, PlacedMeasure

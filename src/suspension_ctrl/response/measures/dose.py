@@ -17,6 +17,7 @@ import numpy as np
 from ... import checks
 from ...quantities import Real, quantity, unit
 from ...vehicles.vehicle import Vehicle
+from ..axes import DAY, HORIZONTAL, VERTICAL, Axis
 from ..load_case import LoadCase
 from ..weightings import Weighting
 from .measure import Measure
@@ -25,11 +26,6 @@ from .vibration import AccelerationMeasure
 
 if TYPE_CHECKING:
     from ..trips import Trip
-
-DAY = 8 * 3600.0
-"""Reference duration of daily exposure [s]."""
-VERTICAL, HORIZONTAL = ("Wk", 1.0), ("Wd", 1.4)
-"""Weighting and factor k of the axes of a seated person, ISO 2631-1, 7.2.3."""
 
 _HOUR = 3600.0  # s
 _LONGEST = 1e9  # s
@@ -211,15 +207,13 @@ class MSDV(DoseMeasure, word="MSDV", unit="m/s^1.5"):
         return CaseMeasure((Term(self.response(case.vehicle), "Wf", self.duration**0.5),))
 
 
-def horizontal_terms(
-    vehicle: Vehicle, height: float | None, factors: tuple[tuple[str, float], tuple[str, float]]
-) -> list[Term]:
+def horizontal_terms(vehicle: Vehicle, height: float | None, axes: tuple[Axis, Axis]) -> list[Term]:
     """Return longitudinal and lateral acceleration at a height [m] by pitch and roll, if the vehicle has these.
 
-    The factors are weighting and k of the two axes.
+    The axes have weighting and factor k of both.
     """
     turns = [f"{name}_acceleration" for name in ("pitch", "roll")]
-    pairs = zip(turns, factors, strict=True) if height else ()
+    pairs = zip(turns, axes, strict=True) if height else ()
     return [Term(turn, name, k * abs(height or 0.0)) for turn, (name, k) in pairs if turn in vehicle.meanings]
 
 

@@ -1,0 +1,99 @@
+"""Histories of acceleration from CSV files: a column for each axis with its unit, and one of even times.
+
+Headers are such as ``time [ms]``, ``z [g]``, ``seat x [m/s^2]``; round brackets are allowed. Other columns do not
+count.
+"""
+
+import re
+from collections.abc import Mapping, Sequence
+from os import PathLike
+
+import numpy as np
+
+from .. import checks
+from ..documents import naming
+from ..quantities import Real, quantity
+from ..tables import read_table
+from .axes import AXES
+from .human_exposure import axis_of
+
+TIME = ("time", "t")
+_HEADER = re.compile(r"\s*([^\[\](){}]*?)\s*(?:[\[(]\s*([^\[\]()]*?)\s*[\])])?\s*")
+_UNEVEN = 0.4  # of a step: times may be rounded, no sample may lack
+_UNIT_OF = {"roll": "rad/s^2", "pitch": "rad/s^2", "yaw": "rad/s^2"}
+
+
+def read_accelerations(
+    path: str | PathLike[str], axes: Mapping[str, str] | None = None, time_step: float | None = None
+) -> tuple[dict[str, Real], float]:
+    """Return histories (n,) by axis [m/s^2, rad/s^2] and their time step [s].
+
+    `axes` gives axes by the names of columns that are not called like them. A file without times needs the step.
+    ValueError names the file.
+    """
+    named = {_plain(column): axis_of(axis) for column, axis in (axes or {}).items()}
+    headers, values = read_table(path, lambda names: _wanted(names, named))
+    with naming(path):
+        step, histories = time_step, dict[str, Real]()
+        for header, column in zip(headers, values.T, strict=True):
+            name, unit = _parts(header)
+            if name in TIME and name not in named:
+                if step is not None:
+                    raise ValueError(f"time_step must be given without a column of times, got {header!r}")
+                step = _even_step(column * _factor(header, unit, "s"))
+                continue
+            axis = named.get(name) or axis_of(name)
+            if axis in histories:
+                raise ValueError(f"columns must have each axis once, got {axis} twice")
+            histories[axis] = column * _factor(header, unit, _UNIT_OF.get(axis.split()[1], "m/s^2"))
+        if step is None:
+            raise ValueError(
+                "columns must include a time such as 'time [s]', or time_step must be given, got none"
+            )
+        return histories, step
+
+
+def _wanted(names: Sequence[str], named: Mapping[str, str]) -> list[int]:
+    """Return the indices of the headers of times and axes; ValueError if there is no axis, or a named column lacks."""
+    known = {header: _parts(header)[0] for header in names}
+    if missing := named.keys() - set(known.values()):
+        raise ValueError(f"columns must include {min(missing)!r}, got {checks.shown(list(names))}")
+    axes = [header for header, name in known.items() if name in named or _is_axis(name)]
+    if not axes:
+        needed = "an axis such as 'z [m/s^2]' or 'seat x [g]', or one must be named by axes"
+        raise ValueError(f"columns must include {needed}, got {checks.shown(list(names))}")
+    return [header for header, name in known.items() if header in axes or name in TIME]
+
+
+def _is_axis(name: str) -> bool:
+    return name in AXES or f"seat {name}" in AXES
+
+
+def _plain(name: str) -> str:
+    """Return a name in lower case, with blanks for underscores."""
+    return " ".join(name.lower().replace("_", " ").split())
+
+
+def _parts(header: str) -> tuple[str, str]:
+    """Return name and unit of a header, no unit where there is none."""
+    found = _HEADER.fullmatch(header)
+    return (_plain(found[1]), found[2] or "") if found else (_plain(header), "")
+
+
+def _factor(header: str, unit: str, needed: str) -> float:
+    """Return the factor of a column to the unit that is needed; ValueError for another dimension or none."""
+    if not unit:
+        raise ValueError(f"columns must have their units, as in '{header} [{needed}]', got {checks.shown(header)}")
+    return quantity(f"unit of {checks.shown(header)}", f"1 {unit.replace('²', '^2').replace('**', '^')}", needed)
+
+
+def _even_step(time: Real) -> float:
+    """Return the step of times (n,) [s]; ValueError unless they are even."""
+    step = float(time[-1] - time[0]) / (time.size - 1)
+    if not step > 0 or not (np.diff(time) > 0).all():
+        raise ValueError(f"time must ascend, got {checks.shown(time.tolist())}")
+    off = np.abs(time - time[0] - step * np.arange(time.size)) / step
+    if off.max() > _UNEVEN:
+        got = f"{off.max():.3g} steps at {time[off.argmax()]:g} s"
+        raise ValueError(f"time must be even, each within {_UNEVEN} of a step of {step:.6g} s, got {got}")
+    return step
