@@ -24,6 +24,7 @@ from suspension_ctrl import (
     TableDamper,
     TableSpring,
     datafiles,
+    exposure_by_axis,
     international_roughness_index,
     load_property,
     load_system,
@@ -35,6 +36,7 @@ from suspension_ctrl.commands.bode import read_designs
 from suspension_ctrl.documents import FileError
 from suspension_ctrl.paper import experiment
 from suspension_ctrl.response.files import load_problem
+from suspension_ctrl.response.history_files import read_accelerations
 from suspension_ctrl.roads.files import load_road
 from suspension_ctrl.roads.measured import COHERENCE, read_curve
 from suspension_ctrl.roads.profile_files import load_profile, save_profile
@@ -142,6 +144,7 @@ def readers() -> dict[str, Reader]:
             ".csv",
             (b"# Source: here\nvelocity [mm/s],force [kN]\n-1000,-0.9\n-100,-0.4\n0,0\n100,0.6\n1000,1.5\n",),
         ),
+        "history": Reader(lambda path: exposure_by_axis(*read_accelerations(path)), ".csv", _histories()),
         "property of a damper": Reader(load_property, ".dpr", _properties(".dpr")),
         "property of a spring": Reader(
             lambda path: load_property(path, static_load=4e3), ".spr", _properties(".spr")
@@ -242,6 +245,14 @@ def _profiles() -> tuple[bytes, ...]:
         rows.replace(b",", b" "),
         b"% made\n" + text.replace(b"\n", b",\n"),
     )
+
+
+def _histories() -> tuple[bytes, ...]:
+    """Return a second of acceleration in two spellings."""
+    rows = [(0.008 * i, 0.1 * (i % 7), 1 + 0.01 * (i % 5)) for i in range(130)]
+    text = "time [s],x [m/s^2],seat z [g]\n" + "".join(f"{t:.3f},{x:.2f},{z:.2f}\n" for t, x, z in rows)
+    other = "# made\nTime (ms);Z (g);note\n" + "".join(f"{1e3 * t:.1f};{z:.2f};ok\n" for t, _, z in rows)
+    return text.encode(), other.replace(".", ",").encode()
 
 
 def mutated(seeds: Sequence[bytes], rng: np.random.Generator) -> bytes:

@@ -58,7 +58,7 @@ BAD = [
     (["bad.csv"], "bad.csv: columns must include an axis such as 'z [m/s^2]' or 'seat x [g]', or one must be", 2),
     (
         ["seat.csv", "--step", "5ms"],
-        "seat.csv: time_step must be given without a column of times, got 'time [s]'",
+        "seat.csv: time must be one column, or time_step without one, got 'time [s]'",
         2,
     ),
     (["seat.csv", "--axes", "z"], "axes must be like body_acceleration=z,roll_acceleration=seat roll, got 'z'", 2),

@@ -39,7 +39,8 @@ def read_accelerations(
             name, unit = _parts(header)
             if name in TIME and name not in named:
                 if step is not None:
-                    raise ValueError(f"time_step must be given without a column of times, got {header!r}")
+                    needed = "one column, or time_step without one"
+                    raise ValueError(f"time must be {needed}, got {checks.shown(header)}")
                 step = _even_step(column * _factor(header, unit, "s"))
                 continue
             axis = named.get(name) or axis_of(name)
@@ -55,14 +56,14 @@ def read_accelerations(
 
 def _wanted(names: Sequence[str], named: Mapping[str, str]) -> list[int]:
     """Return the indices of the headers of times and axes; ValueError if there is no axis, or a named column lacks."""
-    known = {header: _parts(header)[0] for header in names}
-    if missing := named.keys() - set(known.values()):
+    known = [_parts(header)[0] for header in names]
+    if missing := named.keys() - set(known):
         raise ValueError(f"columns must include {min(missing)!r}, got {checks.shown(list(names))}")
-    axes = [header for header, name in known.items() if name in named or _is_axis(name)]
+    axes = [name for name in known if name in named or _is_axis(name)]
     if not axes:
         needed = "an axis such as 'z [m/s^2]' or 'seat x [g]', or one must be named by axes"
         raise ValueError(f"columns must include {needed}, got {checks.shown(list(names))}")
-    return [header for header, name in known.items() if header in axes or name in TIME]
+    return [header for header, name in zip(names, known, strict=True) if name in axes or name in TIME]
 
 
 def _is_axis(name: str) -> bool:
