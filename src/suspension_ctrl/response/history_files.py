@@ -55,7 +55,7 @@ def read_accelerations(
 
 
 def _wanted(names: Sequence[str], named: Mapping[str, str]) -> list[int]:
-    """Return the indices of the headers of times and axes; ValueError if there is no axis, or a named column lacks."""
+    """Return the indices of times and axes; ValueError if there is no axis, or a named column is missing."""
     known = [_parts(header)[0] for header in names]
     if missing := named.keys() - set(known):
         raise ValueError(f"columns must include {min(missing)!r}, got {checks.shown(list(names))}")
@@ -63,7 +63,7 @@ def _wanted(names: Sequence[str], named: Mapping[str, str]) -> list[int]:
     if not axes:
         needed = "an axis such as 'z [m/s^2]' or 'seat x [g]', or one must be named by axes"
         raise ValueError(f"columns must include {needed}, got {checks.shown(list(names))}")
-    return [header for header, name in zip(names, known, strict=True) if name in axes or name in TIME]
+    return [i for i, name in enumerate(known) if name in axes or name in TIME]
 
 
 def _is_axis(name: str) -> bool:
