@@ -20,11 +20,13 @@ def exposure(
     settling: o.Settling = None,
     out: o.Out = None,
 ) -> None:
-    """Print the human exposure to a measured history.
+    """Print the exposure to a measured history.
 
-    Weighted accelerations, total values and daily exposure of ISO 2631-1 and Directive 2002/44/EC. The file is CSV with even times and a column for each axis with its unit: 'time [s]', 'x [m/s^2]', 'z [g]' of a
-    seat, 'back x', 'feet z', 'floor z', 'hand x', 'seat roll [rad/s^2]'. Means such as gravity are removed. Writes
-    exposure.csv, total_values.csv and daily.csv to a folder; its path is the last line printed.
+    Weighted accelerations, total values and daily exposure of a person, by ISO 2631-1 and Directive
+    2002/44/EC. The file is CSV with even times and a column for each axis with its unit: 'time [s]', 'x
+    [m/s^2]', 'z [g]' of a seat, 'back x', 'feet z', 'floor z', 'hand x', 'seat roll [rad/s^2]'. Means such as
+    gravity are removed. Writes exposure.csv, total_values.csv and daily.csv to a folder; its path is the last
+    line printed.
     """
     import pandas as pd
 

@@ -29,10 +29,10 @@ def ride(
     weighting: o.Weighting = None,
     out: o.Out = None,
 ) -> None:
-    """Print the ride, the modes and the springs of one vehicle; of a plant the ride alone.
+    """Print the ride, the modes and the springs of one vehicle.
 
-    The vehicle is from a file, with its own struts, or a quarter car with given masses, tyre, spring and damper.
-    Writes ride.csv, modes.csv, springs.csv and, of force laws, laws.csv to a folder; its path is the last line
+    The vehicle is from a file, with its own struts, or a quarter car with given masses, tyre, spring and damper; of
+    a plant the ride alone. Writes ride.csv, modes.csv, springs.csv and, of force laws, laws.csv to a folder; its path is the last line
     printed.
     """
     from ..paper import experiment as paper
