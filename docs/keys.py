@@ -19,6 +19,7 @@ from suspension_ctrl.roads.coherence import COHERENCES
 from suspension_ctrl.roads.files import KINDS as ROADS
 from suspension_ctrl.roads.files import MeasuredFile, TabulatedFile
 from suspension_ctrl.schema.keys import Key, keys_of
+from suspension_ctrl.vehicles.body_parts import PARTS
 from suspension_ctrl.vehicles.files import KINDS as VEHICLES
 from suspension_ctrl.vehicles.files import Document as VehicleDocument
 from suspension_ctrl.vehicles.handling import RollGeometry
@@ -78,10 +79,79 @@ STRUTS = """
 In the tables `struts`, `bounds` and `kinds` a coefficient of a strut is a key with its unit: `spring_N_per_m` and
 `damper_N_s_per_m` of a quarter car, and of the others `front.spring_N_per_m`, `front.damper_N_s_per_m`,
 `rear.spring_N_per_m`, `rear.damper_N_s_per_m`, of a full car `front_antiroll_N_m_per_rad` and
-`rear_antiroll_N_m_per_rad` as well, and of each seat `<name>.spring_N_per_m` and `<name>.damper_N_s_per_m`.
+`rear_antiroll_N_m_per_rad` as well, and of each seat `<name>.spring_N_per_m` and `<name>.damper_N_s_per_m`; of
+rigid bodies the names begin with those in `coefficients`.
 `struts` holds numbers and `bounds` arrays of the lowest and the highest value. Only a search needs bounds.
 """
-LAYOUTS = """### `[strut]`, `[front_strut]`, `[rear_strut]`
+RIGID_BODIES = """A vehicle of any bodies, such as a truck with its trailer. Places are
+in the axes of the vehicle, x forward and y to the left; a strut, a support or a joint joins the points of its two
+ends at its place. Struts with the same `coefficients` are alike. Joints are exact: two points have one height, and
+two bodies on a fifth wheel one roll.
+
+```toml
+kind = "rigid-bodies"
+name = "A lorry with a cab on mounts, in its plane"
+
+[[bodies]]
+name = "frame"
+mass = "7 t"
+pitch_inertia_kg_m2 = 30e3
+
+[[bodies]]
+name = "cab"
+mass_kg = 1100
+pitch_inertia_kg_m2 = 900
+position_m = [3.2, 0]
+
+[[wheels]]
+name = "front"
+position_m = [2.4, 0]
+mass_kg = 600
+tyre_stiffness = "1.8 kN/mm"
+
+[[wheels]]
+name = "rear"
+position_m = [-2.1, 0]
+mass_kg = 1100
+tyre_stiffness = "3.6 kN/mm"
+
+[[suspensions]]
+name = "front"
+upper = "frame"
+
+[[suspensions]]
+name = "rear"
+upper = "frame"
+
+[[suspensions]]
+name = "cab_front"
+lower = "frame"
+upper = "cab"
+position_m = [3.9, 0]
+coefficients = "mount"
+
+[[suspensions]]
+name = "cab_rear"
+lower = "frame"
+upper = "cab"
+position_m = [2.5, 0]
+coefficients = "mount"
+
+[[points]]
+name = "driver"
+body = "cab"
+position_m = [3.3, 0]
+
+[struts]
+front.spring = "420 N/mm"
+front.damper_N_s_per_m = 15e3
+rear.spring = "900 N/mm"
+rear.damper_N_s_per_m = 20e3
+mount.spring = "50 N/mm"
+mount.damper_N_s_per_m = 4e3
+```
+"""
+LAYOUTS = """### `[strut]`, `[front_strut]`, `[rear_strut]`, `[suspensions.strut]`
 A strut is elements between its two ends. Its `layout` joins them by name: `|` in parallel, `-` in series (before
 `|`), parentheses, and an installation ratio of a group, `0.8*(...)`. An element has a table with its `kind` and
 values; `spring`, `damper`, `inerter`, `rubber`, `bump_stop`, `rebound_stop` and `friction` are of the kind that
@@ -112,7 +182,8 @@ may vary in `[bounds]`: `front.mount_N_per_m`, `front.damper.scale`, `front.bump
 """
 FORMS = {
     float: "number", float | None: "number", int | None: "whole number", bool: "true or false", str: "text",
-    tuple[str, ...]: "array of texts", tuple[float, float]: "array of 2 numbers",
+    tuple[str, ...]: "array of texts",
+    tuple[float, float]: "array of 2 numbers", tuple[float, float] | None: "array of 2 numbers",
     tuple[float, ...]: "array of numbers", str | Mapping[str, Any]: "text or table",
     tuple[str, ...] | Mapping[str, Any]: "array of texts or table",
     **dict.fromkeys([Real, ArrayLike, ArrayLike | None], "array of numbers"),
@@ -182,6 +253,7 @@ def page() -> str:
     parts = [HEAD, "## Vehicles\n"]
     parts += [table(f'`kind = "{kind}"`', record) for kind, record in VEHICLES.items()]
     parts += [table("`[[contacts]]` of a plant", Contact)]
+    parts += [RIGID_BODIES, *(table(f"`[[{name}]]`", record) for name, record in PARTS.items())]
     parts += [table("Beside them, of every vehicle", VehicleDocument), table("`[[seats]]`", Seat)]
     parts += [table("`[flexible_body]`", FlexibleBody), table("`[[flexible_body.shapes]]`", Shape)]
     parts += [table("`[roll_geometry]`", RollGeometry), LAYOUTS]

@@ -19,7 +19,7 @@ ROOMS = {
 }
 
 PUBLIC = {
-    "FlexibleBody", "FullCar", "HalfCar", "Payload", "Plant", "QuarterCar", "RollGeometry", "Seat",
+    "FlexibleBody", "FullCar", "HalfCar", "Payload", "Plant", "QuarterCar", "RigidBodies", "RollGeometry", "Seat",
     "VehicleFile", "load_vehicle", "save_vehicle", "load_property", "save_property", "damper_figure",
     "load_system", "save_system",
     "BilinearDamper", "BumpStop", "Damper", "DigressiveDamper", "Friction", "Inerter", "MeasuredStiffness",

@@ -92,6 +92,7 @@ from .vehicles.mounted import Seat as Seat
 from .vehicles.plants import Plant as Plant
 from .vehicles.property_files import load_property as load_property
 from .vehicles.property_files import save_property as save_property
+from .vehicles.rigid_bodies import RigidBodies as RigidBodies
 from .vehicles.stops import BumpStop as BumpStop
 from .vehicles.stops import ReboundStop as ReboundStop
 from .vehicles.stops import TableSpring as TableSpring

@@ -224,7 +224,7 @@ def signal_unit(signal: str) -> str:
     if kind == "rate":
         kind = f"{what.rpartition('_')[2]}_rate"
     unit = _SIGNALS.get(kind, "")
-    return unit.replace("m", "rad") if what in ("pitch", "roll") else unit
+    return unit.replace("m", "rad") if what.rpartition("_")[2] in ("pitch", "roll") else unit
 
 
 def column_headers(names: Sequence[str], units: Mapping[str, str]) -> list[str]:

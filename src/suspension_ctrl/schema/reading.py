@@ -167,7 +167,8 @@ def _pair(one: Key, key: str, value: Any, typed: bool) -> tuple[float, float]:
 
 
 _NUMERIC: dict[Any, Callable[[Key, str, Any, bool], Any]] = {
-    float: _number, float | None: _number, int | None: _whole, tuple[float, float]: _pair,
+    float: _number, float | None: _number, int | None: _whole,
+    tuple[float, float]: _pair, tuple[float, float] | None: _pair,
     tuple[float, ...]: _numbers, Real: _numbers, ArrayLike: _numbers, ArrayLike | None: _numbers,
 }  # fmt: skip
 _OTHERS: dict[Any, tuple[str, Callable[[Any], bool]]] = {

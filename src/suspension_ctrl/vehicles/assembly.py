@@ -1,4 +1,4 @@
-"""Equations of motion of masses and links, assembled into a python-control model with a port for every strut.
+"""Masses and links of a vehicle: coordinates, responses, and their shares in displacements.
 
 Axes as in ISO 8855: x forward, y to the left, z up from the centre of gravity of the body; pitch is positive nose
 down, roll positive left side up. Deflections are positive in extension, forces in tension.
@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
 
-import control
 import numpy as np
 
 from .. import checks
@@ -19,24 +18,42 @@ from .struts import Strut
 Position = tuple[float, float]  # a point (x, y) of the body [m]
 ResponseName = str | tuple[str, float, float]
 """One of a vehicle's named responses, or ``("acceleration", x, y)``, vertical, at a point of the body."""
-End = str | Position | None
-"""End of a link: a coordinate or a road by name, a point of the body, or the inertial frame."""
+BodyPoint = tuple[str, float, float]  # body by name, and point (x, y) from its centre of gravity [m]
+End = str | Position | BodyPoint | None
+"""End of a link: a coordinate or a road by name, a point of ``body`` or of another body, or the inertial frame."""
 GRAVITY = 9.80665  # m/s^2, standard acceleration
 _RESERVED = ("responses", "road", "speed")  # keywords of functions that take struts by name
 _SAME_PLACE = 1e-3  # m
+_NOTHING = 1e-9  # of the largest share, rounding
 _NONE: FrozenMapping[Any, Any] = FrozenMapping({})
 
 
 def label(response: ResponseName) -> str:
     """Return the name of a response as a signal of python-control, without dots."""
-    point = _point_of(response)
+    point = response_point(response)
     return str(response) if point is None else "acceleration_at_{}_{}_mm".format(*(round(1e3 * x) for x in point))
 
 
-def _point_of(response: ResponseName) -> Position | None:
+def response_point(response: ResponseName) -> Position | None:
+    """Return the point of the body of an acceleration that is given by its place."""
     if isinstance(response, tuple) and len(response) == 3 and response[0] == "acceleration":
         return float(response[1]), float(response[2])
     return None
+
+
+def point_of(body: str, position: Position) -> Position | BodyPoint:
+    """Return a point of a body, `position` from its centre of gravity."""
+    return position if body == "body" else (body, *position)
+
+
+def turning(body: str, motion: str) -> str:
+    """Return the coordinate of the ``pitch`` or ``roll`` of a body."""
+    return motion if body == "body" else f"{body}_{motion}"
+
+
+def turns(coordinate: End) -> bool:
+    """Whether a coordinate is an angle."""
+    return isinstance(coordinate, str) and coordinate.rpartition("_")[2] in ("pitch", "roll")
 
 
 def joined(*parts: str) -> str:
@@ -102,8 +119,8 @@ class Network(NamedTuple):
 class Assembly(Record):
     """The masses and links of a vehicle; coordinates and wheels by name."""
 
-    masses: Mapping[str, float] = field(metadata=unit("kg"))  # that move vertically, ``body`` at its centre
-    inertias: Mapping[str, float] = _NONE  # ``pitch``, ``roll`` [kg m^2] and elastic modes, of modal mass 1 [-]
+    masses: Mapping[str, float] = field(metadata=unit("kg"))  # that move vertically, bodies at their centres
+    inertias: Mapping[str, float] = _NONE  # ``pitch``, ``cab_roll`` [kg m^2]; elastic modes of modal mass 1 [-]
     contacts: Mapping[str, Position] = field(metadata=unit("m"))  # where each tyre touches ``<tyre>_road``
     tyres: tuple[Link, ...]  # from their roads to wheels; a contact without one has a strut on its road
     struts: tuple[Link, ...]
@@ -112,7 +129,8 @@ class Assembly(Record):
     networks: tuple[Network, ...] = ()
     supports: tuple[Link, ...] = ()  # further springs and dampers, the same for every design
     bending: Mapping[Position, Mapping[str, float]] = _NONE  # by point, its share of each mode [kg^-1/2]
-    payload: tuple[tuple[float, Position], ...] = ()  # masses [kg] fixed to points of the body
+    payload: tuple[tuple[float, Position | BodyPoint], ...] = ()  # masses [kg] fixed to points of bodies
+    joints: tuple[tuple[End, End], ...] = ()  # ends of equal displacement
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
@@ -126,7 +144,7 @@ class Assembly(Record):
             raise ValueError(f"tyres must be {names}, each from its road, got {self.tyres}")
         check_strut_names("struts", (strut.name for strut in self.struts))
         for end in (*(end for strut in self.struts for end in strut[1:3]), *(place for _, place in self.payload)):
-            if isinstance(end, tuple):
+            if isinstance(end, tuple) and len(end) == 2:
                 self._bending_at(end)
 
     @cached_property
@@ -135,15 +153,52 @@ class Assembly(Record):
         return tuple(joined(tyre, "road") for tyre in self.contacts)
 
     @cached_property
-    def coordinates(self) -> tuple[str, ...]:
-        """Names of the coordinates."""
+    def movements(self) -> tuple[str, ...]:
+        """Names of all masses and inertias."""
         return (*self.masses, *self.inertias)
+
+    @cached_property
+    def coordinates(self) -> tuple[str, ...]:
+        """Names of the coordinates: of the movements those that no joint determines from the others."""
+        return tuple(name for name, row in zip(self.movements, self._determined, strict=True) if not row)
+
+    @cached_property
+    def inertia(self) -> Real:
+        """Mass or inertia of each of the movements (m,), payload included."""
+        inertia = np.array([*self.masses.values(), *self.inertias.values()], dtype=float)
+        return frozen_array(inertia + sum(mass * self._shares(place) ** 2 for mass, place in self.payload))
+
+    @cached_property
+    def displacements(self) -> Real:
+        """Movements by unit of each coordinate (m, n)."""
+        return frozen_array(self._reduction[0])
+
+    @property
+    def _determined(self) -> list[bool]:
+        """Whether joints determine each of the movements."""
+        return self._reduction[1]
+
+    @cached_property
+    def _reduction(self) -> tuple[Real, list[bool]]:
+        """`displacements` by elimination of a movement per joint, massless ones first, and the eliminated."""
+        reduction, free = np.eye(len(self.movements)), np.ones(len(self.movements), dtype=bool)
+        massless = np.array([*self.masses.values(), *self.inertias.values()]) == 0
+        turning = np.arange(len(self.movements)) >= len(self.masses)
+        for one, other in self.joints:
+            row = (self._shares(one) - self._shares(other)) @ reduction
+            can = free & (np.abs(row) > _NOTHING * max(1.0, np.abs(row).max()))
+            if not can.any():
+                raise ValueError(f"joints must each hold a movement that is free, got {one} and {other}")
+            last = max(np.flatnonzero(can), key=lambda i: (massless[i], not turning[i], i))
+            reduction -= np.outer(reduction[:, last], row / row[last])
+            reduction[:, last], free[last] = 0.0, False
+        return reduction[:, free], (~free).tolist()
 
     @cached_property
     def meanings(self) -> Mapping[str, Response]:
         """Meaning of every response by name: `responses`, then others of coordinates, struts and tyres."""
         wheels, further = [tyre.upper for tyre in self.tyres], dict[str, Response]()
-        for end in (*self.masses, *(name for name in ("pitch", "roll") if name in self.inertias)):
+        for end in (*self.masses, *sorted(filter(turns, self.inertias))):
             kinds = ("displacement", "velocity", "acceleration", *(("jerk",) if end not in wheels else ()))
             further |= {f"{end}_{kind}": Response(kind, end) for kind in kinds}
         for strut in self.struts:
@@ -157,6 +212,8 @@ class Assembly(Record):
     def mass_matrix(self) -> Real:
         """Masses and inertias (n, n) of the coordinates, payload included."""
         matrix = np.diag(np.array([*self.masses.values(), *self.inertias.values()], dtype=float))
+        if self.joints:
+            matrix = self.displacements.T @ matrix @ self.displacements
         for mass, position in self.payload:
             matrix += mass * np.outer(self.shape(position), self.shape(position))
         return frozen_array(matrix)
@@ -164,7 +221,7 @@ class Assembly(Record):
     @cached_property
     def weights(self) -> Real:
         """Mass that loads each coordinate by gravity (n,): kg, or kg m of one that turns the body."""
-        weights = np.array([self.masses.get(name, 0.0) for name in self.coordinates])
+        weights = np.array([self.masses.get(name, 0.0) for name in self.movements]) @ self.displacements
         return frozen_array(weights + sum(mass * self.shape(position) for mass, position in self.payload))
 
     @cached_property
@@ -175,21 +232,27 @@ class Assembly(Record):
     @property
     def sprung_mass(self) -> float:
         """Mass carried by the wheels, payload included [kg]."""
-        wheels = [tyre.upper for tyre in self.tyres]
+        wheels = [tyre.upper[0] if isinstance(tyre.upper, tuple) else tyre.upper for tyre in self.tyres]
         return sum(m for name, m in self.masses.items() if name not in wheels) + sum(m for m, _ in self.payload)
 
     def shape(self, end: End) -> Real:
         """Return the share (n,) of each coordinate in the displacement of an end."""
+        return np.asarray(self._shares(end) @ self.displacements) if self.joints else self._shares(end)
+
+    def _shares(self, end: End) -> Real:
+        """Return the share (m,) of each of the movements in the displacement of an end."""
         shares: Mapping[str, float] = {}
         if isinstance(end, str):
             shares = {end: 1.0}
         elif end is not None:
-            shares = {"body": 1.0, "pitch": -end[0], "roll": end[1], **self._bending_at(end)}
-        return np.array([shares.get(name, 0.0) for name in self.coordinates])
+            body, x, y = end if len(end) == 3 else ("body", *end)
+            shares = {body: 1.0, turning(body, "pitch"): -x, turning(body, "roll"): y}
+            shares |= self._bending_at((x, y)) if body == "body" else {}
+        return np.array([shares.get(name, 0.0) for name in self.movements])
 
     def acceleration_of(self, name: ResponseName) -> Real:
         """Return the share (n,) of the acceleration of each coordinate in a response."""
-        if point := _point_of(name):
+        if point := response_point(name):
             return self.shape(point)
         kind, where = self.meanings[str(name)]
         return self.shape(where if kind == "acceleration" else None)
@@ -208,66 +271,3 @@ class Assembly(Record):
         by_road = [[-float(link.lower == road) for road in self.roads] for link in links]
         shape = len(links), len(self.coordinates)
         return np.reshape(by_coordinate, shape), np.reshape(by_road, (len(links), len(self.roads)))
-
-    def plant(self, responses: Sequence[ResponseName]) -> control.StateSpace:
-        """Return the vehicle without its struts; `Vehicle.plant` names the inputs and outputs.
-
-        With coordinates z, roads x and tensions F of struts, links extend by E z + R x and struts by P z. The
-        masses M move by ``M z'' = -E^T (k (E z + R x) + c (E z' + R x')) - P^T F``; of struts on a road, -S x too.
-        """
-        checks.listed("responses", responses)
-        n, r, q = len(self.coordinates), len(self.roads), len(self.struts)
-        motion, tension = self._motion()
-        rows = {label(name): self._row(name, motion, tension) for name in responses}
-        if len(rows) < len(responses):
-            raise ValueError(
-                f"responses must differ, points by a millimetre or more, got {checks.shown(list(responses))}"
-            )
-        p, s = self.elongations(self.struts)
-        columns = np.eye(2 * n + 2 * r + q)
-        z, rate, x, x_rate = np.split(columns[: 2 * (n + r)], [n, 2 * n, 2 * n + r])
-        ports = p @ z + s @ x, p @ rate + s @ x_rate
-        moved, read = np.vstack([rate, motion]), np.vstack([*rows.values(), *ports])
-        damped = tension[: len(self.tyres), 2 * n + r : 2 * n + 2 * r].any() or s.any()
-        kept = np.delete(np.arange(2 * n, 2 * n + 2 * r + q), [] if damped else slice(r, 2 * r))
-        states = np.arange(2 * n).reshape(2, n).T.ravel()  # a coordinate and its rate beside each other
-        matrices = moved[np.ix_(states, states)], moved[np.ix_(states, kept)], read[:, states], read[:, kept]
-        labels = [f"{name}_{what}" for name in self.coordinates for what in ("displacement", "velocity")]
-        rates = [f"{road}_rate" for road in self.roads if damped]
-        inputs = [*self.roads, *rates, *(joined(strut.name, "strut") for strut in self.struts)]
-        names = [joined(strut.name, end) for end in ("deflection", "deflection_rate") for strut in self.struts]
-        return control.ss(*matrices, states=labels, inputs=inputs, outputs=[*rows, *names], name="plant")
-
-    def _motion(self) -> tuple[Real, Real]:
-        """Accelerations (n, c) and tensions of tyres and supports (l, c) by z, z', x, x' and F, c in all."""
-        links = [*self.tyres, *self.supports]
-        e, road = self.elongations(links)
-        p, _ = self.elongations(self.struts)
-        k, c = (np.array([getattr(link, name) for link in links])[:, None] for name in ("stiffness", "damping"))
-        tension = np.hstack([k * e, c * e, k * road, c * road])
-        inverse = np.linalg.inv(self.mass_matrix).astype(float)
-        return -inverse @ np.hstack([e.T @ tension, p.T]), np.pad(tension, ((0, 0), (0, len(p))))
-
-    def _row(self, name: ResponseName, motion: Real, tension: Real) -> Real:
-        """Return a response (c,) by the columns of `_motion`; ValueError if the plant does not have it."""
-        if point := _point_of(name):
-            return np.asarray(self.shape(point) @ motion)
-        checks.one_of("response", name, self.meanings)
-        kind, where = self.meanings[str(name)]
-        if kind == "jerk":
-            raise ValueError(f"response must be one of a plant, of closed(responses=[...]) a jerk too, got {name}")
-        n, r, columns = len(motion), len(self.roads), np.eye(motion.shape[1])
-        displacement, velocity, x, x_rate = np.split(columns[: 2 * (n + r)], [n, 2 * n, 2 * n + r])
-        if kind in ("displacement", "velocity", "acceleration"):
-            moved = {"displacement": displacement, "velocity": velocity, "acceleration": motion}[kind]
-            return np.asarray(self.shape(where) @ moved)
-        if kind == "load":
-            tyre = sum(tension[i] for i, link in enumerate(self.tyres) if link.name == where)
-            return np.asarray(tyre + self.standing[list(self.contacts).index(str(where))] @ columns[2 * (n + r) :])
-        links = self.struts if kind in ("travel", "travel_rate", "strut_force") else self.tyres
-        index = [link.name for link in links].index(str(where))
-        if kind == "strut_force":
-            return columns[index - len(self.struts)]
-        by_coordinate, by_road = self.elongations(links)
-        moved, road = (velocity, x_rate) if kind == "travel_rate" else (displacement, x)
-        return np.asarray(by_coordinate[index] @ moved + by_road[index] @ road)

@@ -22,11 +22,13 @@ from .cars import FullCar, HalfCar, QuarterCar
 from .handling import RollGeometry
 from .mounted import FlexibleBody, Mounted, Part, Payload, Seat
 from .plant_files import PlantFile, read_plant
+from .rigid_bodies import RigidBodies
 from .strut_files import UNREAD
 from .vehicle import AssembledVehicle, Vehicle
 
 KINDS: dict[str, type[AssembledVehicle] | type[PlantFile]] = {
     "quarter-car": QuarterCar, "half-car": HalfCar, "full-car": FullCar, "plant": PlantFile,
+    "rigid-bodies": RigidBodies,
 }  # fmt: skip
 
 

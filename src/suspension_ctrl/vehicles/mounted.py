@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import checks
 from ..quantities import Checked, FrozenMapping, Record, unit
-from .assembly import Assembly, Link, Position, Response, check_strut_names
+from .assembly import Assembly, Link, Position, Response, check_strut_names, point_of
 from .networks import placed
 from .strut_files import STRUT
 from .struts import Damper, Spring, Strut, parallel
@@ -46,7 +46,7 @@ class Mounted(Record, AssembledVehicle):
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Seat(Part):
-    """A seat with its occupant: a mass on a spring and a damper of its own, on any vehicle.
+    """A seat with its occupant: a mass on a spring and a damper of its own, on any vehicle or on another seat.
 
     Its responses are ``<name>_acceleration`` and ``<name>_suspension_travel``; ``<name>.spring`` and
     ``<name>.damper`` are coefficients of a strut, with these values as defaults.
@@ -64,6 +64,8 @@ class Seat(Part):
         mode shapes.
     name : str
         Letters, digits and underscores; none that the vehicle has already.
+    stands_on : str
+        Body, or seat, by name.
 
     Examples
     --------
@@ -90,6 +92,7 @@ class Seat(Part):
     position: Position = field(default=(0.0, 0.0), metadata=unit("m"))
     name: str = "seat"
     strut: Strut | None = field(default=None, metadata=STRUT)
+    stands_on: str = "body"
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -107,7 +110,8 @@ class Seat(Part):
         """Return the vehicle with this seat on it."""
         coefficients = (one.name.split(".")[0] for one in assembly.strut_coefficients)
         struts = [strut.name for strut in assembly.struts]
-        if self.name in {"pitch", "roll", *assembly.coordinates, *assembly.roads, *struts, *coefficients}:
+        checks.one_of("stands_on", self.stands_on, assembly.masses)
+        if self.name in {"pitch", "roll", *assembly.movements, *assembly.roads, *struts, *coefficients}:
             raise ValueError(f"name must be one that the vehicle does not have yet, got {checks.shown(self.name)}")
         padded = [replace(p, gain=np.pad(p.gain, (0, 1))) for p in assembly.strut_coefficients]
         strut = self.strut or parallel(Spring(value=self.spring), Damper(value=self.damper))
@@ -118,7 +122,7 @@ class Seat(Part):
         return replace(
             assembly,
             masses={**assembly.masses, self.name: self.mass},
-            struts=(*assembly.struts, Link(self.name, self.position, self.name)),
+            struts=(*assembly.struts, Link(self.name, point_of(self.stands_on, self.position), self.name)),
             strut_coefficients=(*padded, *own),
             networks=(*others, *networks),
             responses={**assembly.responses, **responses},
@@ -136,6 +140,8 @@ class Payload(Part):
     position : (float, float)
         Place from the centre of gravity of the unladen body, x forward and y to the left [m]; coordinates of the
         body stay those of this point.
+    stands_on : str
+        Body by name.
 
     Examples
     --------
@@ -152,6 +158,7 @@ class Payload(Part):
 
     mass: float = field(metadata=unit("kg"))
     position: Position = field(default=(0.0, 0.0), metadata=unit("m"))
+    stands_on: str = "body"
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -159,7 +166,9 @@ class Payload(Part):
 
     def added_to(self, assembly: Assembly) -> Assembly:
         """Return the vehicle with this load on it."""
-        return replace(assembly, payload=(*assembly.payload, (self.mass, self.position)))
+        checks.one_of("stands_on", self.stands_on, assembly.masses)
+        place = point_of(self.stands_on, self.position)
+        return replace(assembly, payload=(*assembly.payload, (self.mass, place)))
 
 
 @dataclass(frozen=True)
@@ -238,7 +247,7 @@ class FlexibleBody(Part):
         if assembly.bending:
             raise ValueError(f"vehicle must have a rigid body, got one with modes at {list(assembly.bending)}")
         names = [f"bending_{i + 1}" for i in range(len(self.frequencies))]
-        if taken := set(names) & set(assembly.coordinates):
+        if taken := set(names) & set(assembly.movements):
             raise ValueError(f"vehicle must have nothing called {', '.join(names)}, got {', '.join(taken)}")
         omega = 2 * np.pi * np.asarray(self.frequencies, dtype=float)
         damping = 2 * omega * np.asarray(self.damping_ratios, dtype=float)

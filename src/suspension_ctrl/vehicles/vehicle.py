@@ -17,6 +17,7 @@ from .assembly import Assembly, Network, Position, Response, ResponseName, Strut
 from .feedback import Dynamics, System, gains_by_order, selected, with_rates
 from .handling import Mechanics
 from .modes import modes_of
+from .motion import plant_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -212,7 +213,7 @@ class AssembledVehicle(Vehicle):
 
     def plant(self, responses: Sequence[ResponseName] | None = None) -> control.StateSpace:
         """Return the vehicle without its struts, see `Vehicle.plant`."""
-        return self.assembly.plant(self.responses if responses is None else responses)
+        return plant_of(self.assembly, self.responses if responses is None else responses)
 
 
 def assembled(vehicle: Vehicle) -> AssembledVehicle:

@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 from ... import checks
 from ...quantities import signal_unit
-from ...vehicles.assembly import Position, ResponseName, label
+from ...vehicles.assembly import Position, ResponseName, label, turns
 from ...vehicles.vehicle import Vehicle, assembled
 from ..load_case import LoadCase
 from ..weightings import Weighting
@@ -47,7 +47,7 @@ class AccelerationMeasure(PlacedMeasure):
         if not isinstance(self.where, str):
             return ("acceleration", *self.where)
         known = ((name, vehicle.meanings[name]) for name in vehicle.responses)
-        vertical = [r for r, m in known if m.kind == "acceleration" and m.where not in ("pitch", "roll")]
+        vertical = [r for r, m in known if m.kind == "acceleration" and not turns(m.where)]
         if (name := f"{self.where or 'body'}_acceleration") not in vertical:
             places = ", ".join(r.removesuffix("_acceleration") for r in vertical)
             got = checks.shown(self.where)
