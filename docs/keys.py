@@ -252,8 +252,8 @@ def page() -> str:
     """Return the page."""
     parts = [HEAD, "## Vehicles\n"]
     parts += [table(f'`kind = "{kind}"`', record) for kind, record in VEHICLES.items()]
-    parts += [table("`[[contacts]]` of a plant", Contact)]
     parts += [RIGID_BODIES, *(table(f"`[[{name}]]`", record) for name, record in PARTS.items())]
+    parts += [table("`[[contacts]]` of a plant", Contact)]
     parts += [table("Beside them, of every vehicle", VehicleDocument), table("`[[seats]]`", Seat)]
     parts += [table("`[flexible_body]`", FlexibleBody), table("`[[flexible_body.shapes]]`", Shape)]
     parts += [table("`[roll_geometry]`", RollGeometry), LAYOUTS]

@@ -30,7 +30,7 @@ def test_every_unit_of_a_key_can_be_typed(checkout):
 def test_the_pages_vehicle_is_read_and_its_mistakes_are_said(checkout, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     page = (checkout / "docs/files.md").read_text(encoding="utf-8")
-    (text, _), (said,) = (re.findall(rf"```{kind}\n(.*?)```", page, re.DOTALL) for kind in ("toml", "text"))
+    (text, *_), (said,) = (re.findall(rf"```{kind}\n(.*?)```", page, re.DOTALL) for kind in ("toml", "text"))
     (tmp_path / "van.toml").write_text(text)
     file = load_vehicle("van.toml")
     assert (file.vehicle.body_mass, file.vehicle.cg_to_front, file.setting["front.spring"]) == (1100.0, 1.3, 28e3)
@@ -47,9 +47,22 @@ def test_the_pages_vehicle_is_read_and_its_mistakes_are_said(checkout, tmp_path,
     assert f"{error.value}\n" == said
 
 
+def test_the_pages_lorry_is_read(checkout, tmp_path):
+    page = (checkout / "docs/files.md").read_text(encoding="utf-8")
+    _, lorry, _ = re.findall(r"```toml\n(.*?)```", page, re.DOTALL)
+    (tmp_path / "lorry.toml").write_text(lorry)
+    file = load_vehicle(tmp_path / "lorry.toml")
+    assert file.vehicle.assembly.coordinates == (
+        *("frame", "cab", "front_wheel", "rear_wheel"),
+        *("frame_pitch", "cab_pitch"),
+    )
+    assert file.setting["mount.spring"] == 50e3
+    assert "driver_acceleration" in file.vehicle.responses
+
+
 def test_the_pages_strut_is_that_of_a_vehicle(checkout, tmp_path):
     page = (checkout / "docs/files.md").read_text(encoding="utf-8")
-    van, strut = re.findall(r"```toml\n(.*?)```", page, re.DOTALL)
+    van, _, strut = re.findall(r"```toml\n(.*?)```", page, re.DOTALL)
     linear = [line for line in van.splitlines() if not line.startswith("front.damper")]
     (tmp_path / "van.toml").write_text("\n".join([*linear, strut]))
     file = load_vehicle(tmp_path / "van.toml")

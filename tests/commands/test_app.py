@@ -111,7 +111,7 @@ BAD = [
     (["--vehicle", "no.toml"], "No such file or directory: 'no.toml'", 1),
     (
         ["--vehicle", "bad.toml"],
-        "bad.toml:1: kind must be one of quarter-car, half-car, full-car, got 'sledge'",
+        "bad.toml:1: kind must be one of quarter-car, half-car, full-car, plant, rigid-bodies, got 'sledge'",
         2,
     ),
     (["--road", "c"], "road must be a class of ISO 8608 such as C, C-lower or C-upper, or the path of a ", 2),

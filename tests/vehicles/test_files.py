@@ -325,7 +325,7 @@ def test_keys_end_in_their_units(unit, key):
         (changed(QUARTER, "2e4", "0"), r"struts.spring_N_per_m must be finite and > 0 N/m, got 0.0"),
         (
             changed(QUARTER, "quarter", "third"),
-            "kind must be one of quarter-car, half-car, full-car, plant, got 'third-car'",
+            "kind must be one of quarter-car, half-car, full-car, plant, rigid-bodies, got 'third-car'",
         ),
         (changed(QUARTER, '"quarter-car"', "[1]"), r"kind must be one of .* got \[1\]"),
         (changed(QUARTER, '"b"', '" "'), "source must be a text, got ' '"),
@@ -338,7 +338,7 @@ def test_keys_end_in_their_units(unit, key):
         (QUARTER + "x = \ny = 1", r"the file must be TOML in UTF-8, got Invalid value \(at line 11, column 5\)"),
         (QUARTER.encode() + b"\xff", "the file must be TOML in UTF-8, got another encoding"),
         (b"\xff\xfe\x00", "the file must be TOML in UTF-8, got another encoding"),
-        ("", "kind must be one of quarter-car, half-car, full-car, plant, got None"),
+        ("", "kind must be one of quarter-car, half-car, full-car, plant, rigid-bodies, got None"),
         (
             QUARTER + "[bounds]\nspring_N_per_m = 3",
             "bounds.spring_N_per_m must be an array of two numbers, got 3",

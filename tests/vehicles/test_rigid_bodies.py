@@ -195,7 +195,8 @@ def test_a_pin_without_force_cuts_the_truck():
     both = RigidBodies(
         bodies=[RigidBody(mass=1e3, pitch_inertia=1.5e3), RigidBody(name="beam", mass=0.0)],
         wheels=[
-            Wheel(name=name, position=(x, 0.0), mass=50.0, tyre_stiffness=2e5) for name, x in {"a": 1.2, "b": -1.4}.items()
+            Wheel(name=name, position=(x, 0.0), mass=50.0, tyre_stiffness=2e5)
+            for name, x in {"a": 1.2, "b": -1.4}.items()
         ],
         suspensions=[Suspension(name="a"), Suspension(name="b")],
         joints=[joint],

@@ -108,7 +108,7 @@ class RigidBodies(Checked, AssembledVehicle):
     >>> setting = {"front": (400e3, 10e3), "rear": (1e6, 20e3), "trailer": (2e6, 40e3)}
     >>> table = sc.ride(truck, setting, sc.Iso8608Road("B"), speed=20.0, measures=["ACC", "ACC trailer"])
     >>> table["value"].head(2).round(2).to_list()
-    [0.62, 0.4]
+    [0.44, 0.45]
     """
 
     bodies: tuple[RigidBody, ...] = field(metadata=_NAMED)
