@@ -31,9 +31,9 @@ def ride(
 ) -> None:
     """Print the ride, the modes and the springs of one vehicle.
 
-    The vehicle is from a file, with its own struts, or a quarter car with given masses, tyre, spring and damper; of
-    a plant the ride alone. Writes ride.csv, modes.csv, springs.csv and, of force laws, laws.csv to a folder; its path is the last line
-    printed.
+    The vehicle is from a file, with its own struts, or a quarter car with given masses, tyre, spring and
+    damper; of a plant the ride alone. Writes ride.csv, modes.csv, springs.csv and, of force laws, laws.csv to
+    a folder; its path is the last line printed.
     """
     from ..paper import experiment as paper
     from ..response.linearisation import linearised
