@@ -1,4 +1,7 @@
 from .response.certifying import certify as certify
+from .response.correlation import Correlation as Correlation
+from .response.correlation import correlate as correlate
+from .response.correlation import correlation_figure as correlation_figure
 from .response.driving import simulate as simulate
 from .response.files import load_problem as load_problem
 from .response.files import save_problem as save_problem
