@@ -100,12 +100,19 @@ def within(name: str, value: float, lowest: float, highest: float) -> None:
         raise ValueError(f"{name} must be a number from {lowest} to {highest}, got {shown(value)}")
 
 
-def interval(name: str, value: ArrayLike, unit: str, *, equal: bool = False) -> None:
-    """Raise ValueError unless `value` is a pair of finite numbers, 0 <= lower < upper, or <= if `equal`."""
+def interval(name: str, value: ArrayLike, unit: str, *, equal: bool = False, signed: bool = False) -> None:
+    """Raise ValueError unless `value` is a pair of finite numbers, 0 <= lower < upper, or <= if `equal`.
+
+    A `signed` lower one may be below 0.
+    """
     pair = list(value) if isinstance(value, Sequence | np.ndarray) else []
-    real = len(pair) == 2 and all(map(_is_real, pair)) and 0 <= pair[0] <= pair[1] <= _LARGEST
+    real = (
+        len(pair) == 2
+        and all(map(_is_real, pair))
+        and (-_LARGEST if signed else 0) <= pair[0] <= pair[1] <= _LARGEST
+    )
     if not real or (pair[0] == pair[1] and not equal):
-        needed = f"0 <= lower {'<=' if equal else '<'} upper"
+        needed = f"{'' if signed else '0 <= '}lower {'<=' if equal else '<'} upper"
         raise ValueError(f"{name} must be finite with {needed} [{unit}], got {shown(value)}")
 
 

@@ -29,11 +29,11 @@ def test_bounds_by_name_keep_their_order_and_one_side_may_be_replaced():
     [
         ({}, (), (), {}, "bounds must hold one coefficient at least, got none"),
         (
-            {"tyre_stiffness": (1, 2)},
+            {"tyre": (1, 2)},
             (),
             (),
             {},
-            "bounds must be one of spring, damper, coefficients of struts, got ",
+            "bounds must be one of spring, damper, tyre_stiffness, ",
         ),
         (
             {"damper": (2e3, 1e3)},

@@ -75,6 +75,16 @@ RATES = (
 )  # fmt: skip
 FRONT, REAR = {"front": (2e4, 1500.0)}, {"rear": (2e4, 1500.0)}
 KNOWN = "front.spring, front.damper, rear.spring, rear.damper"
+HALF_VARIES = (
+    f"{KNOWN}, front_tyre_stiffness, rear_tyre_stiffness, front_tyre_damping, rear_tyre_damping, body_mass, "
+    "front_wheel_mass, rear_wheel_mass, pitch_inertia, front.installation_ratio, rear.installation_ratio, "
+    "front.ride_frequency, front_wheel_hop_frequency, front.damping_ratio, "
+    "rear.ride_frequency, rear_wheel_hop_frequency, rear.damping_ratio"
+)
+QUARTER_VARIES = (
+    "spring, damper, tyre_stiffness, tyre_damping, wheel_mass, body_mass, installation_ratio, "
+    "ride_frequency, wheel_hop_frequency, damping_ratio"
+)
 
 
 @pytest.mark.parametrize(
@@ -86,17 +96,17 @@ KNOWN = "front.spring, front.damper, rear.spring, rear.damper"
         (HALF, (FRONT,), REAR, "setting must be one mapping or keywords, got both and rear"),
         (HALF, (3.0,), {}, "setting must be a mapping of values by name, got 3.0"),
         (HALF, ("front",), {}, "setting must be a mapping of values by name, got 'front'"),
-        (HALF, ((1.0, 2.0),), {}, f"setting must be one of {KNOWN}, got 'spring'"),
+        (HALF, ((1.0, 2.0),), {}, f"setting must be one of {HALF_VARIES}, got 'spring'"),
         (HALF, (FRONT | {"rear": (2e4,)},), {},
          "setting must have two numbers, spring and damper, for rear, got (20000.0,)"),
         (HALF, (FRONT | {"front.damper": 1.0},), {},
          "setting must have each coefficient once, got front.damper twice"),
         (HALF, (FRONT | {"rear": (2e4, 0.0)},), {}, "rear.damper must be finite and > 0 N s/m, got 0.0"),
-        (HALF, (FRONT | {"rear": "x"},), {}, f"setting must be one of {KNOWN}, got 'rear'"),
+        (HALF, (FRONT | {"rear": "x"},), {}, f"setting must be one of {HALF_VARIES}, got 'rear'"),
         (HALF, (FRONT | REAR | {"middle": (1.0, 1.0)},), {},
-         f"setting must be one of {KNOWN}, got 'middle.spring'"),
+         f"setting must be one of {HALF_VARIES}, got 'middle.spring'"),
         (HALF, (FRONT | REAR | {"front_antiroll": 1e4},), {},
-         f"setting must be one of {KNOWN}, got 'front_antiroll'"),
+         f"setting must be one of {HALF_VARIES}, got 'front_antiroll'"),
         (FULL, (FRONT | REAR | {"front_antiroll": -1.0},), {},
          "front_antiroll must be finite and >= 0 N m/rad, got -1.0"),
         (DRIVER.on(FULL), (FRONT | REAR | {"driver.spring": 0.0},), {},
@@ -105,7 +115,7 @@ KNOWN = "front.spring, front.damper, rear.spring, rear.damper"
         (QUARTER, (22e3, 0.0), {}, "damper must be finite and > 0 N s/m, got 0.0"),
         (QUARTER, (), {"spring": -1.0, "damper": 1.0}, "spring must be finite and > 0 N/m, got -1.0"),
         (QUARTER, ({"spring": 1.0},), {"road": 3}, "setting must be one mapping or keywords, got both and road"),
-        (QUARTER, (), {"speed": 3}, "setting must be one of spring, damper, got 'speed'"),
+        (QUARTER, (), {"speed": 3}, f"setting must be one of {QUARTER_VARIES}, got 'speed'"),
     ],
 )  # fmt: skip
 def test_rejects_settings_that_do_not_fit(car, arguments, keywords, message):

@@ -45,8 +45,11 @@ def ride(
     masses = {"body_mass": body_mass, "wheel_mass": wheel_mass, "tyre_stiffness": tyre_stiffness}
     title, car, own = chosen_vehicle(vehicle, masses, allow_outside)
     strut = given({"spring": spring, "damper": damper})
+    known = car.variables
+    asked = {**o.by_name("setting", setting or "", {name: one.unit for name, one in known.items()}), **strut}
+    replaced = [getattr(known.get(name), "replaces", None) for name in asked]
+    car, values = car.at({**{name: value for name, value in own.items() if name not in replaced}, **asked})
     units = {one.name: one.unit for one in car.strut_coefficients}
-    values = car.coefficients({**own, **o.by_name("setting", setting or "", units), **strut})
     problem, _ = paper.chosen(None, road, speed, allow_outside=allow_outside, **o.settings(weighting, band))
     case, (low, high) = LoadCase(vehicle=car, road=problem.road, speed=problem.speed), problem.band
     table = ride(car, values, case.road, speed=case.speed, weighting=problem.weighting, band=problem.band)

@@ -100,16 +100,17 @@ def certify(
     checks.rows_within("design", x, problem.lower, problem.upper)
     roads = _Roads(float(length), _checked_seeds(seeds), lift_off)
     _check_length(problem, length)
+    variables, (problem, values) = problem.variables, problem.without_parameters(x[0])
     measures = _measures(problem)
     scores = problem.scores_of([Score(problem.in_cases(one), problem.worst_case, one.sign) for one in measures])
-    found = [_found(problem, scores, c, x[0], roads) for c in range(len(problem.cases))]
+    found = [_found(problem, scores, c, values, roads) for c in range(len(problem.cases))]
     rows = [row for c, values in enumerate(found) for row in _rows(str(c + 1), measures, scores.scores, values)]
     if len(found) > 1:
         rows += _rows_over_cases(problem, measures, scores, found)
     number = len(roads.seeds)
     return Certificate(
         title=f"{number} random roads of {length / 1e3:g} km in each load case, simulated; 95 % intervals",
-        design=FrozenMapping(dict(zip(problem.variables, x[0].tolist(), strict=True))),
+        design=FrozenMapping(dict(zip(variables, x[0].tolist(), strict=True))),
         cases=tuple(f"share {case.share:g}: {case.describe()}" for case in problem.cases),
         rows=tuple(rows),
         limits=tuple(_verdict(limit, rows) for limit in problem.constraints),

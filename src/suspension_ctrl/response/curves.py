@@ -8,6 +8,7 @@ import pandas as pd
 
 from ..quantities import Complex, Real, signal_unit
 from ..vehicles.plants import Plant
+from ..vehicles.vehicle import coefficients_by_name
 from . import weightings
 from .linearisation import linear_at
 from .problem import RideProblem
@@ -37,9 +38,9 @@ def frequencies(band: tuple[float, float], points: int) -> Real:
 
 
 def setting_of(problem: RideProblem, design: Sequence[float]) -> dict[str, float]:
-    """Return all coefficients of the struts by name."""
+    """Return the values of a design by name, with those that do not vary."""
     varied = dict(zip(problem.variables, design, strict=True))
-    return problem.cases[0].vehicle.coefficients({**problem.struts, **varied})
+    return coefficients_by_name({**problem.struts, **varied}, {})
 
 
 def design_curves(

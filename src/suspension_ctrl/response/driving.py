@@ -159,17 +159,18 @@ def _drive_vehicle(
     start: float | None = None,
     lift_off: bool = False,
 ) -> "pd.DataFrame":
+    vehicle, setting = vehicle.at(setting)
     names = list(vehicle.responses if responses is None else responses)
     if integrated(vehicle, lift_off):
         plain = vehicle.without_jerk(names)
-        motion = motion_of(vehicle, vehicle.coefficients(setting), plain, lift_off)
+        motion = motion_of(vehicle, setting, plain, lift_off)
         jerks = [name != one for name, one in zip(names, plain, strict=True)]
         labels = [label(name) for name in names]
         table = _integrated(motion, labels, profile, speed, vehicle.contact_points, periodic, start, jerks)
     else:
         closed = vehicle.closed(setting, responses=names)
         table = _drive(closed, profile, speed, vehicle.contact_points, periodic=periodic, start=start)
-    tell_lift_off(vehicle, vehicle.coefficients(setting), table, lift_off)
+    tell_lift_off(vehicle, setting, table, lift_off)
     return table
 
 

@@ -166,7 +166,7 @@ def save_problem(path: str | PathLike[str], problem: RideProblem) -> None:
     if any(case.events != problem.cases[0].events for case in problem.cases):
         raise ValueError("events must be the same in all load cases of a file, got others")
     vehicle, bounds, weighting = problem.cases[0].vehicle, problem.bounds, cast(str, problem.weighting)
-    order = [one.name for one in vehicle.strut_coefficients if one.name in bounds]
+    order = [name for name in vehicle.variables if name in bounds]
     if list(bounds) != order:
         raise ValueError(f"bounds must be in the vehicle's order, {', '.join(order)}, got {', '.join(bounds)}")
     problem = problem.replace(struts=coefficients_by_name(problem.struts, {}))

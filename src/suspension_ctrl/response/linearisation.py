@@ -128,10 +128,9 @@ def linearised(
     A {'damper': 3971}
     D {'damper': 1262}
     """
-    car = assembled(vehicle)
+    car, values = assembled(vehicle).at(setting)
     checks.interval("band", band, "Hz")
     case = LoadCase(vehicle=car, road=road, speed=speed)
-    values = car.coefficients(setting)
     squares = case_of(case, [Term(car.responses[0])], values, list(values), band, _NODES)
     if isinstance(squares, AnyCase):
         points = working_points(squares, np.array([list(values.values())]))
@@ -145,7 +144,7 @@ def linearised(
 def linear_at(case: LoadCase, setting: Setting, band: tuple[float, float]) -> tuple[Vehicle, Setting]:
     """Return the vehicle of a load case, its force laws linearised, and the setting with which it is closed."""
     if not has_force_laws(case.vehicle.networks):
-        return case.vehicle, setting
+        return case.vehicle.at(setting)
     return linearised(case.vehicle, setting, case.road, case.speed, band=band), {}
 
 

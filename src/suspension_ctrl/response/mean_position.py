@@ -114,6 +114,9 @@ def fill_positions(networks: Networks, values: Real, nodes: Real, d: Real, work:
             for j in range(q):
                 for k in range(q):
                     change[j, k] += values[i] * networks.gain[i, j, k]
+        elif networks.weight[i] != 0.0:
+            for j in range(q):
+                force[j] += networks.weight[i] * values[i] * networks.gain[i, j, j]
     for t in range(networks.ports.shape[0]):
         for j in range(q):
             if networks.ports[t, j]:

@@ -9,11 +9,14 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from ..quantities import Real
+from ..vehicles.varied import Varied
+from ..vehicles.vehicle import Vehicle
 from . import weightings
 from .any_struts import AnyStruts
 from .blocks import Pairs, Variables, in_blocks, pairs_of
 from .load_case import LoadCase
 from .many_struts import ManyStruts
+from .mapped import Mapped
 from .measures.terms import Term
 from .one_port import OnePort
 from .one_strut import OneStrut
@@ -22,7 +25,7 @@ from .quadrature import frequency_nodes
 from .strut_data import any_struts, networks_of
 
 AnyCase = OnePort | AnyStruts
-Case = OneStrut | ManyStruts | AnyCase
+Case = OneStrut | ManyStruts | AnyCase | Mapped
 
 
 def cases_of(
@@ -35,7 +38,17 @@ def cases_of(
 ) -> tuple[Case, ...]:
     """Return `case_of` each load case, all of one class for compiled loops."""
     each, kind = zip(load_cases, terms, settings, strict=True), kind_of(load_cases, variables)
-    return tuple(case_of(*case, variables, band, nodes, kind=kind) for case in each)
+    return tuple(_mapped(case[0].vehicle, case_of(*case, variables, band, nodes, kind=kind)) for case in each)
+
+
+def _mapped(vehicle: Vehicle, case: Case) -> Case:
+    """Return a case over the variables of a vehicle."""
+    return Mapped(vehicle.formulas, case) if isinstance(vehicle, Varied) else case
+
+
+def varying(vehicle: Vehicle, variables: Sequence[str]) -> Sequence[str]:
+    """Return the coefficients that vary with the variables."""
+    return vehicle.varying if isinstance(vehicle, Varied) else variables
 
 
 def kind_of(load_cases: Sequence[LoadCase], variables: Sequence[str]) -> type[Case]:
@@ -45,7 +58,8 @@ def kind_of(load_cases: Sequence[LoadCase], variables: Sequence[str]) -> type[Ca
     if any(vehicle.networks for vehicle in vehicles):
         return OnePort if one_port else AnyStruts
     names = {tuple(one.name for one in vehicle.strut_coefficients) for vehicle in vehicles}
-    return OneStrut if one_port and names == {tuple(variables)} == {("spring", "damper")} else ManyStruts
+    own = {tuple(varying(vehicle, variables)) for vehicle in vehicles}
+    return OneStrut if one_port and names == own == {("spring", "damper")} else ManyStruts
 
 
 def case_of(
@@ -60,6 +74,7 @@ def case_of(
 ) -> Case:
     """Return the mean squares (k,) of terms over the variables (v,), around a setting in the middle of the box."""
     kind = kind or kind_of([load_case], variables)
+    variables = varying(load_case.vehicle, variables)
     weights = [term.weighting and weightings.by_name(term.weighting) for term in terms]
     kinks = {f for weighting in weights if weighting for f in weighting.breakpoints}
     f, w = frequency_nodes(band, nodes, kinks.union(load_case.breakpoints))

@@ -43,6 +43,7 @@ class Networks(NamedTuple):
     variable: Integer  # (v,), coefficient of each variable
     gain: Real  # (c, q, q), tensions of each coefficient at 1 by derivatives of its order
     order: Integer  # (c,)
+    weight: Real  # (c,), mean tension by a coefficient at 1 at its ports, of masses of payload [N]
     ports: Bool  # (t, q), where each network stands
     port: Integer  # (t,), the first of these
     compliance: Real  # (q, q), deflections by tensions at 0 Hz around nominal struts [m/N]

@@ -12,7 +12,9 @@ from numpy.typing import ArrayLike
 
 from .. import checks
 from ..quantities import FrozenMapping, Real, Record, wrapped
-from ..vehicles.vehicle import Struts, Vehicle
+from ..vehicles.altered import plain_values
+from ..vehicles.varied import ported, setting_of
+from ..vehicles.vehicle import Struts, Vehicle, coefficients_by_name
 from .bounds import checked_bounds
 from .load_case import LoadCase, Road, load_cases
 from .measures.limits import Limit
@@ -189,7 +191,7 @@ class RideProblem(Record):
     @cached_property
     def units(self) -> Mapping[str, str]:
         """Unit of each variable and each objective by name."""
-        units = {one.name: one.unit for one in self.cases[0].vehicle.strut_coefficients if one.name in self.bounds}
+        units = {name: one.unit for name, one in self.cases[0].vehicle.variables.items() if name in self.bounds}
         return FrozenMapping(units | {measure.label: measure.unit for measure in self.measures})
 
     @cached_property
@@ -288,12 +290,39 @@ class RideProblem(Record):
     def scores_of(self, scores: Sequence[Score]) -> Scores:
         """Return scores of designs in the load cases."""
         middle = {name: (low + high) / 2 for name, (low, high) in self.bounds.items()}
-        settings = [case.vehicle.coefficients({**self.struts, **middle}) for case in self.cases]
-        return Scores(self.cases, scores, settings, self.variables, self.band)
+        settings = [setting_of(case.vehicle, middle, self.struts) for case in self._ported]
+        return Scores(self._ported, scores, settings, self.variables, self.band)
 
     def in_cases(self, judged: Measure | Limit) -> tuple[CaseMeasure, ...]:
         """Return a measure or a limit in each load case."""
-        return tuple(judged.in_case(case, self.weighting) for case in self.cases)
+        return tuple(judged.in_case(case, self.weighting) for case in self._ported)
+
+    def without_parameters(self, design: Real) -> "tuple[RideProblem, Real]":
+        """Return the problem of coefficients alone at the parameters of a design (d,), and its coefficients there.
+
+        Every bound is the value itself; without parameters it is the problem as it is.
+        """
+        if all(one is given for one, given in zip(self._ported, self.cases, strict=True)):
+            return self, design
+        given = {
+            **coefficients_by_name(self.struts, {}),
+            **dict(zip(self.variables, design.tolist(), strict=True)),
+        }
+        values = plain_values(self.cases[0].vehicle, given)
+        every = [case.vehicle.at(values) for case in self.cases]
+        cases = [replace(case, vehicle=one) for case, (one, _) in zip(self.cases, every, strict=True)]
+        own = {name: float(values[name]) for name in every[0][1] if name in values}
+        bounds, nodes = {name: (value, value) for name, value in own.items()}, int(self.nodes)
+        plain = self.replace(cases=cases, bounds=bounds, struts={}, kinds={}, nodes=nodes)
+        return plain, np.array(list(own.values()))
+
+    @cached_property
+    def _ported(self) -> tuple[LoadCase, ...]:
+        """Load cases with ports on their vehicles for parameters that vary."""
+        fixed = coefficients_by_name(self.struts, {})
+        first = self.cases[0].vehicle
+        vehicles = [ported(case.vehicle, self.variables, fixed, first) for case in self.cases]
+        return tuple(replace(case, vehicle=one) for case, one in zip(self.cases, vehicles, strict=True))
 
     def _error(self, nodes: int) -> float:
         """Return the largest error of a term at corners of the box: there resonances are sharpest."""

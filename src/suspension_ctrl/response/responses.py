@@ -99,13 +99,13 @@ def ride(
 
     checks.interval("band", band, "Hz")
     checks.listed("measures", measures)
+    vehicle, setting = vehicle.at(setting)
     case = LoadCase(vehicle=vehicle, road=road, speed=speed, events=events or {})
     known = checked(weighting)
     judged = [measure_of(one) for one in measures]
     labels = {one.label for one in judged}
     judged += [RootSumSquare([Term(name)]) for name in vehicle.meanings if name not in labels]
     in_case = [one.in_case(case, known) for one in judged]
-    setting = vehicle.coefficients(setting)
     signed = [Score((found,), False, one.sign) for found, one in zip(in_case, judged, strict=True)]
     scores = Scores([case], signed, [setting], list(setting), band)
     design = np.array([list(setting.values())])

@@ -10,10 +10,12 @@ import numpy as np
 from ..compiled import call, compilable
 from ..quantities import Bool, Complex, Integer, Real
 from ..vehicles.feedback import gains_by_order
-from ..vehicles.vehicle import assembled
+from ..vehicles.varied import Varied
+from ..vehicles.vehicle import Vehicle, assembled
 from .linearisation import check_reached, linear_vehicles, powers_of_laws, working_points
 from .load_case import LoadCase
-from .mean_squares import AnyCase, Case, cases_of
+from .mapped import unmapped
+from .mean_squares import AnyCase, Case, cases_of, varying
 from .measures.terms import CaseMeasure, Designs, Term
 from .ports import Ports, dynamic_stiffness, paths
 from .quadrature import middles
@@ -95,7 +97,7 @@ class Kernel(NamedTuple):
 class Scores:
     """Scores of designs in load cases, at any number of quadrature nodes.
 
-    A setting for each case has all coefficients, of the `variables` a value in the middle of the range.
+    A setting for each case has all coefficients, of those that vary a value in the middle of the range.
     """
 
     def __init__(
@@ -221,29 +223,41 @@ class Scores:
 
     def _designs(self, c: int, designs: Real, kernel: Kernel, squares: Real) -> Designs:
         """Return designs (p, v) in a load case with the mean squares (p, k) of its terms."""
-        known = self.settings[c]
-        coefficients = np.tile(list(known.values()), (len(designs), 1))
-        coefficients[:, [list(known).index(name) for name in self.variables]] = designs
+        vehicle, (inner, linear) = self.cases[c].vehicle, unmapped(kernel.cases[c], designs)
+        coefficients = self._coefficients(c, linear)
 
         def mean_squares(terms: Sequence[Term]) -> Real:
             return np.asarray(squares[:, [self.terms[c].index(term.integral) for term in terms]])
 
         def mean_travels() -> Real:
-            case = kernel.cases[c]
-            if isinstance(case, AnyCase):
-                return working_points(case, designs).position
-            return np.zeros((len(designs), len(self.cases[c].vehicle.struts)))
+            if isinstance(inner, AnyCase):
+                return working_points(inner, linear).position
+            return np.zeros((len(designs), len(vehicle.struts)))
 
         def law_powers() -> Real:
-            case = kernel.cases[c]
-            if isinstance(case, AnyCase):
-                return powers_of_laws(case, working_points(case, designs))
-            return np.zeros((len(designs), len(self.cases[c].vehicle.struts)))
+            if isinstance(inner, AnyCase):
+                return powers_of_laws(inner, working_points(inner, linear))
+            return np.zeros((len(designs), len(vehicle.struts)))
 
         def spectra() -> Iterator[tuple[Real, Mapping[str, Real]]]:
-            return self._spectra(c, designs, coefficients, kernel.cases[c])
+            return self._spectra(c, linear, coefficients, inner)
 
-        return Designs(designs, coefficients, spectra, mean_squares, mean_travels, law_powers)
+        def vehicles() -> Iterator[tuple[Vehicle, Real]]:
+            if not isinstance(vehicle, Varied):
+                yield vehicle, coefficients
+                return
+            for design in designs:
+                own, setting = vehicle.with_design(design)
+                yield own, np.array([list(setting.values())])
+
+        return Designs(designs, coefficients, spectra, mean_squares, mean_travels, law_powers, vehicles)
+
+    def _coefficients(self, c: int, linear: Real) -> Real:
+        """Return all coefficients (p, c) of a load case by those that vary (p, w)."""
+        known, names = self.settings[c], varying(self.cases[c].vehicle, self.variables)
+        coefficients = np.tile(list(known.values()), (len(linear), 1))
+        coefficients[:, [list(known).index(name) for name in names]] = linear
+        return coefficients
 
     def _spectra(
         self, c: int, designs: Real, coefficients: Real, squares: Case

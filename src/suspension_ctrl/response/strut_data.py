@@ -11,6 +11,7 @@ from ..quantities import Bool, Complex, Integer, Real
 from ..vehicles.assembly import GRAVITY, Network, ResponseName
 from ..vehicles.networks import LAW, MEASURED, PARALLEL, SERIES, Program, elements_of
 from ..vehicles.struts import MeasuredStiffness
+from ..vehicles.varied import Varied
 from ..vehicles.vehicle import AssembledVehicle, Vehicle
 from .any_struts import AnyStruts
 from .blocks import Pairs, Variables, in_blocks
@@ -103,6 +104,7 @@ def networks_of(
         variable=np.array([names.index(name) for name in variables], dtype=np.int64),
         gain=np.array([by_name[name].gain for name in names]),
         order=np.array([by_name[name].order for name in names]),
+        weight=np.array([GRAVITY * (isinstance(vehicle, Varied) and name in vehicle.loading) for name in names]),
         ports=shares,
         port=shares.argmax(axis=1),
         compliance=np.zeros((q, q)),
@@ -117,7 +119,8 @@ def _statics(networks: Networks, vehicle: Vehicle, setting: Mapping[str, float],
     _, nodes = nominal_state(networks)
     added = np.diag(nodes[networks.root, STIFFNESS] @ networks.ports)
     nominal = np.tensordot(values * (networks.order == 0), networks.gain, 1) + added
-    if (slack := np.diag(nominal) <= 0).any():
+    own = vehicle.vehicle.struts if isinstance(vehicle, Varied) else vehicle.struts  # without ports of parameters
+    if (slack := np.diag(nominal)[: len(own)] <= 0).any():
         got = f"none at {vehicle.struts[int(slack.argmax())] or 'the wheel'}"
         raise ValueError(f"struts must have a spring that carries the vehicle, got {got}")
     lowest = 0.0

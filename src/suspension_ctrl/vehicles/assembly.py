@@ -98,6 +98,8 @@ class StrutCoefficient(Record):
     gain: Real  # (q, q), tension of each strut by a derivative of each deflection, at a coefficient of 1
     order: int  # of the derivative: 0 springs, 1 dampers, 2 inerters and masses
     default: float | None = None
+    prefix: str = ""  # of the names of its strut, ``front.``
+    ratio: float | None = None  # installation ratio of its strut as a whole, None of a bar
 
     def __post_init__(self) -> None:
         self._keep(gain=frozen_array(self.gain))

@@ -17,10 +17,11 @@ from ..schema.keys import BAD, KIND, Key, bad, keys_of
 from ..schema.reading import constructed, fields_named, kind_of, read
 from ..schema.writing import content, toml
 from ..tables import write_text
-from .assembly import StrutCoefficient
 from .cars import FullCar, HalfCar, QuarterCar
+from .frequencies import Derived
 from .handling import RollGeometry
 from .mounted import FlexibleBody, Mounted, Part, Payload, Seat
+from .parameters import Place
 from .plant_files import PlantFile, read_plant
 from .rigid_bodies import RigidBodies
 from .strut_files import UNREAD
@@ -233,18 +234,29 @@ def read_coefficients(
     given: Collection[str] = (),
     others: bool = False,
 ) -> dict[str, Any]:
-    """Return values by coefficient, in the vehicle's order; `given` ones need none, `others` may be there."""
-    keys = [_key(one, kind, one.name in given) for one in vehicle.strut_coefficients]
-    values = read(table.flat(), {one.key: one for one in keys}, mistakes, others)
+    """Return values by name in the order of `variables`; `given` ones need none, `others` may be there.
+
+    A coefficient needs none either if a frequency or a ratio stands in its place.
+    """
+    flat = table.flat()
+    given = [*given, *(one.replaces for one in vehicle.variables.values() if _replaces(one, flat.content))]
+    keys = [_key(one, kind, one.name in given) for one in vehicle.variables.values()]
+    values = read(flat, {one.key: one for one in keys}, mistakes, others)
     return {one.name: values[one.name] for one in keys if one.name in values}
 
 
-def _key(coefficient: StrutCoefficient, kind: Any, given: bool) -> Key:
-    optional = given or kind is not float or coefficient.default is not None
+def _replaces(variable: Any, keys: Collection[str]) -> bool:
+    """Whether a frequency or a ratio stands in place of a coefficient."""
+    names = {variable.name, key_of(variable.name, variable.unit)}
+    return isinstance(variable, Derived) and not names.isdisjoint(keys)
+
+
+def _key(coefficient: Any, kind: Any, given: bool) -> Key:
+    optional = given or kind is not float or coefficient.default is not None or isinstance(coefficient, Derived)
 
     def check(name: str, value: Any) -> None:
         if isinstance(value, tuple):
-            checks.interval(name, value, coefficient.unit, equal=True)
+            checks.interval(name, value, coefficient.unit, equal=True, signed=isinstance(coefficient, Place))
         coefficient.check(name, value[0] if isinstance(value, tuple) else value)
 
     name, unit = coefficient.name, coefficient.unit
@@ -254,7 +266,7 @@ def _key(coefficient: StrutCoefficient, kind: Any, given: bool) -> Key:
 def coefficient_table(vehicle: Vehicle, values: Mapping[str, Any]) -> dict[str, Any]:
     """Return the table that `read_coefficients` reads."""
     found: dict[str, Any] = {}
-    for coefficient in vehicle.strut_coefficients:
+    for coefficient in vehicle.variables.values():
         if coefficient.name in values:
             value = values[coefficient.name]
             *tables, last = key_of(coefficient.name, coefficient.unit).split(".")

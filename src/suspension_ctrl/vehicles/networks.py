@@ -47,7 +47,9 @@ def placed(strut: Strut, prefix: str, share: Sequence[float]) -> tuple[list[Stru
             plain = isinstance(part, LinearElement)
             own = gain * (ratio * part.installation_ratio) ** 2 if plain else np.zeros_like(gain)
             order = part.order if isinstance(part, LinearElement) else 0
-            coefficients.append(StrutCoefficient(dot + one.name, one.unit, own, order, one.default))
+            coefficients.append(
+                StrutCoefficient(dot + one.name, one.unit, own, order, one.default, dot, ratio if top else None)
+            )
     rest = tuple(part for part in parts if not isinstance(part, LinearElement))
     if not rest:
         return coefficients, []

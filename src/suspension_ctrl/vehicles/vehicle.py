@@ -56,6 +56,11 @@ class Vehicle(ABC):
         """Parts of the struts beside springs and dampers in parallel."""
         return ()
 
+    @property
+    def variables(self) -> Mapping[str, Any]:
+        """What may vary, by name, each with a ``unit``: coefficients, then parameters and frequencies."""
+        return {one.name: one for one in self.strut_coefficients}
+
     @abstractmethod
     def plant(self, responses: Sequence[ResponseName] | None = None) -> System:
         """Return the vehicle without its struts, with a port for each.
@@ -103,7 +108,8 @@ class Vehicle(ABC):
         setting : mapping of str to float or (float, float), or (float, float)
             Coefficients by name, ``{"front.spring": 10e3, ...}``, or springs and dampers by strut,
             ``{"front": (10e3, 2000.0), ...}``, of a quarter car the pair alone; each > 0, an anti-roll bar >= 0.
-            Keywords are a setting too: ``closed(front=(10e3, 2000.0), rear=(13e3, 2000.0))``.
+            Keywords are a setting too: ``closed(front=(10e3, 2000.0), rear=(13e3, 2000.0))``. More of
+            `variables` may stand beside them, ``"body_mass"``, or in their place, ``"front.ride_frequency"``.
         responses : sequence of str or ("acceleration", x, y), optional
             The outputs, any of `meanings`; `responses` if not given.
 
@@ -117,14 +123,21 @@ class Vehicle(ABC):
         ValueError
             If a coefficient is unknown, missing or out of range; about responses as `plant`.
         """
-        q, values = len(self.struts), self.coefficients(setting, **struts)
-        names = self.responses if responses is None else responses
+        vehicle, values = self.at(setting, **struts)
+        return vehicle._closed(values, self.responses if responses is None else responses)
+
+    def _closed(self, values: Mapping[str, float], names: Sequence[ResponseName]) -> System:
+        q = len(self.struts)
         integrals = self.without_jerk(names)
         dynamics = Dynamics.of(self.networks, values, gains_by_order(self.strut_coefficients, values, q))
         closed = dynamics.around(self.plant(list(dict.fromkeys(integrals))))
         closed = selected(closed, closed.output_labels[: -2 * q], closed.input_labels[:-q], "vehicle")
         rates = {str(name): str(one) for name, one in zip(names, integrals, strict=True) if name != one}
         return selected(with_rates(closed, rates), [*map(label, names)], closed.input_labels, "vehicle")
+
+    def at(self, setting: Setting | None = None, /, **struts: Any) -> "tuple[Vehicle, dict[str, float]]":
+        """Return the vehicle with the parameters of a setting, and every coefficient by its name, see `closed`."""
+        return self, self._complete(coefficients_by_name(setting, struts))
 
     def without_jerk(self, responses: Sequence[ResponseName]) -> list[ResponseName]:
         """Return the responses with the acceleration in place of each jerk."""
@@ -134,7 +147,10 @@ class Vehicle(ABC):
 
     def coefficients(self, setting: Setting | None = None, /, **struts: Any) -> dict[str, float]:
         """Return every coefficient by its name, defaults included; arguments and errors as of `closed`."""
-        given = coefficients_by_name(setting, struts)
+        return self.at(setting, **struts)[1]
+
+    def _complete(self, given: Mapping[str, float]) -> dict[str, float]:
+        """Return every coefficient by its name."""
         known = {one.name: one for one in self.strut_coefficients}
         for name in given:
             checks.one_of("setting", name, known)
@@ -164,8 +180,8 @@ class Vehicle(ABC):
             ``damping ratio [-]``, and by coordinate the complex amplitude, the largest being 1 (metres, and
             radians for pitch and roll). A real pole, of an overdamped motion, is a row with damping ratio 1.
         """
-        vehicle = assembled(self)
-        return modes_of(vehicle.closed(setting, **struts), vehicle.assembly)
+        vehicle, values = assembled(self).at(setting, **struts)
+        return modes_of(vehicle.closed(values), vehicle.assembly)
 
 
 class AssembledVehicle(Vehicle):
@@ -205,6 +221,23 @@ class AssembledVehicle(Vehicle):
     def networks(self) -> tuple[Network, ...]:
         """Parts of the struts beside springs and dampers in parallel."""
         return self.assembly.networks
+
+    @property
+    def variables(self) -> Mapping[str, Any]:
+        """What may vary, by name, each with a ``unit``: coefficients, then parameters and frequencies."""
+        from .altered import further_variables  # of vehicles of this class
+
+        return {**super().variables, **further_variables(self.assembly)}
+
+    def at(self, setting: Setting | None = None, /, **struts: Any) -> "tuple[AssembledVehicle, dict[str, float]]":
+        """Return the vehicle with the parameters of a setting, and every coefficient by its name, see `closed`."""
+        given = coefficients_by_name(setting, struts)
+        if given.keys() <= {one.name for one in self.strut_coefficients}:
+            return self, self._complete(given)
+        from .altered import altered  # of vehicles of this class
+
+        vehicle, coefficients = altered(self, given)
+        return vehicle, vehicle._complete(coefficients)
 
     @cached_property
     def statics(self) -> Mechanics:

@@ -178,7 +178,7 @@ class Lift(WheelMeasure, word="lift", unit="-"):
             from scipy.special import ndtr
 
             deviation = np.sqrt(designs.mean_squares(terms))
-            static = vehicle.statics.static_loads(designs.coefficients)[:, index]
+            static = designs.by_vehicle(lambda one, given: one.statics.static_loads(given))[:, index]
             return np.asarray(ndtr(-static / deviation).max(axis=1))
 
         def in_trip(trip: "Trip", _coefficients: Real) -> float:

@@ -1,5 +1,8 @@
 """Measures of statics and roll."""
 
+from collections.abc import Callable
+
+from ...quantities import Real
 from ...vehicles.handling import Mechanics, RollGeometry, check_cornering, check_roll
 from ...vehicles.vehicle import assembled
 from ..load_case import LoadCase
@@ -27,7 +30,7 @@ class RollDamping(Measure, word="roll_damping", unit="-"):
         if vehicle.networks:
             others = ", ".join(one.name for network in vehicle.networks for one in network.strut.elements)
             raise ValueError(f"{self.word} must be of struts of a spring beside a damper, got {others}")
-        return CaseMeasure(values=lambda designs: vehicle.statics.roll_damping(designs.coefficients))
+        return _of_statics(lambda statics, given: statics.roll_damping(given))
 
 
 class RollGradient(Measure, word="roll_gradient", unit="deg/g"):
@@ -44,8 +47,8 @@ class RollGradient(Measure, word="roll_gradient", unit="deg/g"):
 
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError without four wheels or roll geometry."""
-        statics, geometry = _cornering(self.word, case)
-        return CaseMeasure(values=lambda designs: statics.roll_gradient(designs.coefficients, geometry))
+        geometry = _cornering(self.word, case)
+        return _of_statics(lambda statics, given: statics.roll_gradient(given, geometry))
 
 
 class FrontLoadTransfer(Measure, word="front_load_transfer", unit="-"):
@@ -62,14 +65,19 @@ class FrontLoadTransfer(Measure, word="front_load_transfer", unit="-"):
 
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError without four wheels or roll geometry."""
-        statics, geometry = _cornering(self.word, case)
-        return CaseMeasure(values=lambda designs: statics.front_load_transfer(designs.coefficients, geometry))
+        geometry = _cornering(self.word, case)
+        return _of_statics(lambda statics, given: statics.front_load_transfer(given, geometry))
 
 
-def _cornering(word: str, case: LoadCase) -> tuple[Mechanics, RollGeometry]:
-    """Return the statics and the roll geometry of a load case; ValueError if it lacks one."""
+def _of_statics(function: Callable[[Mechanics, Real], Real]) -> CaseMeasure:
+    """Return a measure by a function of statics and coefficients (p, c)."""
+    return CaseMeasure(values=lambda designs: designs.by_vehicle(lambda one, given: function(one.statics, given)))
+
+
+def _cornering(word: str, case: LoadCase) -> RollGeometry:
+    """Return the roll geometry of a load case; ValueError if it lacks it or the vehicle does not roll."""
     vehicle = assembled(case.vehicle)
     check_cornering(word, vehicle.assembly)
     if case.roll_geometry is None:
         raise ValueError(f"roll_geometry must be given in every load case for {word}, got None")
-    return vehicle.statics, case.roll_geometry
+    return case.roll_geometry

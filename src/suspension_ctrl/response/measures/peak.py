@@ -97,7 +97,8 @@ class Peak(Measure, word="peak"):
         event.elevation(np.zeros(1), case.vehicle.contact_points, speed)  # which the wheels of a rig may refuse
 
         def values(designs: Designs) -> Real:
-            highest, lowest = peaks(case.vehicle, designs.coefficients, event, speed, responses)
+            found = [peaks(one, given, event, speed, responses) for one, given in designs.vehicles()]
+            highest, lowest = map(np.concatenate, zip(*found, strict=True))
             sides = {"max": [highest], "min": [-lowest], "both": [highest, -lowest]}[self.side]
             return np.asarray(np.concatenate(sides, axis=1).max(axis=1))
 

@@ -5,11 +5,12 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import control
+import numpy as np
 
 from ... import checks
 from ...quantities import Real, Record
 from ...vehicles.assembly import Position, ResponseName, label
-from ...vehicles.vehicle import Vehicle
+from ...vehicles.vehicle import AssembledVehicle, Vehicle, assembled
 from .. import weightings
 from ..weightings import Weighting
 
@@ -80,7 +81,8 @@ class Designs(NamedTuple):
     """Designs (p, v) in a load case, all their coefficients (p, c), and response spectra design by design.
 
     The mean squares (p, k) of terms are those of terms of the measure; mean travels and the powers of force laws
-    (p, q) are those at the struts.
+    (p, q) are those at the struts. The vehicles hold the parameters of all designs, or each those of one, with
+    coefficients (p, c) or (1, c).
     """
 
     values: Real
@@ -89,6 +91,11 @@ class Designs(NamedTuple):
     mean_squares: Callable[[Sequence[Term]], Real]
     mean_travels: Callable[[], Real]
     law_powers: Callable[[], Real]
+    vehicles: Callable[[], Iterator[tuple[Vehicle, Real]]]
+
+    def by_vehicle(self, function: Callable[[AssembledVehicle, Real], Real]) -> Real:
+        """Return a function of a vehicle and coefficients over all designs (p, ...); ValueError without masses."""
+        return np.concatenate([function(assembled(vehicle), given) for vehicle, given in self.vehicles()])
 
 
 class CaseMeasure(NamedTuple):

@@ -5,14 +5,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+import numpy as np
+
 from ... import checks
-from ...quantities import signal_unit
+from ...quantities import Real, signal_unit
 from ...vehicles.assembly import Position, ResponseName, label, turns
+from ...vehicles.varied import Varied
 from ...vehicles.vehicle import Vehicle, assembled
 from ..load_case import LoadCase
 from ..weightings import Weighting
 from .measure import Measure
-from .terms import NUMBER, POINT, CaseMeasure, Term, checked_point, place_text
+from .terms import NUMBER, POINT, CaseMeasure, Designs, Term, checked_point, place_text
 
 _PLUS = re.compile(r"\+(?![^(]{0,99}\))")  # outside the parentheses of a point
 _TERM = re.compile(rf"(?:({NUMBER})\s+)?(?:(\S+)\s+)?(\w+|acceleration\s*{POINT})")
@@ -147,7 +150,7 @@ class DTL(WheelMeasure, word="DTL", unit="N"):
 class DLC(DTL, word="DLC", unit="-"):
     """Dynamic load coefficient: root mean square of tyre load over static load, of several tyres the largest.
 
-    Static loads are those on struts in the middle of their ranges.
+    Static loads are those on struts in the middle of their ranges; where parameters vary, those of each design.
 
     Parameters
     ----------
@@ -163,8 +166,18 @@ class DLC(DTL, word="DLC", unit="-"):
 
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError if the vehicle has no masses or no such place."""
-        responses = self.responses(assembled(case.vehicle))
-        return CaseMeasure(tuple(Term(name, relative=True) for name in responses), largest=True)
+        vehicle = assembled(case.vehicle)
+        responses = self.responses(vehicle)
+        if not isinstance(vehicle, Varied):
+            return CaseMeasure(tuple(Term(name, relative=True) for name in responses), largest=True)
+        terms = tuple(map(Term, responses))
+        tyres = [vehicle.tyres.index(str(vehicle.meanings[name].where)) for name in responses]
+
+        def values(designs: Designs) -> Real:
+            static = designs.by_vehicle(lambda one, given: one.statics.static_loads(given))[:, tyres]
+            return np.asarray((np.sqrt(designs.mean_squares(terms)) / static).max(axis=1))
+
+        return CaseMeasure(terms, values=values)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -1,0 +1,30 @@
+"""Mean squares over designs of which the coefficients of the struts are formulas."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..compiled import call, compiled
+from ..quantities import Real
+from ..vehicles.formulas import Formulas, fill
+
+
+class Mapped(NamedTuple):
+    """Mean squares of a case at the coefficients that formulas give."""
+
+    formulas: Formulas
+    case: Any  # OneStrut, ManyStruts, OnePort or AnyStruts
+
+    @compiled(error_model="numpy")
+    def __call__(self, designs: Real) -> Real:
+        """Return the mean squares (p, k) of designs (p, v), each as if alone."""
+        coefficients = np.empty((designs.shape[0], self.formulas.result.size))
+        slots = np.empty(self.formulas.start.size)
+        for p in range(designs.shape[0]):
+            fill(self.formulas, designs, p, slots, coefficients)
+        return call(self.case, (coefficients,))
+
+
+def unmapped(case: Any, designs: Real) -> tuple[Any, Real]:
+    """Return a case without formulas and its designs (p, w) of designs (p, v) of the case."""
+    return (case.case, case.formulas.of(designs)) if isinstance(case, Mapped) else (case, designs)

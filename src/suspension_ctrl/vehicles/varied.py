@@ -1,0 +1,140 @@
+"""Vehicles with ports for parameters that vary."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import control
+import numpy as np
+
+from ..quantities import FrozenMapping, Real, Record
+from .added_ports import AddedPorts, added
+from .altered import Slots, check_variables, plain_values, sheet_of, with_parameters
+from .assembly import Assembly, ResponseName
+from .formulas import Formulas, Sheet
+from .frequencies import derived_of
+from .parameters import LoadMass, Parameter, Place, Ported, Ratio, parameters_of
+from .vehicle import AssembledVehicle, Struts, Vehicle
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Varied(Record, AssembledVehicle):
+    """A vehicle with further ports, of which the coefficients are formulas of the variables of a design.
+
+    Values of coefficients, frequencies and ratios that do not vary are `fixed`.
+    """
+
+    vehicle: AssembledVehicle
+    reference: AssembledVehicle  # with its frequencies and ratios
+    names: tuple[str, ...]
+    fixed: Mapping[str, float]
+
+    @property
+    def assembly(self) -> Assembly:
+        """Masses and links, with a strut for every port."""
+        return self._ported[0]
+
+    @property
+    def formulas(self) -> Formulas:
+        """Coefficients that vary (p, w) by designs (p, v)."""
+        return self._ported[1]
+
+    @property
+    def varying(self) -> tuple[str, ...]:
+        """Names of these coefficients."""
+        return self._ported[2]
+
+    @property
+    def loading(self) -> tuple[str, ...]:
+        """Names of the coefficients of payload, which moves the mean positions of struts."""
+        return tuple(added(name) for name, one in self._parameters.items() if isinstance(one, LoadMass))
+
+    def with_design(self, design: Real) -> tuple[AssembledVehicle, dict[str, float]]:
+        """Return the vehicle without ports and its coefficients at a design (v,)."""
+        given = dict(zip(self.names, design.tolist(), strict=True))
+        return self.vehicle.at(plain_values(self.reference, {**self.fixed, **given}))
+
+    def plant(self, responses: Sequence[ResponseName] | None = None) -> control.StateSpace:
+        """Return the vehicle without its struts, see `Vehicle.plant`."""
+        moved = {one.strut: name for name, one in self._parameters.items() if isinstance(one, Place)}
+        for name in self.responses if responses is None else responses:
+            meaning = self.meanings.get(str(name))
+            if meaning and meaning.kind in ("travel", "travel_rate") and meaning.where in moved:
+                where = moved[str(meaning.where)]
+                raise ValueError(f"{name} must be of a seat in a fixed place, got {where} among the variables")
+        return super().plant(responses)
+
+    @cached_property
+    def _parameters(self) -> dict[str, Parameter]:
+        """Parameters that vary."""
+        known = parameters_of(self.vehicle.assembly)
+        derived = derived_of(self.reference.assembly)
+        replaced = [derived[name].replaces for name in (*self.names, *self.fixed) if name in derived]
+        return {name: known[name] for name in (*self.names, *replaced) if name in known}
+
+    @cached_property
+    def _ported(self) -> tuple[Assembly, Formulas, tuple[str, ...]]:
+        """Masses and links, formulas, and the names of the coefficients that vary."""
+        base = self.vehicle.assembly
+        sheet, slots = sheet_of(base, self.reference.assembly, self.names, self.fixed)
+        slots |= self._by_ratio(sheet, slots)
+        ports = AddedPorts(base)
+        for one in self._parameters.values():
+            if isinstance(one, Ported):
+                added = sheet.sum((1.0, {slots[one.name]: 1.0}), constant=-one.default)
+                ports.add(one, added)
+        self._place(sheet, slots, ports)
+        known = {one.name: slots[one.name] for one in base.strut_coefficients if slots.get(one.name) is not None}
+        varying = {**known, **ports.slots}
+        return ports.assembly(), sheet.formulas(list(varying.values())), tuple(varying)
+
+    def _by_ratio(self, sheet: Sheet, slots: Slots) -> dict[str, int]:
+        """Return the slots of coefficients times the square of a ratio that varies over that of the vehicle."""
+        found = {}
+        for one in self._parameters.values():
+            if isinstance(one, Ratio):
+                if any(network.prefix == one.prefix for network in self.vehicle.networks):
+                    needed = "of springs, dampers and inerters in parallel to vary"
+                    raise ValueError(f"{one.name} must be {needed}, got a strut with others")
+                for name in one.coefficients:
+                    product = {slots[name]: 1.0, slots[one.name]: 2.0}
+                    found[name] = sheet.sum((one.default**-2, product))
+        return found
+
+    def _place(self, sheet: Sheet, slots: Slots, ports: "AddedPorts") -> None:
+        """Add ports of pitch and roll for seats with places that vary.
+
+        A seat moved by dx and dy extends its strut by dx pitch - dy roll more.
+        """
+        places = [one for one in self._parameters.values() if isinstance(one, Place)]
+        for strut in dict.fromkeys(one.strut for one in places):
+            axes = sorted((one for one in places if one.strut == strut), key=lambda one: one.axis)
+            moved = [sheet.sum((1.0, {slots[one.name]: 1.0}), constant=-one.default) for one in axes]
+            ports.turn(strut, [one.axis for one in axes], moved, sheet, slots)
+
+
+def ported(vehicle: Vehicle, names: Sequence[str], fixed: Mapping[str, float], first: Vehicle) -> Vehicle:
+    """Return the vehicle with ports for the variables among `names` that are no coefficients, itself without any.
+
+    Frequencies and damping ratios are those of the `first` vehicle.
+    """
+    given = [*names, *fixed]
+    plain = {one.name for one in vehicle.strut_coefficients}
+    if not (isinstance(vehicle, AssembledVehicle) and isinstance(first, AssembledVehicle)) or plain >= {*given}:
+        return vehicle
+    check_variables("setting", first, given)
+    changed, rest = with_parameters(vehicle, fixed)
+    reference, _ = with_parameters(first, fixed)
+    values = {name: float(value) for name, value in rest.items()}
+    return Varied(vehicle=changed, reference=reference, names=tuple(names), fixed=FrozenMapping(values))
+
+
+def setting_of(vehicle: Vehicle, design: Mapping[str, float], fixed: Struts) -> dict[str, float]:
+    """Return all coefficients by name at a design, those of ports too, with values that do not vary."""
+    if not isinstance(vehicle, Varied):
+        return vehicle.coefficients({**fixed, **design})
+    values = np.array([[design[name] for name in vehicle.names]])
+    found = vehicle.formulas.of(values)[0]
+    own = vehicle.with_design(values[0])[1]  # which checks all
+    known = {one.name: own.get(one.name, 0.0) for one in vehicle.strut_coefficients}
+    return known | dict(zip(vehicle.varying, found.tolist(), strict=True))
