@@ -44,11 +44,7 @@ def ride(
 
     masses = {"body_mass": body_mass, "wheel_mass": wheel_mass, "tyre_stiffness": tyre_stiffness}
     title, car, own = chosen_vehicle(vehicle, masses, allow_outside)
-    strut = given({"spring": spring, "damper": damper})
-    known = car.variables
-    asked = {**o.by_name("setting", setting or "", {name: one.unit for name, one in known.items()}), **strut}
-    replaced = [getattr(known.get(name), "replaces", None) for name in asked]
-    car, values = car.at({**{name: value for name, value in own.items() if name not in replaced}, **asked})
+    car, values = in_place(car, own, setting or "", given({"spring": spring, "damper": damper}))
     units = {one.name: one.unit for one in car.strut_coefficients}
     problem, _ = paper.chosen(None, road, speed, allow_outside=allow_outside, **o.settings(weighting, band))
     case, (low, high) = LoadCase(vehicle=car, road=problem.road, speed=problem.speed), problem.band
@@ -71,6 +67,16 @@ def has_modes(vehicle: "Vehicle") -> bool:
     from ..vehicles.vehicle import AssembledVehicle
 
     return isinstance(vehicle, AssembledVehicle)
+
+
+def in_place(
+    car: "Vehicle", own: Mapping[str, float], setting: str, strut: Mapping[str, float]
+) -> "tuple[Vehicle, dict[str, float]]":
+    """Return the vehicle and all coefficients with a setting in place of its own values."""
+    known = car.variables
+    asked = {**o.by_name("setting", setting, {name: one.unit for name, one in known.items()}), **strut}
+    replaced = [getattr(known.get(name), "replaces", None) for name in asked]
+    return car.at({**{name: value for name, value in own.items() if name not in replaced}, **asked})
 
 
 def given(values: Mapping[str, float | None]) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from .. import checks
 from ..quantities import FrozenMapping, Real, Record, wrapped
 from ..vehicles.altered import plain_values
-from ..vehicles.varied import ported, setting_of
+from ..vehicles.varied import Varied, ported, setting_of
 from ..vehicles.vehicle import Struts, Vehicle, coefficients_by_name
 from .bounds import checked_bounds
 from .load_case import LoadCase, Road, load_cases
@@ -300,7 +300,7 @@ class RideProblem(Record):
     def without_parameters(self, design: Real) -> "tuple[RideProblem, Real]":
         """Return the problem of coefficients alone at the parameters of a design (d,), and its coefficients there.
 
-        Every bound is the value itself; without parameters it is the problem as it is.
+        Bounds are as close as numbers are; without parameters it is the problem as it is.
         """
         if all(one is given for one, given in zip(self._ported, self.cases, strict=True)):
             return self, design
@@ -312,7 +312,8 @@ class RideProblem(Record):
         every = [case.vehicle.at(values) for case in self.cases]
         cases = [replace(case, vehicle=one) for case, (one, _) in zip(self.cases, every, strict=True)]
         own = {name: float(values[name]) for name in every[0][1] if name in values}
-        bounds, nodes = {name: (value, value) for name, value in own.items()}, int(self.nodes)
+        bounds = {name: (value, float(np.nextafter(value, np.inf))) for name, value in own.items()}
+        nodes = int(self.nodes)
         plain = self.replace(cases=cases, bounds=bounds, struts={}, kinds={}, nodes=nodes)
         return plain, np.array(list(own.values()))
 
@@ -322,9 +323,16 @@ class RideProblem(Record):
         fixed = coefficients_by_name(self.struts, {})
         first = self.cases[0].vehicle
         vehicles = [ported(case.vehicle, self.variables, fixed, first) for case in self.cases]
+        if isinstance(vehicles[0], Varied) and vehicles[0].has_frequencies:
+            for corner in self._corners:
+                vehicles[0].with_design(corner)  # which raises ValueError where a frequency is out of reach
         return tuple(replace(case, vehicle=one) for case, one in zip(self.cases, vehicles, strict=True))
+
+    @cached_property
+    def _corners(self) -> Real:
+        """Corners (k, d) of the box, some of many."""
+        return np.random.default_rng(0).permutation(list(product(*self.bounds.values())))[:_CORNERS]
 
     def _error(self, nodes: int) -> float:
         """Return the largest error of a term at corners of the box: there resonances are sharpest."""
-        corners = np.random.default_rng(0).permutation(list(product(*self.bounds.values())))[:_CORNERS]
-        return max(float(errors.max(initial=0.0)) for errors in self._scores.errors(corners, nodes))
+        return max(float(errors.max(initial=0.0)) for errors in self._scores.errors(self._corners, nodes))

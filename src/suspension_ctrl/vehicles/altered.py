@@ -53,6 +53,8 @@ def plain_values(vehicle: Vehicle, values: Mapping[str, float]) -> dict[str, flo
     changed, rest = with_parameters(vehicle, values)
     if not (wanted := [name for name in rest if name in derived]):
         return dict(values)
+    for name in wanted:
+        derived[name].check(name, rest[name])
     sheet, slots = sheet_of(changed.assembly, changed.assembly, (), rest)
     replaced = [derived[name].replaces for name in wanted]
     found = sheet.formulas([slots[name] for name in replaced]).of(np.zeros((1, 0)))[0]
@@ -66,9 +68,10 @@ def with_parameters(
 ) -> tuple[AssembledVehicle, dict[str, float]]:
     """Return the vehicle with the parameters among values, and the other values."""
     parameters = parameters_of(vehicle.assembly)
-    given = {name: float(value) for name, value in values.items() if name in parameters}
+    given = {name: value for name, value in values.items() if name in parameters}
     for name, value in given.items():
         parameters[name].check(name, value)
+    given = {name: float(value) for name, value in given.items()}
     rest = {name: value for name, value in values.items() if name not in given}
     return (Altered(vehicle=vehicle, values=FrozenMapping(given)) if given else vehicle), rest
 

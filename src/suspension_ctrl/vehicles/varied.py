@@ -45,6 +45,11 @@ class Varied(Record, AssembledVehicle):
         return self._ported[2]
 
     @property
+    def has_frequencies(self) -> bool:
+        """Whether frequencies or damping ratios stand in place of rates."""
+        return not derived_of(self.reference.assembly).keys().isdisjoint((*self.names, *self.fixed))
+
+    @property
     def loading(self) -> tuple[str, ...]:
         """Names of the coefficients of payload, which moves the mean positions of struts."""
         return tuple(added(name) for name, one in self._parameters.items() if isinstance(one, LoadMass))

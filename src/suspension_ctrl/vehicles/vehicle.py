@@ -124,20 +124,11 @@ class Vehicle(ABC):
             If a coefficient is unknown, missing or out of range; about responses as `plant`.
         """
         vehicle, values = self.at(setting, **struts)
-        return vehicle._closed(values, self.responses if responses is None else responses)
-
-    def _closed(self, values: Mapping[str, float], names: Sequence[ResponseName]) -> System:
-        q = len(self.struts)
-        integrals = self.without_jerk(names)
-        dynamics = Dynamics.of(self.networks, values, gains_by_order(self.strut_coefficients, values, q))
-        closed = dynamics.around(self.plant(list(dict.fromkeys(integrals))))
-        closed = selected(closed, closed.output_labels[: -2 * q], closed.input_labels[:-q], "vehicle")
-        rates = {str(name): str(one) for name, one in zip(names, integrals, strict=True) if name != one}
-        return selected(with_rates(closed, rates), [*map(label, names)], closed.input_labels, "vehicle")
+        return _closed(vehicle, values, self.responses if responses is None else responses)
 
     def at(self, setting: Setting | None = None, /, **struts: Any) -> "tuple[Vehicle, dict[str, float]]":
         """Return the vehicle with the parameters of a setting, and every coefficient by its name, see `closed`."""
-        return self, self._complete(coefficients_by_name(setting, struts))
+        return self, _complete(self, coefficients_by_name(setting, struts))
 
     def without_jerk(self, responses: Sequence[ResponseName]) -> list[ResponseName]:
         """Return the responses with the acceleration in place of each jerk."""
@@ -148,18 +139,6 @@ class Vehicle(ABC):
     def coefficients(self, setting: Setting | None = None, /, **struts: Any) -> dict[str, float]:
         """Return every coefficient by its name, defaults included; arguments and errors as of `closed`."""
         return self.at(setting, **struts)[1]
-
-    def _complete(self, given: Mapping[str, float]) -> dict[str, float]:
-        """Return every coefficient by its name."""
-        known = {one.name: one for one in self.strut_coefficients}
-        for name in given:
-            checks.one_of("setting", name, known)
-        missing = [name for name, one in known.items() if name not in given and one.default is None]
-        if missing:
-            raise ValueError(f"setting must have {', '.join(known)}, got none for {', '.join(missing)}")
-        for name, value in given.items():
-            known[name].check(name, value)
-        return {name: given.get(name, p.default or 0.0) for name, p in known.items()}
 
     def linearised(
         self, setting: Setting, road: Any, speed: float, *, band: tuple[float, float] = (0.0, 20.0)
@@ -233,11 +212,11 @@ class AssembledVehicle(Vehicle):
         """Return the vehicle with the parameters of a setting, and every coefficient by its name, see `closed`."""
         given = coefficients_by_name(setting, struts)
         if given.keys() <= {one.name for one in self.strut_coefficients}:
-            return self, self._complete(given)
+            return self, _complete(self, given)
         from .altered import altered  # of vehicles of this class
 
         vehicle, coefficients = altered(self, given)
-        return vehicle, vehicle._complete(coefficients)
+        return vehicle, _complete(vehicle, coefficients)
 
     @cached_property
     def statics(self) -> Mechanics:
@@ -247,6 +226,30 @@ class AssembledVehicle(Vehicle):
     def plant(self, responses: Sequence[ResponseName] | None = None) -> control.StateSpace:
         """Return the vehicle without its struts, see `Vehicle.plant`."""
         return plant_of(self.assembly, self.responses if responses is None else responses)
+
+
+def _closed(vehicle: Vehicle, values: Mapping[str, float], names: Sequence[ResponseName]) -> System:
+    """Return a vehicle with coefficients of struts, from roads to responses."""
+    q = len(vehicle.struts)
+    integrals = vehicle.without_jerk(names)
+    dynamics = Dynamics.of(vehicle.networks, values, gains_by_order(vehicle.strut_coefficients, values, q))
+    closed = dynamics.around(vehicle.plant(list(dict.fromkeys(integrals))))
+    closed = selected(closed, closed.output_labels[: -2 * q], closed.input_labels[:-q], "vehicle")
+    rates = {str(name): str(one) for name, one in zip(names, integrals, strict=True) if name != one}
+    return selected(with_rates(closed, rates), [*map(label, names)], closed.input_labels, "vehicle")
+
+
+def _complete(vehicle: Vehicle, given: Mapping[str, float]) -> dict[str, float]:
+    """Return every coefficient by its name."""
+    known = {one.name: one for one in vehicle.strut_coefficients}
+    for name in given:
+        checks.one_of("setting", name, known)
+    missing = [name for name, one in known.items() if name not in given and one.default is None]
+    if missing:
+        raise ValueError(f"setting must have {', '.join(known)}, got none for {', '.join(missing)}")
+    for name, value in given.items():
+        known[name].check(name, value)
+    return {name: given.get(name, p.default or 0.0) for name, p in known.items()}
 
 
 def assembled(vehicle: Vehicle) -> AssembledVehicle:
