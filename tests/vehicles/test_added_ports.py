@@ -5,6 +5,7 @@ import pytest
 
 from garage import DRIVER, FULL
 from suspension_ctrl.vehicles.added_ports import AddedPorts
+from suspension_ctrl.vehicles.motion import plant_of
 from suspension_ctrl.vehicles.parameters import parameters_of
 
 CAR = DRIVER.on(FULL).assembly
@@ -17,7 +18,7 @@ def test_ports_leave_the_responses_of_a_vehicle_as_they_are(name):
     ports.add(parameters_of(CAR)[name], 0)
     with_ports, names = ports.assembly(), list(CAR.responses)
     s, r, q = 4j * np.pi, len(CAR.roads), len(CAR.struts)
-    found, before = with_ports.plant(names)(s)[: len(names)], CAR.plant(names)(s)[: len(names)]
+    found, before = plant_of(with_ports, names)(s)[: len(names)], plant_of(CAR, names)(s)[: len(names)]
     more = found.shape[1] - len(with_ports.struts)
     roads = found[:, :r] + (s * found[:, r:more] if more > r else 0.0)
     np.testing.assert_allclose(roads, before[:, :r], rtol=1e-9, atol=1e-9 * np.abs(before).max())
@@ -28,7 +29,7 @@ def test_ports_leave_the_responses_of_a_vehicle_as_they_are(name):
 def test_a_tyre_beside_a_tyre_is_in_its_load():
     ports = AddedPorts(CAR)
     ports.add(parameters_of(CAR)["front_tyre_stiffness"], 0)
-    plant = ports.assembly().plant(["front_left_tyre_load"])
+    plant = plant_of(ports.assembly(), ["front_left_tyre_load"])
     tensions = plant.D[0, -len(plant.input_labels) :]
     assert tensions[plant.input_labels.index("front_left_tyre_stiffness_strut")] == 1.0
     assert tensions[plant.input_labels.index("front_right_tyre_stiffness_strut")] == 0.0

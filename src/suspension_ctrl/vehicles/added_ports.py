@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .assembly import Assembly, Link, StrutCoefficient
+from .assembly import Assembly, Link, StrutCoefficient, turning
 from .formulas import Sheet
 from .parameters import Ported
 
@@ -30,14 +30,21 @@ class AddedPorts:
         self._entry(added(one.name), one.order, [(i, i, 1.0) for i in range(first, len(self._links))], slot)
 
     def turn(
-        self, strut: str, axes: Sequence[int], moved: Sequence[int], sheet: Sheet, slots: Mapping[str, int]
+        self,
+        strut: str,
+        body: str,
+        axes: Sequence[int],
+        moved: Sequence[int],
+        sheet: Sheet,
+        slots: Mapping[str, int],
     ) -> None:
         """Add ports of pitch (axis 0) and roll (1) to a strut that is moved by the values in slots."""
         port = [one.name for one in self._base.struts].index(strut)
         if any(network.share[port] for network in self._base.networks):
             raise ValueError(f"{strut} must have a strut of springs and dampers to be moved, got another")
         turns = [len(self._links) + i for i in range(len(axes))]
-        self._links += [Link(f"{strut}_{('pitch', 'roll')[axis]}", None, ("pitch", "roll")[axis]) for axis in axes]
+        angles = [turning(body, ("pitch", "roll")[axis]) for axis in axes]
+        self._links += [Link(f"{strut}_{angle}", None, angle) for angle in angles]
         ends = [
             (port, 1.0, {}),
             *((i, (1.0, -1.0)[axis], {slot: 1.0}) for i, axis, slot in zip(turns, axes, moved, strict=True)),

@@ -10,7 +10,7 @@ from .. import checks
 from ..quantities import FrozenMapping, Real, Record
 from .assembly import Assembly
 from .formulas import Sheet
-from .frequencies import Derived, corners_of, derived_of, loads_on, resolve
+from .frequencies import Derived, corners_of, derived_of, loads_on, resolve, unsprung
 from .parameters import Inertia, LoadMass, Parameter, Place, Ratio, parameters_of
 from .vehicle import AssembledVehicle, Vehicle
 
@@ -148,7 +148,8 @@ def _share(assembly: Assembly, one: Parameter, tyres: Sequence[str]) -> float:
     loads = loads_on(assembly, tyres)
     if loads is None or not isinstance(one, Inertia | LoadMass):
         return 0.0
-    ends = [link.upper for link in one.links(assembly) if link.upper not in assembly.inertias]
+    still = {*assembly.inertias, *unsprung(assembly)}
+    ends = [link.upper for link in one.links(assembly) if link.upper not in still]
     return float(sum(loads @ assembly.shape(end) for end in ends))
 
 

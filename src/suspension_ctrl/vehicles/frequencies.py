@@ -61,7 +61,7 @@ def corners_of(assembly: Assembly) -> dict[str, Corner]:
     tyres = [one for one in parameters.values() if isinstance(one, TyreParameter) and one.order == 0]
     for one in tyres:
         loads, strut = loads_on(assembly, one.tyres), _strut_over(assembly, one.tyres)
-        mass = 0.0 if loads is None else float(loads @ assembly.weights)
+        mass = 0.0 if loads is None else float(loads @ _carried(assembly))
         if mass > 0 and strut:
             upper = next(link.upper for link in assembly.tyres if link.name == one.tyres[0])
             wheel = assembly.masses.get(str(upper), 0.0)
@@ -150,10 +150,23 @@ def _only(one: StrutCoefficient, ports: Sequence[int]) -> bool:
     return bool(np.array_equal(one.gain, expected))
 
 
+def unsprung(assembly: Assembly) -> set[str]:
+    """Return the wheels and axles."""
+    return {str(one.upper[0] if isinstance(one.upper, tuple) else one.upper) for one in assembly.tyres}
+
+
+def _carried(assembly: Assembly) -> Real:
+    """Return the weights (n,) of the coordinates by masses that wheels and axles carry."""
+    wheels = unsprung(assembly)
+    masses = [0.0 if name in wheels else assembly.masses.get(name, 0.0) for name in assembly.movements]
+    weights = np.array(masses) @ assembly.displacements
+    return np.asarray(weights + sum(mass * assembly.shape(place) for mass, place in assembly.payload))
+
+
 def loads_on(assembly: Assembly, tyres: Sequence[str]) -> Real | None:
     """Return how much of the weight of each coordinate (n,) stands on a wheel, the mean over some, by its tyre.
 
-    On other springs it is the same for vertical masses, or None. The weight of the wheels themselves is left out.
+    On other springs it is the same, or None.
     """
     if [one.name for one in assembly.tyres] != list(assembly.contacts):
         return None
@@ -161,15 +174,14 @@ def loads_on(assembly: Assembly, tyres: Sequence[str]) -> Real | None:
     (e, _), (p, _) = assembly.elongations(links), assembly.elongations(assembly.struts)
     k = np.array([link.stiffness for link in links])[:, None]
     which = [list(assembly.contacts).index(name) for name in tyres]
-    wheels = np.array([assembly.shape(one.upper) for one in assembly.tyres])
     groups = list(alike(dict.fromkeys((one.name for one in assembly.struts), 0.0)).values())
     found = []
     for seed in range(2):
-        drawn = np.random.default_rng(seed).uniform(0.1, 0.2, len(groups)) * k[: len(wheels)].mean()
+        drawn = np.random.default_rng(seed).uniform(0.1, 0.2, len(groups)) * k[: len(assembly.tyres)].mean()
         springs = {name: one for names, one in zip(groups, drawn, strict=True) for name in names}
         stiffness = e.T @ (k * e) + p.T @ (np.array([[springs[one.name]] for one in assembly.struts]) * p)
         if np.linalg.cond(stiffness) > _SINGULAR:
             return None
-        found.append((((k * e)[: len(wheels)] @ np.linalg.inv(stiffness))[which] - wheels[which]).mean(axis=0))
+        found.append(((k * e)[: len(assembly.tyres)] @ np.linalg.inv(stiffness))[which].mean(axis=0))
     same = np.abs(found[0] - found[1]).max() <= _SAME * np.abs(found[0]).max()
     return found[0] if same else None

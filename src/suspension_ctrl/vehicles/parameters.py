@@ -9,11 +9,9 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from .. import checks
 from ..quantities import Record
-from .assembly import Assembly, Link, joined
+from .assembly import Assembly, End, Link, joined, turning
 
 _SIDE = re.compile("_(left|right)(?=_|$)")
 _WHAT = {"stiffness": (0, "N/m"), "damping": (1, "N s/m")}  # of a tyre: order of the derivative, unit
@@ -117,6 +115,7 @@ class Place(Parameter):
     """Coordinate x or y of a seat's place on the body."""
 
     strut: str
+    body: str
     axis: int
 
     def check(self, name: str, value: float) -> None:
@@ -127,9 +126,9 @@ class Place(Parameter):
         """Return the vehicle with the seat at another place."""
         struts = list(assembly.struts)
         index = [one.name for one in struts].index(self.strut)
-        place = np.array(struts[index].lower, dtype=float)
-        place[self.axis] = value
-        struts[index] = struts[index]._replace(lower=(float(place[0]), float(place[1])))
+        *body, x, y = _point(struts[index].lower)
+        lower = (float(value), y) if self.axis == 0 else (x, float(value))
+        struts[index] = struts[index]._replace(lower=lower if body == ["body"] else (self.body, *lower))
         return replace(assembly, struts=tuple(struts))
 
 
@@ -192,7 +191,8 @@ def _inertias(assembly: Assembly) -> Iterator[Parameter]:
     for unit, values, what in (("kg", assembly.masses, "mass"), ("kg m^2", inertias, "inertia")):
         for common, names in alike(values).items():
             name = f"{common}.mass" if common in seats else f"{common}_{what}"
-            yield Inertia(name=name, unit=unit, default=values[names[0]], coordinates=tuple(names), order=2)
+            if values[names[0]] > 0:
+                yield Inertia(name=name, unit=unit, default=values[names[0]], coordinates=tuple(names), order=2)
 
 
 def _loads(assembly: Assembly) -> Iterator[Parameter]:
@@ -208,12 +208,20 @@ def _seats(assembly: Assembly) -> Iterable[Link]:
     return [one for one in named if isinstance(one.lower, tuple)]
 
 
+def _point(end: End) -> tuple[str, float, float]:
+    """Return body and place of a point."""
+    if not isinstance(end, tuple):
+        raise ValueError(f"end must be a point of a body, got {end}")
+    return end if len(end) == 3 else ("body", *end)
+
+
 def _places(assembly: Assembly) -> Iterator[Parameter]:
     for one in () if assembly.bending else _seats(assembly):
-        for axis, (letter, coordinate) in enumerate((("x", "pitch"), ("y", "roll"))):
-            if coordinate in assembly.inertias and isinstance(one.lower, tuple):
-                value = one.lower[axis]
-                yield Place(name=f"{one.name}.{letter}", unit="m", default=value, strut=one.name, axis=axis)
+        body, *place = _point(one.lower)
+        for axis, (letter, angle) in enumerate((("x", "pitch"), ("y", "roll"))):
+            if turning(body, angle) in assembly.inertias:
+                name, value = f"{one.name}.{letter}", place[axis]
+                yield Place(name=name, unit="m", default=value, strut=one.name, body=body, axis=axis)
 
 
 def _ratios(assembly: Assembly) -> Iterator[Parameter]:

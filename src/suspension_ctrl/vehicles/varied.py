@@ -115,7 +115,7 @@ class Varied(Record, AssembledVehicle):
         for strut in dict.fromkeys(one.strut for one in places):
             axes = sorted((one for one in places if one.strut == strut), key=lambda one: one.axis)
             moved = [sheet.sum((1.0, {slots[one.name]: 1.0}), constant=-one.default) for one in axes]
-            ports.turn(strut, [one.axis for one in axes], moved, sheet, slots)
+            ports.turn(strut, axes[0].body, [one.axis for one in axes], moved, sheet, slots)
 
 
 def ported(vehicle: Vehicle, names: Sequence[str], fixed: Mapping[str, float], first: Vehicle) -> Vehicle:
