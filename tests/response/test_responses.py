@@ -192,16 +192,3 @@ def test_phases_begin_as_the_signs_say_and_go_on_without_jumps():
         assert np.abs(np.diff(phase)).max() < 10
         assert phase[-1] < phase[0] - 150  # it lags more and more
     np.testing.assert_allclose(responses.phase_degrees(np.array([-1 - 1e-9j, -1 + 1e-9j])), [180, 180], atol=1e-6)
-
-
-def test_natural_frequencies_of_a_stiff_tyre():
-    """With the tyre near rigid the body alone swings on its spring, at sqrt(k/m)."""
-    car = QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=1e12)
-    natural = responses.natural_frequencies(car.closed(22e3, 10.0))
-    assert natural[0] == pytest.approx(np.sqrt(22e3 / 317.5) / (2 * np.pi), rel=1e-6)
-    assert natural[1] == pytest.approx(np.sqrt(1e12 / 45.4) / (2 * np.pi), rel=1e-6)
-
-
-def test_overdamped_modes_have_no_natural_frequency():
-    car = paper.ride_problem().vehicle
-    assert len(responses.natural_frequencies(car.closed(2e3, 5e3))) < 2

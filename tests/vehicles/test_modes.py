@@ -1,16 +1,30 @@
 """Modes against printed frequencies, closed forms and python-control, and what they are called."""
 
+from dataclasses import replace
+
 import control
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.linalg import eigh
 
 from garage import BENDING, DRIVER, FULL, HALF, PASSENGER, QUARTER, axle_struts, axles, masses, struts_of
-from suspension_ctrl import HalfCar
+from suspension_ctrl import (
+    Damper,
+    HalfCar,
+    Inerter,
+    QuarterCar,
+    RigidBodies,
+    Spring,
+    load_vehicle,
+    parallel,
+    series,
+)
+from suspension_ctrl.vehicles.body_parts import RigidBody, Suspension, Wheel
 from suspension_ctrl.vehicles.vehicle import Vehicle
 
-FREQUENCY, RATIO = "frequency [Hz]", "damping ratio [-]"
+FREQUENCY, DAMPED, RATIO = "frequency [Hz]", "damped frequency [Hz]", "damping ratio [-]"
 
 
 def undamped(car: Vehicle, **springs: float) -> np.ndarray:
@@ -58,16 +72,57 @@ def test_printed_frequencies_of_a_quarter_car():
     assert table["name"].tolist() == ["heave", "wheel hop"]
 
 
-@settings(max_examples=25)
+@settings(max_examples=15)
 @given(masses, axles(), axle_struts())
-def test_frequencies_and_damping_are_those_of_python_control(mass, axle, struts):
+def test_frequencies_are_those_of_masses_and_springs(mass, axle, struts):
     half = HalfCar(body_mass=mass, pitch_inertia=1000.0, **axle)
-    omega, ratio, poles = control.damp(half.closed(struts), doprint=False)
+    table, assembly = half.modes(struts), half.assembly
+    values = np.array([list(half.coefficients(struts).values())])
+    squares = eigh(half.statics.stiffness_of(values)[0], assembly.mass_matrix, eigvals_only=True)
+    np.testing.assert_allclose(2 * np.pi * table[FREQUENCY], np.sqrt(squares), rtol=1e-9)
+    without = half.modes({name: (spring, 0.0) for name, (spring, _) in struts.items()})
+    np.testing.assert_allclose(without[FREQUENCY], table[FREQUENCY], rtol=1e-9)
+    assert table["name"].is_unique
+
+
+@settings(max_examples=15)
+@given(masses, axles(), axle_struts())
+def test_damped_frequencies_and_ratios_are_those_of_python_control(mass, axle, struts):
+    """All poles appear once: a ratio below 1 with its damped frequency, or two real poles."""
+    half = HalfCar(body_mass=mass, pitch_inertia=1000.0, **axle)
+    _, ratio, poles = control.damp(half.closed(struts), doprint=False)
     table = half.modes(struts)
-    assert len(table) == np.count_nonzero(poles.imag >= 0)
-    np.testing.assert_allclose(2 * np.pi * table[FREQUENCY], np.sort(omega[poles.imag >= 0]), rtol=1e-9)
-    np.testing.assert_allclose(np.sort(table[RATIO]), np.sort(ratio[poles.imag >= 0]), rtol=1e-9)
-    assert table[FREQUENCY].is_monotonic_increasing
+    swinging = table[table[DAMPED] > 0]
+    upper = poles.imag > 0
+    assert len(swinging) == np.count_nonzero(upper)
+    np.testing.assert_allclose(2 * np.pi * np.sort(swinging[DAMPED]), np.sort(poles.imag[upper]), rtol=1e-7)
+    np.testing.assert_allclose(np.sort(swinging[RATIO]), np.sort(ratio[upper]), rtol=1e-7)
+    assert (table[RATIO][table[DAMPED] == 0] >= 1).all()
+    assert len(table) == len(half.assembly.coordinates)
+
+
+def test_modes_of_proportional_damping_keep_their_frequencies():
+    """C = b K: ratios are b w/2, damped frequencies w (1 - ratio^2)^0.5, and beyond 1 two real poles."""
+    b = 0.02
+    car = QuarterCar(body_mass=300.0, wheel_mass=40.0, tyre_stiffness=2e5, tyre_damping=b * 2e5)
+    for share in (0.5, 1.0):
+        car = replace(car, tyre_damping=share * b * 2e5)
+        table = car.modes((2e4, share * b * 2e4))
+        omega = 2 * np.pi * table[FREQUENCY].to_numpy()
+        ratio = share * b * omega / 2
+        np.testing.assert_allclose(table[RATIO], ratio, rtol=1e-6)
+        expected = omega * np.sqrt(np.maximum(1 - ratio**2, 0.0)) / (2 * np.pi)
+        np.testing.assert_allclose(table[DAMPED], expected, rtol=1e-6, atol=1e-9)
+        assert table["name"].tolist() == ["heave", "wheel hop"]
+
+
+def test_printed_frequencies_of_a_saloon():
+    """Numbers of github.com/dawsonc/commonroad-vehicle-models at 7be717a5, parameter set 2; by scipy alone."""
+    file = load_vehicle("bmw_320i_full")
+    expected = [1.4201, 1.4357, 2.3023, 11.8960, 11.9922, 12.0581, 12.3069]
+    np.testing.assert_allclose(file.vehicle.modes(file.setting)[FREQUENCY], expected, atol=5.1e-5)
+    car = load_vehicle("yuen_ramli_2010")
+    np.testing.assert_allclose(car.vehicle.modes(car.setting)[FREQUENCY], [1.2539, 10.9353], atol=5.1e-5)
 
 
 @settings(max_examples=25)
@@ -127,11 +182,50 @@ def test_a_tramping_axle_has_its_wheels_against_each_other():
     assert held[FREQUENCY]["front wheel tramp"] > 1.02 * free[FREQUENCY]["front wheel tramp"]
 
 
-def test_what_does_not_swing_is_a_row_for_each_real_pole():
-    """Heave on 2 kN/m and 5 kN s/m has two real poles and no frequency of its own."""
-    table = QUARTER.modes({"spring": 2e3, "damper": 5e3})
-    real = table[table[RATIO] == 1]
-    poles = QUARTER.closed(2e3, 5e3).poles()
-    expected = np.sort(-poles[poles.imag == 0].real) / (2 * np.pi)
-    assert len(expected) >= 2
-    np.testing.assert_allclose(real[FREQUENCY], expected, rtol=1e-9)
+def test_an_overdamped_mode_keeps_its_row():
+    """Heave on 2 kN/m and 5 kN s/m has two real poles: 0 Hz, and the ratio of their sum and product."""
+    table = QUARTER.modes({"spring": 2e3, "damper": 5e3}).set_index("name")
+    real = [pole.real for pole in QUARTER.closed(2e3, 5e3).poles() if pole.imag == 0]
+    assert table[DAMPED]["heave"] == 0
+    slow, fast = max(real), sorted(real)[0]
+    assert table[RATIO]["heave"] == pytest.approx(-(slow + fast) / (2 * np.sqrt(slow * fast)), rel=1e-9)
+    assert table[FREQUENCY]["heave"] == pytest.approx(QUARTER.modes((2e3, 0.0))[FREQUENCY][0], rel=1e-9)
+
+
+def test_modes_of_several_bodies_have_names_of_their_own():
+    bodies = [
+        RigidBody(mass=6e3, pitch_inertia=1e4),
+        RigidBody(name="cab", mass=1e3, pitch_inertia=8e2, position=(2.0, 0.0)),
+    ]
+    truck = RigidBodies(
+        bodies=bodies,
+        wheels=[
+            Wheel(name=name, position=(x, 0.0), mass=600.0, tyre_stiffness=2e6)
+            for name, x in {"a": 1.5, "b": -2.5}.items()
+        ],
+        suspensions=[
+            *(Suspension(name=name) for name in "ab"),
+            *(
+                Suspension(name=name, lower="body", upper="cab", position=(x, 0.0), coefficients="mount")
+                for name, x in {"front_mount": 3.0, "rear_mount": 1.0}.items()
+            ),
+        ],
+    )  # fmt: skip
+    table = truck.modes({"a": (4e5, 1e4), "b": (6e5, 2e4), "mount": (5e4, 2e3)})
+    assert sorted(table["name"]) == ["a wheel hop", "b wheel hop", "cab heave", "cab pitch", "heave", "pitch"]
+
+
+def test_an_inerter_in_series_has_a_mode_of_its_own():
+    """Two masses and the inerter between spring and end: three frequencies of K and M written out."""
+    strut = parallel(Spring(), Damper(), series(Inerter(), Spring("mount")))
+    car = replace(QUARTER, strut=strut)
+    k, c, b = 22e3, 2.5e5, 30.0
+    stiffness = np.array([[k + 192e3, -k, 0.0], [-k, k, 0.0], [0.0, 0.0, 0.0]])
+    row = np.array([0.0, 1.0, -1.0])  # the mount, from the body to the end between
+    stiffness += c * np.outer(row, row)
+    inert = np.array([1.0, 0.0, -1.0])
+    mass = np.diag([45.4, 317.5, 0.0]) + b * np.outer(inert, inert)
+    expected = np.sqrt(eigh(stiffness, mass, eigvals_only=True)) / (2 * np.pi)
+    table = car.modes({"spring": k, "damper": 1500.0, "inerter": b, "mount": c})
+    np.testing.assert_allclose(table[FREQUENCY], expected, rtol=1e-9)
+    assert table["name"].is_unique

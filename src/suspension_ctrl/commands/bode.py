@@ -47,7 +47,7 @@ def bode(
     case, (low, high) = problem.cases[0], problem.band
     shown = response or [next(r for r in case.vehicle.responses if r.endswith(last)) for last in SHOWN]
     drawn = [curves.design_curves(problem, label, values, shown, points) for label, values in labelled.items()]
-    natural = pd.concat([curves.oscillations(problem, label, values) for label, values in labelled.items()])
+    natural = pd.concat([one.modes for one in drawn])
     folder = results.results_folder(out)
     write_csv(folder / "natural_frequencies.csv", natural)
     write_csv(folder / "curves.csv", pd.concat([curves.curve_table(one) for one in drawn]))

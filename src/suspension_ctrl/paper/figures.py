@@ -130,7 +130,8 @@ def _columns(designs: Sequence[DesignCurves], rows: int) -> tuple[Figure, NDArra
 def _marked_line(ax: Axes, design: DesignCurves, values: Real, colour: str) -> None:
     """Draw a curve over frequency with markers at the natural frequencies."""
     ax.plot(design.f, values, color=colour, lw=1.4, label=escaping.figure(design.label))
-    shown = design.natural[(design.natural >= design.f[0]) & (design.natural <= design.f[-1])]
+    natural = design.modes["natural frequency [Hz]"].to_numpy(dtype=float)
+    shown = natural[(natural >= design.f[0]) & (natural <= design.f[-1])]
     ax.plot(shown, np.interp(shown, design.f, values), "o", color=colour, ms=4)
 
 

@@ -7,12 +7,12 @@ import numpy as np
 import pandas as pd
 
 from ..quantities import Complex, Real, signal_unit
-from ..vehicles.plants import Plant
-from ..vehicles.vehicle import coefficients_by_name
+from ..vehicles.modes import DAMPED, FREQUENCY, RATIO
+from ..vehicles.vehicle import AssembledVehicle, Setting, Vehicle, coefficients_by_name
 from . import weightings
 from .linearisation import linear_at
 from .problem import RideProblem
-from .responses import frequency_responses, natural_frequencies, phase_degrees, response_psds
+from .responses import frequency_responses, phase_degrees, response_psds
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class DesignCurves:
     f: Real  # (n,) [Hz]
     responses: Mapping[str, Complex]  # H(w) (n,) from the road
     densities: Mapping[str, Real]  # spectra (n,) on the road, also of weighted accelerations (`weighted_name`)
-    natural: Real  # (k,) natural frequencies [Hz]
+    modes: pd.DataFrame  # design, mode, natural frequency, damped frequency, damping ratio
 
 
 def weighted_name(response: str) -> str:
@@ -59,7 +59,7 @@ def design_curves(
                 densities[weighted_name(name)] = densities[name] * factor**2
     x = case.vehicle.contact_points[:, 0]
     h = frequency_responses(closed, f, (x.max() - x) / case.speed)
-    return DesignCurves(label, f, h, densities, natural_frequencies(closed))
+    return DesignCurves(label, f, h, densities, _modes(vehicle, setting, label))
 
 
 def curve_table(curves: DesignCurves) -> pd.DataFrame:
@@ -75,12 +75,10 @@ def curve_table(curves: DesignCurves) -> pd.DataFrame:
     return table
 
 
-def oscillations(problem: RideProblem, label: str, design: Sequence[float]) -> pd.DataFrame:
-    """Return design, mode, natural frequency [Hz] and damping ratio of the oscillating modes; of a plant none."""
-    columns = ["design", "mode", "natural frequency [Hz]", "damping ratio [-]"]
-    vehicle, setting = linear_at(problem.cases[0], setting_of(problem, design), problem.band)
-    if isinstance(vehicle, Plant):
+def _modes(vehicle: Vehicle, setting: Setting, label: str) -> pd.DataFrame:
+    """Return the modes of a design, none of a plant."""
+    columns = ["design", "mode", "natural frequency [Hz]", DAMPED, RATIO]
+    if not isinstance(vehicle, AssembledVehicle):
         return pd.DataFrame(columns=columns)
-    modes = vehicle.modes(setting)
-    found = modes[modes["damping ratio [-]"] < 1].assign(design=label)
-    return found.rename(columns={"name": "mode", "frequency [Hz]": "natural frequency [Hz]"})[columns]
+    modes = vehicle.modes(setting).assign(design=label)
+    return modes.rename(columns={"name": "mode", FREQUENCY: "natural frequency [Hz]"})[columns]

@@ -198,11 +198,3 @@ def phase_degrees(h: Complex) -> Real:
     """Return the continuous phase (n,) [deg], beginning between -90 and 270: opposite to the road is 180."""
     phase = np.degrees(np.unwrap(np.angle(h)))
     return phase + 360 if phase[0] < -90 else phase
-
-
-def natural_frequencies(closed: control.LTI) -> Real:
-    """Return the undamped natural frequencies of the oscillating modes, ascending [Hz]; none of a table."""
-    if isinstance(closed, control.FrequencyResponseData):
-        return np.empty(0)
-    omega, damping, _ = control.damp(closed, doprint=False)
-    return np.unique(np.round(omega[np.abs(damping) < 1], 9)) / (2 * np.pi)

@@ -43,8 +43,8 @@ class QuarterCar(Checked, AssembledVehicle):
     >>> car = sc.QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3)
     >>> print(car.modes({"spring": 22e3, "damper": 1500.0})[["name", "frequency [Hz]"]].round(2).to_string())
             name  frequency [Hz]
-    0      heave            1.27
-    1  wheel hop           10.78
+    0      heave            1.25
+    1  wheel hop           10.94
     """
 
     body_mass: float = field(metadata=unit("kg"))
@@ -218,8 +218,8 @@ class FullCar(_TwoAxleCar):
     >>> for bar in (0.0, 25e3):  # N m/rad
     ...     modes = car.modes({"front": (10e3, 2000.0), "rear": (13e3, 2000.0), "front_antiroll": bar})
     ...     print(modes.set_index("name")["frequency [Hz]"][["heave", "roll", "pitch"]].round(2).to_dict())
-    {'heave': 1.08, 'roll': 0.89, 'pitch': 1.3}
-    {'heave': 1.08, 'roll': 1.12, 'pitch': 1.3}
+    {'heave': 1.01, 'roll': 0.87, 'pitch': 1.27}
+    {'heave': 1.01, 'roll': 1.1, 'pitch': 1.27}
     """
 
     roll_inertia: float = field(metadata=unit("kg m^2"))

@@ -118,7 +118,7 @@ def load_vehicle(source: str | PathLike[str], *, allow_outside: bool = False) ->
     >>> file.setting["front.damper"], file.bounds["front.damper"]  # N s/m
     (2000.0, (1000.0, 4000.0))
     >>> file.vehicle.modes(file.setting)["name"].to_list()
-    ['heave', 'roll', 'pitch', 'rear wheel hop', 'rear wheel tramp', 'front wheel hop', 'front wheel tramp']
+    ['heave', 'roll', 'pitch', 'rear wheel tramp', 'rear wheel hop', 'front wheel hop', 'front wheel tramp']
     """
     with document(datafiles.named("vehicle", "vehicles", source), allow_outside) as table:
         mistakes = Mistakes()

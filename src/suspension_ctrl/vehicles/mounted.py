@@ -152,7 +152,7 @@ class Payload(Part):
     >>> laden = sc.Payload(mass=250.0, position=(-1.5, 0.0)).on(file.vehicle)
     >>> for vehicle in (file.vehicle, laden):
     ...     print(vehicle.modes(file.setting)["frequency [Hz]"].head(2).round(2).to_list())  # heave, pitch
-    [0.9, 1.12]
+    [0.89, 1.12]
     [0.89, 0.98]
     """
 

@@ -147,8 +147,8 @@ class Spring(LinearElement):
     >>> car = sc.QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3, strut=strut)
     >>> for spring in (22e3, 22e3 / 0.8**2):
     ...     print(car.modes({"spring": spring, "damper": 1500.0})["frequency [Hz]"].round(2).to_list())
-    [1.04, 10.56]
-    [1.27, 10.78]
+    [1.02, 10.73]
+    [1.25, 10.94]
     """
 
     name: str = "spring"
@@ -208,8 +208,8 @@ class Inerter(LinearElement):
     >>> for inerter in (1e-3, 88.0):
     ...     modes = car.modes({"spring": 120e3, "damper": 4471.0, "inerter": inerter})
     ...     print(modes["frequency [Hz]"].round(2).to_list())
-    [2.69, 13.5]
-    [2.55, 7.25]
+    [2.56, 14.18]
+    [2.43, 7.59]
     """
 
     name: str = "inerter"

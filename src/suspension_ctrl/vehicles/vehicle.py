@@ -150,17 +150,23 @@ class Vehicle(ABC):
         return found
 
     def modes(self, setting: Setting | None = None, /, **struts: Any) -> "pd.DataFrame":
-        """Return the modes with struts, by rising frequency; arguments and errors as of `closed`, masses needed.
+        """Return the modes with struts; arguments and errors as of `closed`, but that a damper may be 0.
 
         Returns
         -------
         DataFrame
-            ``name``, after the coordinate with most of the mode's kinetic energy, ``frequency [Hz]`` (undamped),
-            ``damping ratio [-]``, and by coordinate the complex amplitude, the largest being 1 (metres, and
-            radians for pitch and roll). A real pole, of an overdamped motion, is a row with damping ratio 1.
+            By rising ``frequency [Hz]``, of masses and springs without any damper. ``damped frequency [Hz]`` and
+            ``damping ratio [-]`` are those of the pair of poles to which the mode leads if all dampers rise
+            from 0 to their values: of an overdamped mode 0 Hz and a ratio of 1 or more, ``-(p1 + p2)/(2 (p1
+            p2)^0.5)`` of two real poles. ``name`` is that of the motion with most of the kinetic energy,
+            different for each mode; by motion follows the complex amplitude with dampers, the largest being 1
+            (metres, and radians for pitch and roll), of two real poles at the slower one.
         """
-        vehicle, values = assembled(self).at(setting, **struts)
-        return modes_of(vehicle.closed(values), vehicle.assembly)
+        given = coefficients_by_name(setting, struts)
+        dampers = {one.name for one in self.strut_coefficients if one.unit == "N s/m"}
+        without = [name for name in dampers if given.get(name, 1.0) == 0]
+        vehicle, values = assembled(self).at({**given, **dict.fromkeys(without, 1.0)})
+        return modes_of(vehicle.assembly, {**values, **dict.fromkeys(without, 0.0)})
 
 
 class AssembledVehicle(Vehicle):
