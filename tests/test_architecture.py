@@ -35,7 +35,7 @@ PUBLIC = {
     "international_roughness_index", "load_problem",
     "save_problem", "certify", "Correlation", "correlate", "correlation_figure", "LiftOffWarning",
     "linearised", "response_psds", "ride", "simulate",
-    "weighted_rms", "weighting",
+    "UnitSlipWarning", "weighted_rms", "weighting",
     "FailureWarning", "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run",
     "Sampling", "minimise", "non_dominated", "Study",
 }  # fmt: skip

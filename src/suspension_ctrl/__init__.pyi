@@ -108,3 +108,4 @@ from .vehicles.struts import parallel as parallel
 from .vehicles.struts import series as series
 from .vehicles.system_files import load_system as load_system
 from .vehicles.system_files import save_system as save_system
+from .vehicles.unit_slips import UnitSlipWarning as UnitSlipWarning

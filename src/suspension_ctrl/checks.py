@@ -7,6 +7,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from contextlib import contextmanager
 from math import ceil, floor
 from operator import eq
+from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
@@ -132,6 +133,25 @@ def position(name: str, value: object) -> tuple[float, float]:
     return float(pair[0]), float(pair[1])
 
 
+def mapped(name: str, value: object) -> None:
+    """Raise ValueError unless `value` is a mapping."""
+    if not isinstance(value, Mapping):
+        raise ValueError(f"{name} must be a mapping by name, got {shown(value)}")
+
+
+def of_kind(name: str, value: object, *kinds: type) -> None:
+    """Raise ValueError unless `value` is of one of the `kinds`."""
+    if not isinstance(value, kinds):
+        raise ValueError(f"{name} must be a {' or '.join(kind.__name__ for kind in kinds)}, got {shown(value)}")
+
+
+def path_of(name: str, value: object) -> Path:
+    """Return the path; ValueError unless `value` is a text or path-like."""
+    if not isinstance(value, str | PathLike) or isinstance(fspath(value), bytes):
+        raise ValueError(f"{name} must be a text or a path, got {shown(value)}")
+    return Path(value)
+
+
 def listed(name: str, value: object) -> None:
     """Raise ValueError unless `value` is a collection other than a string."""
     if isinstance(value, str) or not isinstance(value, Iterable):
@@ -146,7 +166,7 @@ def one_of(name: str, value: object, allowed: Collection[object]) -> None:
 
 def ordered(lower_name: str, upper_name: str, lower: ArrayLike, upper: ArrayLike) -> None:
     """Raise ValueError unless bounds (d,) are finite, lower <= upper, and lower < upper in one variable."""
-    low, high = np.asarray(lower, dtype=float), np.asarray(upper, dtype=float)
+    low, high = reals(f"{lower_name} must be", lower), reals(f"{upper_name} must be", upper)
     if low.ndim != 1 or low.shape != high.shape or low.size == 0:
         needed, got = "one-dimensional and of one length", f"{lower!r} and {upper!r}"
         raise ValueError(f"{lower_name} and {upper_name} must be {needed}, got {got}")

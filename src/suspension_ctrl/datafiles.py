@@ -19,7 +19,7 @@ def path(name: str) -> Path:
 
 def named(kind: str, folder: str, source: str | PathLike[str]) -> Path:
     """Return the path of a TOML file, or of the TOML file in the data folder with this name."""
-    if Path(source).suffix == ".toml":
+    if checks.path_of(kind, source).suffix == ".toml":
         return Path(source)
     shipped = stems(folder)
     if str(source) not in shipped:

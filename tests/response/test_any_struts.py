@@ -93,6 +93,7 @@ def test_mean_forces_and_payload_are_in_equilibrium(payload):
     assert forces @ y == pytest.approx(-weight * py, abs=1e-7 * scale)
 
 
+@pytest.mark.filterwarnings("ignore::suspension_ctrl.vehicles.unit_slips.UnitSlipWarning")
 def test_a_quarter_car_with_a_rigid_passenger_is_the_quarter_car():
     """Two ports, of which one hardly moves: AnyStruts beside OnePort."""
     quarter = sc.QuarterCar(

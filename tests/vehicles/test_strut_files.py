@@ -58,7 +58,7 @@ def test_every_element_is_written_and_read(tmp_path, element):
     seat = sc.Seat(mass=70.0, strut=strut, name="driver")
     for car in (sc.QuarterCar(**CAR, strut=strut), sc.QuarterCar(**CAR, strut=element), half, seat.on(half)):
         bounds = dict.fromkeys([one.name for one in car.strut_coefficients], (0.5, 2.0))
-        file = sc.VehicleFile(vehicle=car, bounds=bounds)
+        file = sc.VehicleFile(vehicle=car, bounds=bounds, unusual=True)
         sc.save_vehicle(tmp_path / "f.toml", file)
         assert sc.load_vehicle(tmp_path / "f.toml") == replace(file, setting=FrozenMapping({}))
 

@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from ..response.linearisation import LinearisedVehicle
+    from ..vehicles.files import VehicleFile
     from ..vehicles.vehicle import Vehicle
 
 PAPERS = "yuen_ramli_2010"
@@ -43,8 +44,8 @@ def ride(
     from . import results, terminal
 
     masses = {"body_mass": body_mass, "wheel_mass": wheel_mass, "tyre_stiffness": tyre_stiffness}
-    title, car, own = chosen_vehicle(vehicle, masses, allow_outside)
-    car, values = in_place(car, own, setting or "", given({"spring": spring, "damper": damper}))
+    file = chosen_vehicle(vehicle, masses, allow_outside)
+    car, values = in_place(file, setting or "", given({"spring": spring, "damper": damper}))
     units = {one.name: one.unit for one in car.strut_coefficients}
     problem, _ = paper.chosen(None, road, speed, allow_outside=allow_outside, **o.settings(weighting, band))
     case, (low, high) = LoadCase(vehicle=car, road=problem.road, speed=problem.speed), problem.band
@@ -55,7 +56,7 @@ def ride(
     folder = results.results_folder(out)
     for name, one in tables.items():
         write_csv(folder / f"{name}.csv", one)
-    terminal.note(f"{title}: {told(values, units)}.")
+    terminal.note(f"{file.name or vehicle}: {told(values, units)}.")
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table)
     show_tables(tables, linear)
@@ -69,14 +70,19 @@ def has_modes(vehicle: "Vehicle") -> bool:
     return isinstance(vehicle, AssembledVehicle)
 
 
-def in_place(
-    car: "Vehicle", own: Mapping[str, float], setting: str, strut: Mapping[str, float]
-) -> "tuple[Vehicle, dict[str, float]]":
-    """Return the vehicle and all coefficients with a setting in place of its own values."""
-    known = car.variables
+def in_place(file: "VehicleFile", setting: str, strut: Mapping[str, float]) -> "tuple[Vehicle, dict[str, float]]":
+    """Return the vehicle and all coefficients with a setting in place of its own, units judged."""
+    from ..vehicles.unit_slips import refuse_slip
+
+    known = file.vehicle.variables
     asked = {**o.by_name("setting", setting, {name: one.unit for name, one in known.items()}), **strut}
     replaced = [getattr(known.get(name), "replaces", None) for name in asked]
-    return car.at({**{name: value for name, value in own.items() if name not in replaced}, **asked})
+    car, values = file.vehicle.at(
+        {**{name: value for name, value in file.setting.items() if name not in replaced}, **asked}
+    )
+    if not file.unusual:
+        refuse_slip(car, values)
+    return car, values
 
 
 def given(values: Mapping[str, float | None]) -> dict[str, Any]:
@@ -117,19 +123,16 @@ def show_tables(tables: "Mapping[str, pd.DataFrame]", linear: "LinearisedVehicle
         terminal.show("Mean travel", table, {"mean travel [mm]": 1})
 
 
-def chosen_vehicle(
-    name: str | None, masses: Mapping[str, float | None], allow_outside: bool
-) -> "tuple[str, Vehicle, Mapping[str, float]]":
-    """Return title, vehicle and setting of a file, or of a quarter car with these masses."""
+def chosen_vehicle(name: str | None, masses: Mapping[str, float | None], allow_outside: bool) -> "VehicleFile":
+    """Return the vehicle of a file, or a quarter car with these masses."""
     from ..vehicles.cars import QuarterCar
-    from ..vehicles.files import load_vehicle
+    from ..vehicles.files import VehicleFile, load_vehicle
 
     parameters = given(masses)
     if not parameters:
-        file = load_vehicle(PAPERS if name is None else name, allow_outside=allow_outside)
-        return file.name or str(name), file.vehicle, file.setting
+        return load_vehicle(PAPERS if name is None else name, allow_outside=allow_outside)
     if name is not None:
         raise ValueError(f"vehicle must stand without {', '.join(masses)}, got {name!r} with one")
     if missing := masses.keys() - parameters.keys():
         raise ValueError(f"{', '.join(masses)} must stand together, got no {min(missing)}")
-    return "Quarter car", QuarterCar(**parameters), {}
+    return VehicleFile(vehicle=QuarterCar(**parameters), name="Quarter car")

@@ -14,6 +14,7 @@ def checked_bounds(
     vehicle: Vehicle, bounds: Bounds | None, lower: Sequence[float], upper: Sequence[float], fixed: Struts
 ) -> Bounds:
     """Return the bounds by name, frozen, with `lower` and `upper` (d,) in place of theirs where given."""
+    checks.mapped("bounds", {} if bounds is None else bounds)
     coefficients = {one.name: one for one in vehicle.strut_coefficients}
     known = coefficients if {*(bounds or {}), *fixed} <= {*coefficients} else vehicle.variables
     if bounds is not None and not bounds:

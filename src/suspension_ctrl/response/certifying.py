@@ -94,7 +94,8 @@ def certify(
     lift                       -   0.00457    0.00475   0.00199   0.00751      0.004
     mean travel                m  -0.01287   -0.01317  -0.01358  -0.01276   -0.01287
     """
-    x = checks.designs(np.atleast_2d(np.asarray(design, dtype=float)), len(problem.variables))
+    checks.of_kind("problem", problem, RideProblem)
+    x = checks.designs(np.atleast_2d(checks.reals("design must be", design)), len(problem.variables))
     if len(x) != 1:
         raise ValueError(f"design must be one design, got {len(x)}")
     checks.rows_within("design", x, problem.lower, problem.upper)

@@ -13,6 +13,7 @@ from ..roads.events import Event
 from ..roads.profiles import Profile
 from ..roads.rigs import Rig
 from ..vehicles.assembly import ResponseName, label
+from ..vehicles.unit_slips import warn_of_slip
 from ..vehicles.vehicle import Setting, Vehicle
 from .lift_off import tell_lift_off
 from .motion.courses import Passage
@@ -116,6 +117,8 @@ def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
     -----
     LiftOffWarning
         If a tyre that may not lift off pulls on the road for more than 1 % of the time.
+    UnitSlipWarning
+        If a number of a vehicle seems to be in another unit.
 
     Raises
     ------
@@ -144,6 +147,7 @@ def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
     >>> print(f"compression {-travel.min():.0f} mm, rebound {travel.max():.0f} mm")
     compression 66 mm, rebound 14 mm
     """
+    checks.of_kind("vehicle", closed, Vehicle, StateSpace)
     drive: Callable[..., pd.DataFrame] = _drive_vehicle if isinstance(closed, Vehicle) else _drive
     return drive(closed, *arguments, **options)
 
@@ -159,8 +163,10 @@ def _drive_vehicle(
     start: float | None = None,
     lift_off: bool = False,
 ) -> "pd.DataFrame":
+    checks.listed("responses", vehicle.responses if responses is None else responses)
     vehicle, setting = vehicle.at(setting)
     names = list(vehicle.responses if responses is None else responses)
+    warn_of_slip(vehicle, setting, caller=4)
     if integrated(vehicle, lift_off):
         plain = vehicle.without_jerk(names)
         motion = motion_of(vehicle, setting, plain, lift_off)

@@ -4,10 +4,10 @@
 take, paths as seen from the problem's file.
 """
 
+import warnings
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from os import PathLike
-from pathlib import Path
 from typing import Any, cast
 
 from .. import checks
@@ -22,6 +22,7 @@ from ..schema.writing import content, toml
 from ..tables import write_text
 from ..vehicles.files import (
     VehicleFile,
+    check_units,
     coefficient_table,
     load_vehicle,
     mounted,
@@ -32,6 +33,7 @@ from ..vehicles.files import (
 )
 from ..vehicles.handling import RollGeometry
 from ..vehicles.mounted import Part, Payload, Seat
+from ..vehicles.unit_slips import UnitSlipWarning, slip_of
 from ..vehicles.vehicle import assembled, coefficients_by_name
 from . import weightings
 from .event_files import IN_FILES
@@ -145,7 +147,7 @@ def load_problem(path: str | PathLike[str], *, allow_outside: bool = False) -> R
     >>> dict(problem.bounds)
     {'spring': (1000.0, 30000.0), 'damper': (1000.0, 5000.0)}
     """
-    with document(Path(path), allow_outside) as table:
+    with document(checks.path_of("path", path), allow_outside) as table:
         return _problem(table)
 
 
@@ -183,12 +185,13 @@ def save_problem(path: str | PathLike[str], problem: RideProblem) -> None:
         events=dict(problem.events),
         cases=tuple(map(_case_document, problem.cases)),
     )
-    write_text(Path(path), toml(content(file), problem, _problem))
+    write_text(checks.path_of("path", path), toml(content(file), problem, _problem))
 
 
 def _case_document(case: LoadCase) -> CaseDocument:
+    vehicle = assembled(case.vehicle)
     return CaseDocument(
-        vehicle=vehicle_table(VehicleFile(vehicle=assembled(case.vehicle))),
+        vehicle=vehicle_table(VehicleFile(vehicle=vehicle, unusual=slip_of(vehicle) is not None)),
         road=content(case.road, ROADS),
         speed=case.speed,
         share=case.share,
@@ -213,7 +216,17 @@ def _problem(table: Table) -> RideProblem:
         values |= _coefficients(values, *given[0], mistakes)
     mistakes.settle()
     with keyed("", {"band": "band_Hz", "f": "band_Hz"}):  # f of a road that is not known there
-        return RideProblem(cases=cases, **values)
+        return _usual(cases, values, any(one[0].unusual for one in given if one))
+
+
+def _usual(cases: Sequence[LoadCase], values: Mapping[str, Any], unusual: bool) -> RideProblem:
+    """Return the problem; ValueError about a likely slip of units, unless a vehicle may be unusual."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore" if unusual else "error", UnitSlipWarning)
+        try:
+            return RideProblem(cases=cases, **values)
+        except UnitSlipWarning as slip:
+            raise ValueError(str(slip)) from None
 
 
 def _case(
@@ -238,7 +251,11 @@ def _vehicle(given: str | Mapping[str, Any], table: Table, mistakes: Mistakes) -
         with mistakes.noted(f"{table.name}vehicle: "):
             return load_vehicle(table.folder.named(given), allow_outside=table.folder.allow_outside)
         return BAD
-    return read_vehicle(table.inner("vehicle", given), mistakes)
+    file = read_vehicle(table.inner("vehicle", given), mistakes)
+    if not bad(file):
+        with mistakes.noted(f"{table.name}vehicle: "):
+            check_units(file)
+    return file
 
 
 def _road(given: str | Mapping[str, Any], table: Table, mistakes: Mistakes) -> Any:

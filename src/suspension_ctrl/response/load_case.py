@@ -156,6 +156,7 @@ def load_cases(
     given = {name: value for name, value in given.items() if value is not None}
     if isinstance(cases, LoadCase):
         raise ValueError("cases must be a list of load cases, got one by itself")
+    checks.listed("cases", cases)
     if len(cases) > 1 and len(given) == 3:
         raise ValueError("cases must stand in place of vehicle, road and speed, got both")
     if len(cases) == 0:

@@ -1,6 +1,7 @@
 """The ride problem: measures of a vehicle by coefficients of its struts, in load cases, within limits."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
@@ -13,6 +14,7 @@ from numpy.typing import ArrayLike
 from .. import checks
 from ..quantities import FrozenMapping, Real, Record, wrapped
 from ..vehicles.altered import plain_values
+from ..vehicles.unit_slips import warn_of_slip
 from ..vehicles.varied import Varied, ported, setting_of
 from ..vehicles.vehicle import Struts, Vehicle, coefficients_by_name
 from .bounds import checked_bounds
@@ -28,6 +30,12 @@ _CORNERS = 64  # most corners of the box at which nodes are checked, drawn at ra
 
 class _Found(int):
     """Number of nodes that the problem found; a changed problem finds it anew."""
+
+
+def _fixed(struts: Struts) -> dict[str, Any]:
+    """Return coefficients that do not vary, pairs as tuples."""
+    checks.mapped("struts", struts)
+    return {name: tuple(v) if isinstance(v, list | np.ndarray) else v for name, v in struts.items()}
 
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
@@ -127,7 +135,7 @@ class RideProblem(Record):
         checks.interval("band", band, "Hz")
         checks.listed("measures", measures)
         checks.listed("constraints", constraints)
-        fixed: Any = {k: tuple(v) if isinstance(v, list | np.ndarray) else v for k, v in (struts or {}).items()}
+        fixed = _fixed(struts or {})
         every = load_cases(cases, events, vehicle=vehicle, road=road, speed=speed)
         self._keep(
             cases=every,
@@ -141,6 +149,7 @@ class RideProblem(Record):
         limits = (one if isinstance(one, Limit) else Limit.parse(one, self.measures) for one in constraints)
         self._keep(constraints=tuple(limits))
         self._keep(kinds=FrozenMapping(checks.kinds(kinds or {}, self.variables, self.lower, self.upper)))
+        self._warn_of_slips()
         self._keep(nodes=self._resolving(None if isinstance(nodes, _Found) else nodes))
 
     def replace(self, **changes: Any) -> "RideProblem":
@@ -292,6 +301,13 @@ class RideProblem(Record):
         middle = {name: (low + high) / 2 for name, (low, high) in self.bounds.items()}
         settings = [setting_of(case.vehicle, middle, self.struts) for case in self._ported]
         return Scores(self._ported, scores, settings, self.variables, self.band)
+
+    def _warn_of_slips(self) -> None:
+        """Warn the caller of a likely slip of units in the vehicles, in the middle of the bounds."""
+        middle = {name: (low + high) / 2 for name, (low, high) in self.bounds.items()}
+        for case in self.cases:
+            with suppress(ValueError):  # of values that do not fit, which are told later
+                warn_of_slip(*case.vehicle.at({**coefficients_by_name(self.struts, {}), **middle}), caller=4)
 
     def in_cases(self, judged: Measure | Limit) -> tuple[CaseMeasure, ...]:
         """Return a measure or a limit in each load case."""

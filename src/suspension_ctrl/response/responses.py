@@ -9,6 +9,7 @@ import numpy as np
 from .. import checks
 from ..quantities import Complex, Real
 from ..vehicles.assembly import ResponseName, label
+from ..vehicles.unit_slips import warn_of_slip
 from ..vehicles.vehicle import Setting, Vehicle
 from .linearisation import linear_at
 from .load_case import LoadCase, Road
@@ -106,6 +107,7 @@ def ride(
     labels = {one.label for one in judged}
     judged += [RootSumSquare([Term(name)]) for name in vehicle.meanings if name not in labels]
     in_case = [one.in_case(case, known) for one in judged]
+    warn_of_slip(vehicle, setting)
     signed = [Score((found,), False, one.sign) for found, one in zip(in_case, judged, strict=True)]
     scores = Scores([case], signed, [setting], list(setting), band)
     design = np.array([list(setting.values())])
@@ -189,6 +191,10 @@ def response_psds(closed: control.LTI, f: Real, road: Real | Complex) -> dict[st
     >>> round(192e3 / 317.5, 2)
     604.72
     """
+    checks.of_kind("closed", closed, control.LTI)
+    f = checks.reals("f must be", f).reshape(-1)
+    if not (isinstance(road, np.ndarray) and road.dtype.kind in "iufc" and road.shape[:1] == f.shape):
+        raise ValueError(f"road must be an array of spectra with a row for each f, got {checks.shown(road)}")
     h = paths(closed, f)
     psd = np.einsum("nmi,nij,nmj->mn", h, road.reshape(len(f), h.shape[2], h.shape[2]), h.conj()).real
     return dict(zip(closed.output_labels, psd, strict=True))

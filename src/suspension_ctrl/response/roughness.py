@@ -126,6 +126,7 @@ def international_roughness_index(profile: Profile, *, average: bool = True) -> 
          500.0    750.0         4.3
          750.0   1000.0         3.9
     """
+    checks.of_kind("profile", profile, Profile)
     step, name = profile.step, "a profile for the roughness index"
     if step > _COARSEST * (1 + _SLACK):
         raise ValueError(f"{name} must have steps of at most {_COARSEST} m, got {step:g} m")

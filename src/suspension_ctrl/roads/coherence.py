@@ -161,7 +161,8 @@ class Tabulated(Checked):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        n, gamma = np.asarray(self.wavenumber, dtype=float), np.asarray(self.coherence, dtype=float)
+        n = checks.reals("wavenumber must be", self.wavenumber)
+        gamma = checks.reals("coherence must be", self.coherence)
         if n.ndim != 1 or n.shape != gamma.shape or n.size == 0:
             raise ValueError(f"wavenumber and coherence must be of one length, got {n.shape} and {gamma.shape}")
         checks.ascending("wavenumber", n)

@@ -7,7 +7,6 @@ with them, in the folder of this file or below unless others are allowed.
 import re
 from dataclasses import dataclass, field
 from os import PathLike
-from pathlib import Path
 
 from .. import checks
 from ..documents import Folder, Mistakes, Table, document, keyed
@@ -111,7 +110,7 @@ def load_road(source: str | PathLike[str], *, allow_outside: bool = False) -> Ro
     >>> sc.load_road("road.toml") == sc.Iso8608Road("C", level="upper", coherence=sc.Constant(1.0))
     True
     """
-    path = Path(source)
+    path = checks.path_of("road", source)
     if named := _CLASS.fullmatch(str(source)):
         return Iso8608Road(named[1], level=named[2] or "geometric mean")
     ending = path.suffix.lower()
@@ -134,7 +133,7 @@ def save_road(path: str | PathLike[str], road: Road) -> None:
     >>> sc.load_road("country.toml")
     Iso8608Road(coherence=Exponential(decay=3), road_class='D')
     """
-    write_text(Path(path), toml(content(road, KINDS), road, read_road))
+    write_text(checks.path_of("path", path), toml(content(road, KINDS), road, read_road))
 
 
 def read_road(table: Table) -> Road:

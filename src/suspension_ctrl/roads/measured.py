@@ -68,7 +68,8 @@ class MeasuredRoad(Road):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        n, density = frozen_array(self.wavenumber), frozen_array(self.density)
+        n = frozen_array(checks.reals("wavenumber must be", self.wavenumber))
+        density = frozen_array(checks.reals("density must be", self.density))
         if n.ndim != 1 or n.shape != density.shape or n.size < 2:
             got = f"{n.shape} and {density.shape}"
             raise ValueError(f"wavenumber and density must be of one length >= 2, got {got}")

@@ -50,7 +50,7 @@ class Road(Checked, ABC):
             One-sided power spectral density [m^2/Hz].
         """
         checks.positive("speed", speed, "m/s")
-        frequency = np.asarray(f, dtype=float)
+        frequency = checks.reals("f must be", f)
         if not (frequency > 0).all():
             raise ValueError(f"f must be > 0 Hz throughout, got a least value of {frequency.min()}")
         return self._psd(frequency, speed)
@@ -115,7 +115,7 @@ class Road(Checked, ABC):
         checks.positive("length", length, "m")
         if not isinstance(seed, np.random.Generator):
             seed = checks.at_least("seed", seed, 0)
-        y = np.asarray(tracks, dtype=float)
+        y = checks.reals("tracks must be", tracks)
         if y.ndim != 1 or y.size == 0 or not np.isfinite(y).all():
             raise ValueError(f"tracks must be finite and one-dimensional, got {checks.shown(tracks)}")
         points = round(length / step)

@@ -109,6 +109,7 @@ def minimise(
     >>> early.evaluations < 20_000
     True
     """
+    _check_parts(problem, optimiser, callback)
     designs = None if start is None else _start_designs(problem, start)
     begin = optimiser.population if designs is None else max(optimiser.population, len(designs))
     count = _iteration_count(begin, optimiser, problem, iterations, evaluations, seconds)
@@ -248,6 +249,15 @@ def _infeasible(constraints: Sequence[object], run: Run) -> str:
     broken = [f"{name} {g:.3g}" for name, g in zip(constraints, run.constraints[least], strict=True) if g > 0]
     violation = f"least total violation {run.violation[least]:.3g}: {', '.join(broken)}"
     return f"no feasible design among {run.evaluations} evaluated, {violation}"
+
+
+def _check_parts(problem: Minimisable, optimiser: Optimiser, callback: object) -> None:
+    """Raise ValueError unless these can be a problem, an optimiser and a callback."""
+    for name, value, needed in (("problem", problem, "evaluate"), ("optimiser", optimiser, "search")):
+        if isinstance(value, type) or not callable(getattr(value, needed, None)):
+            raise ValueError(f"{name} must be an object with a method {needed}, got {checks.shown(value)}")
+    if not (callback is None or callable(callback)):
+        raise ValueError(f"callback must be callable, got {checks.shown(callback)}")
 
 
 def _iteration_count(

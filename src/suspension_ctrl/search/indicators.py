@@ -29,6 +29,8 @@ def non_dominated(objectives: ArrayLike) -> Bool:
     array([ True,  True,  True, False])
     """
     values = checks.reals("objectives must be", objectives)
+    if values.ndim != 2:
+        raise ValueError(f"objectives must have shape (n, m), got {values.shape}")
     whole: Bool = np.asarray(~np.isnan(values).any(axis=1))
     whole[whole] = moocore.is_nondominated(values[whole], keep_weakly=True)
     return whole

@@ -138,6 +138,8 @@ class Problem(Record):
             raise ValueError(f"evaluate must be callable, got {checks.shown(self.evaluate)}")
         for name in ("objectives", "constraints", "variables"):
             checks.listed(name, getattr(self, name))
+            for one in getattr(self, name):
+                checks.of_kind(f"each of {name}", one, str)
         if len(set(self.objectives)) < max(2, len(self.objectives)):
             raise ValueError(f"objectives must be 2 or more different names, got {self.objectives!r}")
         outputs = [*self.objectives, *self.constraints]

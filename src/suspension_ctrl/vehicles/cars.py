@@ -71,9 +71,9 @@ class QuarterCar(Checked, AssembledVehicle):
             },
         )
 
-    def closed(self, setting: Any = None, damper: Any = None, /, **others: Any) -> System:
+    def closed(self, setting: Any = None, /, *damper: Any, **others: Any) -> System:
         """Return the vehicle with its strut: ``closed(K_s, C_s)`` [N/m, N s/m], or as `Vehicle.closed`."""
-        return super().closed(setting if damper is None else (setting, damper), **others)
+        return super().closed((setting, *damper) if damper else setting, **others)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)

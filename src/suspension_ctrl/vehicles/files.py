@@ -4,10 +4,10 @@ In ``[struts]`` and ``[bounds]`` a coefficient ``front.spring`` has the key ``fr
 """
 
 from collections.abc import Collection, Mapping
+from contextlib import suppress
 from dataclasses import MISSING, dataclass, field, fields
 from functools import reduce
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
 from .. import checks, datafiles
@@ -25,6 +25,7 @@ from .parameters import Place
 from .plant_files import PlantFile, read_plant
 from .rigid_bodies import RigidBodies
 from .strut_files import UNREAD
+from .unit_slips import slip_of
 from .vehicle import AssembledVehicle, Vehicle
 
 KINDS: dict[str, type[AssembledVehicle] | type[PlantFile]] = {
@@ -48,6 +49,8 @@ class VehicleFile(Record):
     roll_geometry : RollGeometry, optional
     name, source : str, optional
         Name of the vehicle, and origin of its numbers.
+    unusual : bool
+        Whether its frequencies and ratios may be those of no usual vehicle: units are not judged by them.
 
     Examples
     --------
@@ -63,10 +66,13 @@ class VehicleFile(Record):
     roll_geometry: RollGeometry | None = None
     name: str = ""
     source: str = ""
+    unusual: bool = False
 
     def __post_init__(self) -> None:
         if not isinstance(self.vehicle, Vehicle):
             raise ValueError(f"vehicle must be a Vehicle, got {checks.shown(self.vehicle)}")
+        for name in ("setting", "bounds"):
+            checks.mapped(name, getattr(self, name))
         self._keep(setting=FrozenMapping(self.setting), bounds=FrozenMapping(self.bounds))
 
 
@@ -82,10 +88,13 @@ class Document:
         Elastic modes of the body, seats with their occupants, loads on the body, and heights for cornering.
     struts, bounds : table
         Coefficients of the struts; lowest and highest value of those that a search varies.
+    unusual : bool
+        Whether frequencies and ratios may be those of no usual vehicle: units are not judged by them.
     """
 
     name: str = ""
     source: str = ""
+    unusual: bool = False
     flexible_body: FlexibleBody | None = None
     seats: tuple[Seat, ...] = field(default=(), metadata={"most": 50})
     payload: tuple[Payload, ...] = ()
@@ -107,7 +116,8 @@ def load_vehicle(source: str | PathLike[str], *, allow_outside: bool = False) ->
     Raises
     ------
     ValueError
-        If it is neither, or about the keys of the file, a line each; OSError if it cannot be read.
+        If it is neither, or about the keys of the file, a line each, or if frequencies and ratios of the vehicle
+        show a number in another unit; OSError if it cannot be read.
 
     Examples
     --------
@@ -124,7 +134,20 @@ def load_vehicle(source: str | PathLike[str], *, allow_outside: bool = False) ->
         mistakes = Mistakes()
         file = read_vehicle(table, mistakes)
         mistakes.settle()
+        check_units(file)
         return file
+
+
+def check_units(file: VehicleFile) -> None:
+    """Raise ValueError if a number of a vehicle that is not unusual seems to be in another unit."""
+    if not file.unusual:
+        middles = {name: (low + high) / 2 for name, (low, high) in file.bounds.items()}
+        for values in (file.setting, middles):
+            vehicle, given = file.vehicle, None
+            with suppress(ValueError):  # of values that are not complete
+                vehicle, given = file.vehicle.at(values)
+            if line := slip_of(vehicle, given):
+                raise ValueError(f"{line}; unusual = true allows it")
 
 
 def save_vehicle(path: str | PathLike[str], file: VehicleFile) -> None:
@@ -150,7 +173,7 @@ def save_vehicle(path: str | PathLike[str], file: VehicleFile) -> None:
     if not isinstance(file, VehicleFile):
         raise ValueError(f"file must be a VehicleFile, got {checks.shown(file)}")
     text = toml(vehicle_table(file), file, lambda table: read_vehicle(table, Mistakes()))
-    write_text(Path(path), text)
+    write_text(checks.path_of("path", path), text)
 
 
 def read_vehicle(table: Table, mistakes: Mistakes) -> VehicleFile:
@@ -216,6 +239,7 @@ def vehicle_table(file: VehicleFile) -> dict[str, Any]:
     beside = Document(
         name=file.name,
         source=file.source,
+        unusual=file.unusual,
         flexible_body=next((part for part in parts if isinstance(part, FlexibleBody)), None),
         seats=tuple(part for part in parts if isinstance(part, Seat)),
         payload=tuple(part for part in parts if isinstance(part, Payload)),

@@ -95,7 +95,7 @@ def load_property(
 
 def ending(path: str | PathLike[str]) -> str:
     """Return the ending of a property file; ValueError for another."""
-    suffix = Path(path).suffix.lower()
+    suffix = checks.path_of("path", path).suffix.lower()
     checks.one_of("ending of a property file", suffix, KINDS)
     return suffix
 

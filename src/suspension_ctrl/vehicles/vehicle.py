@@ -99,7 +99,12 @@ class Vehicle(ABC):
         return frozen_array(list(self.contacts.values()))
 
     def closed(
-        self, setting: Setting | None = None, /, *, responses: Sequence[ResponseName] | None = None, **struts: Any
+        self,
+        setting: Setting | None = None,
+        /,
+        *others: Any,
+        responses: Sequence[ResponseName] | None = None,
+        **struts: Any,
     ) -> System:
         """Return the vehicle with its struts.
 
@@ -123,6 +128,9 @@ class Vehicle(ABC):
         ValueError
             If a coefficient is unknown, missing or out of range; about responses as `plant`.
         """
+        if others:
+            got = checks.shown((setting, *others))
+            raise ValueError(f"setting must be one mapping, or keywords by strut or coefficient, got {got}")
         vehicle, values = self.at(setting, **struts)
         return _closed(vehicle, values, self.responses if responses is None else responses)
 
@@ -133,6 +141,9 @@ class Vehicle(ABC):
     def without_jerk(self, responses: Sequence[ResponseName]) -> list[ResponseName]:
         """Return the responses with the acceleration in place of each jerk."""
         checks.listed("responses", responses)
+        for one in responses:
+            if not isinstance(one, str | tuple):
+                checks.one_of("response", one, self.meanings)
         jerks = {name for name, meaning in self.meanings.items() if meaning.kind == "jerk"}
         return [str(one).replace("jerk", "acceleration") if one in jerks else one for one in responses]
 

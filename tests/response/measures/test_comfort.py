@@ -79,6 +79,7 @@ def test_a_seat_isolates_by_its_factor():
     assert value(SEATED, "SEAT driver", SEAT("passenger")) == pytest.approx(expected, rel=1e-7)
 
 
+@pytest.mark.filterwarnings("ignore::suspension_ctrl.vehicles.unit_slips.UnitSlipWarning")
 def test_a_stiff_seat_has_the_factor_one():
     stiff = sc.Seat(mass=1.0, spring=1e7, damper=1e3, name="box").on(QUARTER)
     assert value(stiff, "SEAT box") == pytest.approx([1.0], rel=1e-3)

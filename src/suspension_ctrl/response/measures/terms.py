@@ -61,8 +61,10 @@ class Term(Record):
         self._keep(weighting=weightings.checked(self.weighting))
         if self.weighting is not None and "acceleration" not in label(self.response):
             raise ValueError(f"weighting must be of an acceleration, got {self.weighting} of {self.response}")
-        if not 0 < self.factor <= _LARGEST:
-            raise ValueError(f"factor of a response must be above 0 and up to {_LARGEST:g}, got {self.factor:g}")
+        real = isinstance(self.factor, int | float | np.number)
+        if not (real and 0 < self.factor <= _LARGEST):
+            got = f"{self.factor:g}" if real else checks.shown(self.factor)
+            raise ValueError(f"factor of a response must be above 0 and up to {_LARGEST:g}, got {got}")
         checks.at_least("moment", self.moment, 0)
 
     @property

@@ -205,6 +205,7 @@ class RootSumSquare(Measure, word=""):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        checks.listed("terms", self.terms)
         terms = tuple(self.terms)
         if not terms or any(not isinstance(term, Term) or term.moment or term.relative for term in terms):
             raise ValueError(f"terms must be a list of Term without moment, got {checks.shown(self.terms)}")
