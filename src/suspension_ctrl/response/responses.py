@@ -100,6 +100,7 @@ def ride(
 
     checks.interval("band", band, "Hz")
     checks.listed("measures", measures)
+    checks.of_kind("vehicle", vehicle, Vehicle)
     vehicle, setting = vehicle.at(setting)
     case = LoadCase(vehicle=vehicle, road=road, speed=speed, events=events or {})
     known = checked(weighting)
