@@ -26,6 +26,7 @@ PUBLIC = {
     "PowerDamper", "ReboundStop", "Rubber", "Spring", "TableDamper", "TableSpring", "parallel", "series",
     "Constant", "Exponential", "Iso8608Road", "Isotropic", "MeasuredRoad", "PowerLawRoad", "Profile", "Tabulated",
     "TwoSlopeRoad", "load_road", "save_road", "ProfileWarning", "load_profile", "save_profile",
+    "road_of_iri",
     "Chirp", "Cleat", "Plank", "Pothole", "Ramp", "RigChirp", "RigSine", "Sine", "SpeedBump", "Step",
     "TrapezoidalBump",
     "A8", "ACC", "DLC", "DTL", "MSDV", "SEAT", "TotalValue", "VDV",

@@ -35,6 +35,7 @@ from .response.measures.vibration import RootSumSquare as RootSumSquare
 from .response.problem import RideProblem as RideProblem
 from .response.responses import response_psds as response_psds
 from .response.responses import ride as ride
+from .response.road_of_index import road_of_iri as road_of_iri
 from .response.roughness import international_roughness_index as international_roughness_index
 from .response.weighted_spectra import weighted_rms as weighted_rms
 from .response.weightings import weighting as weighting

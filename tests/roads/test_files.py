@@ -240,7 +240,10 @@ def test_a_track_width_goes_with_left_and_right_alone(tmp_path):
         ('kind = "iso-8608"\nclass = "Z"', "class must be one of A, B, C, D, E, F, G, H, got 'Z'"),
         ('kind = "iso-8608"\nclass = 3', "class must be a text, got 3"),
         (f'{ISO}level = "lower"', "level must be one of geometric mean, upper, got 'lower'"),
-        (f"{ISO}speed = 3", "speed must be one of the keys kind, coherence, class, level, waviness, got 3"),
+        (
+            f"{ISO}speed = 3",
+            "speed must be one of the keys kind, coherence, contact_length_m, class, level, waviness, got 3",
+        ),
         (f"coherence = 3\n{ISO}", "coherence must be a table, got 3"),
         (
             f"{ISO}[coherence]",

@@ -66,3 +66,20 @@ def test_uneven_points_are_joined_by_straight_lines():
         Profile.from_uneven([0, 2, 3], [[0], [0], [0]], (1.0, -1.0))
     tiny = Profile.from_uneven([0, 1e-9, 1.0], [[0], [1], [1]])  # no more than four points for one
     assert tiny.distance.size == 9
+
+
+def test_a_tyre_averages_over_its_contact():
+    """A ramp stays, a sine shrinks by sinc; straight lines between points are averaged exactly."""
+    x = np.arange(2000) * 0.01
+    profile = Profile(x, np.stack([0.1 * x, np.sin(2 * np.pi * x / 0.5)], axis=1), (0.5, -0.5))
+    smooth = profile.averaged(0.125)
+    inside = np.round(smooth.distance / 0.01).astype(int)
+    assert inside[[0, -1]].tolist() == [7, 1992]
+    np.testing.assert_allclose(smooth.height[:, 0], 0.1 * smooth.distance, rtol=1e-9)
+    wave = np.sinc(0.125 / 0.5) * np.sinc(0.01 / 0.5) ** 2  # of the contact, and of straight lines between points
+    np.testing.assert_allclose(smooth.height[:, 1], wave * profile.height[inside, 1], atol=2e-3)
+    spike = Profile([0, 1, 2, 3, 4], [[0], [0], [1], [0], [0]]).averaged(1.0)
+    np.testing.assert_allclose(spike.height[:, 0], [1 / 8, 3 / 4, 1 / 8], rtol=1e-12)
+    for length in (0.0, 4.0, "1"):
+        with pytest.raises(ValueError, match=r"^contact_length must be [^\n]*$"):
+            Profile([0, 1, 2, 3, 4], np.zeros((5, 1))).averaged(length)

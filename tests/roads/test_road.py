@@ -209,3 +209,25 @@ def test_a_road_is_shown_with_its_units():
     )
     assert repr(Iso8608Road("C")) == "Iso8608Road(road_class='C')"
     assert repr(Iso8608Road("C")) != repr(Iso8608Road("C", coherence=Constant(1.0)))
+
+
+@pytest.mark.parametrize("length", [0.1, 0.3])
+def test_contact_averages_the_spectrum_as_the_profile(length):
+    """Waves of realisations of one seed differ by the magnitude of sinc, the mean of a wave over the contact."""
+    road = Iso8608Road("C")
+    averaging = Iso8608Road("C", contact_length=length)
+    assert averaging.describe() == f"{road.describe()}; averaged over {length} m of contact"
+    n = np.array([0.01, 0.5, 2.0, 1 / length])
+    np.testing.assert_allclose(averaging.psd(n, 1.0), road.psd(n, 1.0) * np.sinc(n * length) ** 2, rtol=1e-12)
+    points = [(1.0, 0.7), (1.0, -0.7)]
+    ratio = averaging.cross_spectrum(20 * n, 20.0, points) / road.cross_spectrum(20 * n, 20.0, points)
+    np.testing.assert_allclose(ratio[:, 0, 1], np.sinc(n * length) ** 2, rtol=1e-9, atol=1e-12)
+    profile, smooth = (np.fft.rfft(one.profile(200.0, 0.02, 1).height[:, 0]) for one in (road, averaging))
+    n = np.fft.rfftfreq(10_000, 0.02)
+    wanted = np.abs(np.sinc(n * length) * profile)
+    np.testing.assert_allclose(np.abs(smooth), wanted, atol=1e-9 * np.abs(profile).max())
+
+
+def test_a_negative_contact_is_refused():
+    with pytest.raises(ValueError, match=r"^contact_length must be finite and >= 0 m, got -0.1$"):
+        Iso8608Road("C", contact_length=-0.1)

@@ -71,6 +71,8 @@ def chosen(
 ) -> tuple[RideProblem, Mapping[str, float]]:
     """Return the paper's problem with another vehicle, road, speed or parameters, and the vehicle's setting."""
     papers = ride_problem()
+    if road is not None:
+        settings = {"band": None} | settings  # that of the paper is for its road
     settings |= {"road": None if road is None else load_road(road, allow_outside=allow_outside), "speed": speed}
     if vehicle is None:
         return papers.replace(**settings), dict(zip(papers.variables, reference_design(), strict=True))

@@ -36,6 +36,7 @@ from ..vehicles.mounted import Part, Payload, Seat
 from ..vehicles.unit_slips import UnitSlipWarning, slip_of
 from ..vehicles.vehicle import assembled, coefficients_by_name
 from . import weightings
+from .bands import BAND, OwnBand
 from .event_files import IN_FILES
 from .load_case import Drive, LoadCase
 from .measures.limits import Limit
@@ -83,7 +84,7 @@ class Document:
     weighting : str
         Weighting of ``ACC``.
     band : (float, float)
-        Frequencies over which the spectra are integrated [Hz].
+        Frequencies over which the spectra are integrated [Hz]; 0 to 20 Hz, of measured roads as far as known.
     worst_case : bool
         Whether an objective is the worst load case, in place of the mean square over them.
     nodes : int
@@ -106,7 +107,7 @@ class Document:
     measures: tuple[str, ...]
     constraints: tuple[str, ...] = ()
     weighting: str = "Wk"
-    band: tuple[float, float] = field(default=(0.0, 20.0), metadata=unit("Hz"))
+    band: tuple[float, float] | None = field(default=None, metadata=unit("Hz"))
     worst_case: bool = False
     nodes: int | None = field(default=None, metadata=unit("", 2, NODES[-1]))
     bounds: Mapping[str, Any] = field(default_factory=dict)
@@ -176,7 +177,7 @@ def save_problem(path: str | PathLike[str], problem: RideProblem) -> None:
         measures=tuple(map(str, problem.measures)),
         constraints=tuple(map(str, problem.constraints)),
         weighting=weighting,
-        band=problem.band,
+        band=None if isinstance(problem.band, OwnBand) else problem.band,
         worst_case=problem.worst_case,
         nodes=problem.nodes if type(problem.nodes) is int else None,  # those that were found are of a subclass
         bounds=coefficient_table(vehicle, bounds),
@@ -270,7 +271,7 @@ def _road(given: str | Mapping[str, Any], table: Table, mistakes: Mistakes) -> A
 def _check(values: Mapping[str, Any], cases: Sequence[LoadCase], mistakes: Mistakes) -> None:
     """Note mistakes in band, weighting, measures and limits."""
     with mistakes.noted():
-        checks.interval("band_Hz", values.get("band", (0.0, 20.0)), "Hz")
+        checks.interval("band_Hz", values.get("band", BAND), "Hz")
     weighting, measures = values.get("weighting", "Wk"), list[Measure]()
     with mistakes.noted():
         weightings.checked(weighting)

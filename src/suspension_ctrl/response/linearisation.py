@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from .. import checks
 from ..compiled import compiled
 from ..quantities import Bool, FrozenMapping, Real, Record
 from ..vehicles.assembly import Assembly, Network, StrutCoefficient
@@ -16,6 +15,7 @@ from ..vehicles.networks import has_force_laws
 from ..vehicles.struts import Damper, Parallel, Spring, Strut
 from ..vehicles.vehicle import AssembledVehicle, Setting, Vehicle, assembled
 from . import any_struts, one_port
+from .bands import band_of
 from .load_case import LoadCase, Road
 from .mean_squares import AnyCase, case_of
 from .measures.terms import Term
@@ -81,7 +81,7 @@ class LinearisedVehicle(Record, AssembledVehicle):
 
 
 def linearised(
-    vehicle: Vehicle, setting: Setting, road: Road, speed: float, *, band: tuple[float, float] = (0.0, 20.0)
+    vehicle: Vehicle, setting: Setting, road: Road, speed: float, *, band: tuple[float, float] | None = None
 ) -> LinearisedVehicle:
     """Return a vehicle with springs and dampers in place of its force laws, as on a road at a speed.
 
@@ -99,8 +99,8 @@ def linearised(
         Under one wheel any object with ``psd(f, speed)``.
     speed : float
         Vehicle speed V [m/s].
-    band : (float, float)
-        Frequencies that make up the standard deviations [Hz].
+    band : (float, float), optional
+        As of `RideProblem`: frequencies that make up the standard deviations [Hz].
 
     Returns
     -------
@@ -129,8 +129,8 @@ def linearised(
     D {'damper': 1262}
     """
     car, values = assembled(vehicle).at(setting)
-    checks.interval("band", band, "Hz")
     case = LoadCase(vehicle=car, road=road, speed=speed)
+    band = band_of(band, [(road, speed)])
     squares = case_of(case, [Term(car.responses[0])], values, list(values), band, _NODES)
     if isinstance(squares, AnyCase):
         points = working_points(squares, np.array([list(values.values())]))

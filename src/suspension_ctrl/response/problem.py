@@ -17,6 +17,7 @@ from ..vehicles.altered import plain_values
 from ..vehicles.unit_slips import warn_of_slip
 from ..vehicles.varied import Varied, ported, setting_of
 from ..vehicles.vehicle import Struts, Vehicle, coefficients_by_name
+from .bands import OwnBand, band_of
 from .bounds import checked_bounds
 from .load_case import LoadCase, Road, load_cases
 from .measures.limits import Limit
@@ -52,8 +53,9 @@ class RideProblem(Record):
     weighting : str, control.LTI or None
         Weighting of ``ACC``: a filter of ISO 2631 (``"Wk"``, ``"Wb"``), a table (``"Wk-table"``, ``"Wb-table"``)
         or a system of one input and one output; None for no weighting.
-    band : (float, float)
-        Frequencies over which the spectra are integrated [Hz].
+    band : (float, float), optional
+        Frequencies over which the spectra are integrated [Hz]; by default 0 to 20 Hz, of measured roads as far as
+        all are known.
     lower, upper : sequence of float, optional
         Bounds of the coefficients that have no default, in the vehicle's order: spring K_s [N/m] and damper C_s
         [N s/m] of a quarter car. Beside `bounds` they take the place of its lower or upper values.
@@ -119,7 +121,7 @@ class RideProblem(Record):
         *,
         speed: float | None = None,
         weighting: Weighting | control.LTI | None = "Wk",
-        band: tuple[float, float] = (0.0, 20.0),
+        band: tuple[float, float] | None = None,
         lower: Sequence[float] = (),
         upper: Sequence[float] = (),
         bounds: Mapping[str, tuple[float, float]] | None = None,
@@ -132,7 +134,6 @@ class RideProblem(Record):
         events: Mapping[str, Any] | None = None,
         nodes: int | None = None,
     ) -> None:
-        checks.interval("band", band, "Hz")
         checks.listed("measures", measures)
         checks.listed("constraints", constraints)
         fixed = _fixed(struts or {})
@@ -142,7 +143,7 @@ class RideProblem(Record):
             bounds=checked_bounds(every[0].vehicle, bounds, lower, upper, fixed),
             struts=FrozenMapping(fixed),
             weighting=checked(weighting),
-            band=(float(band[0]), float(band[1])),
+            band=band_of(None if isinstance(band, OwnBand) else band, ((one.road, one.speed) for one in every)),
             measures=tuple(map(measure_of, measures)),
             worst_case=bool(worst_case),
         )

@@ -11,6 +11,7 @@ from ..quantities import Complex, Real
 from ..vehicles.assembly import ResponseName, label
 from ..vehicles.unit_slips import warn_of_slip
 from ..vehicles.vehicle import Setting, Vehicle
+from .bands import band_of
 from .linearisation import linear_at
 from .load_case import LoadCase, Road
 from .measures.measure import MeasureLike, measure_of
@@ -33,7 +34,7 @@ def ride(
     speed: float,
     *,
     weighting: Weighting | control.LTI | None = "Wk",
-    band: tuple[float, float] = (0.0, 20.0),
+    band: tuple[float, float] | None = None,
     measures: Sequence[MeasureLike] = ("ACC", "SWS", "DTL"),
     events: Mapping[str, Any] | None = None,
 ) -> "pd.DataFrame":
@@ -98,11 +99,11 @@ def ride(
     """
     import pandas as pd
 
-    checks.interval("band", band, "Hz")
     checks.listed("measures", measures)
     checks.of_kind("vehicle", vehicle, Vehicle)
     vehicle, setting = vehicle.at(setting)
     case = LoadCase(vehicle=vehicle, road=road, speed=speed, events=events or {})
+    band = band_of(band, [(road, speed)])
     known = checked(weighting)
     judged = [measure_of(one) for one in measures]
     labels = {one.label for one in judged}

@@ -23,7 +23,7 @@ def time_in_zones(
     edges: ArrayLike,
     *,
     response: str = "suspension_travel_rate",
-    band: tuple[float, float] = (0.0, 20.0),
+    band: tuple[float, float] | None = None,
 ) -> "pd.DataFrame":
     """Return the share of time that a Gaussian response spends between edges, by wheel.
 

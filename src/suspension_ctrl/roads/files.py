@@ -46,6 +46,8 @@ class MeasuredFile:
         Places across the surface of an OpenCRG file, positive to the left [m].
     segment : float
         Length of a segment of a profile for Welch's method [m].
+    contact_length : float
+        Length over which a tyre averages the elevation, 0 for contact in a point [m].
     """
 
     file: str
@@ -54,6 +56,7 @@ class MeasuredFile:
     track_width: float | None = field(default=None, metadata=unit("m"))
     tracks: tuple[float, ...] = field(default=(), metadata=unit("m"))
     segment: float | None = field(default=None, metadata=unit("m"))
+    contact_length: float = field(default=0.0, metadata=unit("m"))
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,10 +4,12 @@ Tables over wavenumber have the columns ``wavenumber [cycle/m]`` and ``psd [m^3]
 that start with ``#`` name the source.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -40,6 +42,8 @@ class MeasuredRoad(Road):
         Wavenumbers, ascending and above zero [cycle/m], and one-sided spectral density of elevation, > 0 [m^3].
     coherence : Coherence
         Model of the coherence of parallel tracks. `Isotropic` needs an exponent here, as the spectrum ends.
+    contact_length : float
+        Length over which a tyre averages the elevation, 0 for contact in a point [m].
     source : str
         Origin of the spectrum, for `describe`.
 
@@ -86,6 +90,7 @@ class MeasuredRoad(Road):
         *,
         segment: float | None = None,
         coherence: Coherence | None = None,
+        contact_length: float = 0.0,
         source: str = "a profile",
     ) -> "MeasuredRoad":
         """Estimate spectrum and coherence of a profile by Welch's method.
@@ -104,6 +109,8 @@ class MeasuredRoad(Road):
             Model of the coherence of parallel tracks. Default with two different tracks: the root of the squared
             coherence over the same bands, of uncorrelated tracks about the root of one over the number of
             estimates in a band. With one track, or more than two: `Isotropic`.
+        contact_length : float
+            Length over which a tyre averages the elevation, 0 for contact in a point [m].
         source : str
             Origin of the profile, for `describe`.
 
@@ -123,7 +130,8 @@ class MeasuredRoad(Road):
         if coherence is None and len(set(profile.tracks)) == len(profile.tracks) == 2:
             gamma = np.minimum(np.abs(smooth[0, 1]) / np.sqrt(own[0]) / np.sqrt(own[1]), 1.0)
             coherence = Tabulated(tuple(middle), tuple(gamma), abs(profile.tracks[0] - profile.tracks[1]))
-        return cls(middle, own.mean(axis=0), coherence=coherence or Isotropic(), source=source)
+        known: dict[str, Any] = {"coherence": coherence or Isotropic(), "contact_length": contact_length}
+        return cls(middle, own.mean(axis=0), source=source, **known)
 
     @classmethod
     def from_csv(
@@ -136,20 +144,22 @@ class MeasuredRoad(Road):
         tracks: Sequence[float] | None = None,
         segment: float | None = None,
         coherence: Coherence | None = None,
+        contact_length: float = 0.0,
     ) -> "MeasuredRoad":
         """Read a file of a profile, see `load_profile`, or a table of a spectrum.
 
         Raises
         ------
         ValueError
-            Naming the file: if it holds neither, the road is not as above, or a spectrum comes with another option
-            than `coherence`; OSError if it cannot be read.
+            Naming the file: if it holds neither, the road is not as above, or a spectrum comes with options of a
+            profile; OSError if it cannot be read.
         """
         kind, source = Path(path).suffix.lower(), str(path)
+        estimate: dict[str, Any] = {"segment": segment, "coherence": coherence, "contact_length": contact_length}
         if kind in (ERD, OPENCRG):
             profile = load_profile(path, columns=columns, step=step, track_width=track_width, tracks=tracks)
             with naming(path):
-                return cls.from_profile(profile, segment=segment, coherence=coherence, source=source)
+                return cls.from_profile(profile, source=source, **estimate)
         names, values = read_table(path, belonging, names=columns)
         with naming(path):
             if not names and step is None and (values > 0).all():
@@ -160,11 +170,12 @@ class MeasuredRoad(Road):
             if not names or any(map(kind_of, names)):  # without names no spectrum, as that is above zero
                 profile = profile_of(source, names, values, step=step, track_width=track_width)
                 del values  # of a large profile, before its spectrum takes memory
-                return cls.from_profile(profile, segment=segment, coherence=coherence, source=source)
+                return cls.from_profile(profile, source=source, **estimate)
             n, density = curve_of(names, values, PSD)
             if not (step is track_width is segment is None):
                 raise ValueError("a spectrum takes neither step nor track_width nor segment")
-            return cls(n, density, coherence=coherence or Isotropic(), source=source)
+            known: dict[str, Any] = {"coherence": coherence or Isotropic(), "contact_length": contact_length}
+            return cls(n, density, source=source, **known)
 
     @property
     def band(self) -> tuple[float, float]:
@@ -175,7 +186,7 @@ class MeasuredRoad(Road):
         """Return a line that identifies the road."""
         low, high = self.band
         reference = f"Gd(0.1 cycle/m) = {self.psd(0.1, 1.0):.3g} m^3, " if low <= 0.1 <= high else ""
-        return f"measured, {self.source}: {reference}known from {low:.3g} to {high:.3g} cycle/m"
+        return f"measured, {self.source}: {reference}known from {low:.3g} to {high:.3g} cycle/m{self._contact()}"
 
     def breakpoints(self, speed: float, /) -> tuple[float, ...]:
         """Frequencies of the wavenumbers inside the band at `speed` [m/s], kinks of the spectrum [Hz]."""
@@ -193,10 +204,16 @@ class MeasuredRoad(Road):
         n, (low, high) = f / speed, self.band
         outside = ~((n >= low * (1 - 1e-9)) & (n <= high * (1 + 1e-9)))  # f = V n may round
         if outside.any():
-            allowed = f"from {low * speed:.5g} to {high * speed:.5g} Hz at {speed:g} m/s"
+            allowed = f"from {_above(low * speed):g} to {-_above(-high * speed):g} Hz at {speed:g} m/s"
             known, got = f"known from {low:.5g} to {high:.5g} cycle/m", f"{f[outside].flat[0]:.5g} Hz"
             raise ValueError(f"f must lie {allowed}, as the road is {known}, got {got}")
         return np.exp(np.interp(np.log(n), np.log(self.wavenumber), np.log(self.density))) / speed
+
+
+def _above(value: float) -> float:
+    """Return the next number of five digits that is not below: an end of a band that is accepted when typed."""
+    unit = 10.0 ** (math.floor(math.log10(abs(value))) - 4)
+    return float(f"{math.ceil(value / unit * (1 - 1e-12 * math.copysign(1.0, value))) * unit:.5g}")
 
 
 def read_curve(path: str | PathLike[str], quantity: str) -> tuple[Real, Real]:

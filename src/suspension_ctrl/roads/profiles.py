@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import checks
 from ..quantities import Real, Record, frozen_array, unit
 
 UNEVEN = 0.01  # largest deviation of a step from the mean step, relative
@@ -76,6 +77,29 @@ class Profile(Record):
         finer = min(math.ceil(mean / float(np.diff(x).min()) * (1 - UNEVEN)), _FINER)
         even = np.linspace(x[0], x[-1], (x.size - 1) * finer + 1)
         return cls(even, np.stack([np.interp(even, x, one) for one in h.T], axis=1), tuple(tracks))
+
+    def averaged(self, contact_length: float) -> "Profile":
+        """Return the profile under a tyre that averages over a contact length [m], shorter by that length.
+
+        The mean is that of the straight lines between points, centred at each point (fixed footprint).
+        """
+        checks.positive("contact_length", contact_length, "m")
+        x, half = self.distance, contact_length / 2
+        inside = x[(x - half >= x[0]) & (x + half <= x[-1])]
+        if inside.size < 2:
+            raise ValueError(
+                f"contact_length must be shorter than the profile by two points, got {contact_length} m"
+            )
+        slope = np.diff(self.height, axis=0) / np.diff(x)[:, None]
+        area = np.zeros_like(self.height)
+        area[1:] = np.cumsum((self.height[1:] + self.height[:-1]) / 2 * np.diff(x)[:, None], axis=0)
+
+        def up_to(place: Real) -> Real:
+            i = np.clip(np.searchsorted(x, place, side="right") - 1, 0, x.size - 2)
+            along = (place - x[i])[:, None]
+            return area[i] + along * (self.height[i] + along / 2 * slope[i])
+
+        return Profile(inside, (up_to(inside + half) - up_to(inside - half)) / contact_length, self.tracks)
 
     @property
     def step(self) -> float:

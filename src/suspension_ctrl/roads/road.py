@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import checks
-from ..quantities import Checked, Complex, Real
+from ..quantities import Checked, Complex, Real, unit
 from .coherence import COHERENCES, Coherence, Isotropic, coherence_matrix
 from .profiles import Profile
 
@@ -23,9 +23,14 @@ class Road(Checked, ABC):
     ----------
     coherence : Coherence
         Model of the coherence of parallel tracks.
+    contact_length : float
+        Length over which a tyre averages the elevation, 0 for contact in a point [m]: a fixed footprint (G. M.
+        Captain, A. B. Boghani and D. N. Wormley, "Analytical tire models for dynamic vehicle simulation", Vehicle
+        System Dynamics 8, 1979). It multiplies the spectrum by sinc^2 of wavenumber times length.
     """
 
     coherence: Coherence = field(default_factory=Isotropic, metadata={"kinds": COHERENCES})
+    contact_length: float = field(default=0.0, metadata=unit("m"))
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -53,7 +58,10 @@ class Road(Checked, ABC):
         frequency = checks.reals("f must be", f)
         if not (frequency > 0).all():
             raise ValueError(f"f must be > 0 Hz throughout, got a least value of {frequency.min()}")
-        return self._psd(frequency, speed)
+        spectrum = self._psd(frequency, speed)
+        return (
+            spectrum * np.sinc(frequency / speed * self.contact_length) ** 2 if self.contact_length else spectrum
+        )
 
     def cross_spectrum(self, f: ArrayLike, speed: float, contact_points: ArrayLike) -> Complex:
         """Return the cross-spectra of the elevations under several wheels.
@@ -127,6 +135,10 @@ class Road(Checked, ABC):
         waves[1 : n.size + 1] = amplitude[:, None] * self._coherent(n, y, np.random.default_rng(seed))
         heights = np.fft.irfft(waves, points, axis=0)
         return Profile(step * np.arange(points, dtype=float), heights, tuple(y.tolist()))
+
+    def _contact(self) -> str:
+        """Return the contact in words, for `describe`."""
+        return f"; averaged over {self.contact_length:g} m of contact" if self.contact_length else ""
 
     def breakpoints(self, _speed: float, /) -> tuple[float, ...]:
         """Frequencies of the kinks of the spectrum met at a speed [m/s], in Hz."""

@@ -24,6 +24,8 @@ class PowerLawRoad(Road):
         Waviness kappa from 0.01 to 20 [-].
     coherence : Coherence
         Model of the coherence of parallel tracks.
+    contact_length : float
+        Length over which a tyre averages the elevation, 0 for contact in a point [m].
 
     Examples
     --------
@@ -43,7 +45,7 @@ class PowerLawRoad(Road):
 
     def describe(self) -> str:
         """Return a line that identifies the road."""
-        return f"power law: Gd(1 cycle/m) = {self.roughness:g} m^3, exponent {self.exponent:g}"
+        return f"power law: Gd(1 cycle/m) = {self.roughness:g} m^3, exponent {self.exponent:g}{self._contact()}"
 
     def isotropic_coherence(self, n: Real, distance: float) -> Real:
         """Return the coherence of an isotropic surface, see `power_law_coherence`."""
@@ -67,6 +69,8 @@ class TwoSlopeRoad(Road):
         Wavenumber > 0 at which the exponent changes [cycle/m]; the spectrum is continuous there.
     coherence : Coherence
         Model of the coherence of parallel tracks.
+    contact_length : float
+        Length over which a tyre averages the elevation, 0 for contact in a point [m].
 
     Examples
     --------
@@ -90,7 +94,8 @@ class TwoSlopeRoad(Road):
     def describe(self) -> str:
         """Return a line that identifies the road."""
         exponents = f"{self.lower_exponent:g} below and {self.upper_exponent:g} above {self.corner:g} cycle/m"
-        return f"two slopes: Gd({self.reference:g} cycle/m) = {self.roughness:g} m^3, exponent {exponents}"
+        reference = f"Gd({self.reference:g} cycle/m) = {self.roughness:g} m^3"
+        return f"two slopes: {reference}, exponent {exponents}{self._contact()}"
 
     def breakpoints(self, speed: float, /) -> tuple[float, ...]:
         """Frequency of the corner at `speed` [m/s], the only kink of the spectrum [Hz]."""
@@ -124,6 +129,8 @@ class Iso8608Road(Road):
         Exponent w from 0.01 to 20 [-]; 2 in the standard's classes.
     coherence : Coherence
         Model of the coherence of parallel tracks.
+    contact_length : float
+        Length over which a tyre averages the elevation, 0 for contact in a point [m].
 
     Examples
     --------
@@ -160,7 +167,8 @@ class Iso8608Road(Road):
     def describe(self) -> str:
         """Return a line that identifies the road."""
         density = f"Gd({self.reference:g} cycle/m) = {1e6 * self.roughness:g}e-6 m^3"
-        return f"ISO 8608 class {self.road_class}, {self.level}: {density}, waviness {self.waviness:g}"
+        waviness = f"waviness {self.waviness:g}{self._contact()}"
+        return f"ISO 8608 class {self.road_class}, {self.level}: {density}, {waviness}"
 
     def isotropic_coherence(self, n: Real, distance: float) -> Real:
         """Return the coherence of an isotropic surface, see `power_law_coherence`."""
@@ -168,6 +176,11 @@ class Iso8608Road(Road):
 
     def _psd(self, f: Real, speed: float) -> Real:
         return self.roughness * (f / (speed * self.reference)) ** -self.waviness / speed
+
+
+def limits_of_classes() -> dict[str, float]:
+    """Return the upper limit of Gd(n0) by class [m^3], infinite of the last."""
+    return {name: levels.get("upper", float("inf")) for name, levels in _classes().items()}
 
 
 @lru_cache

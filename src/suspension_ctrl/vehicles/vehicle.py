@@ -152,7 +152,7 @@ class Vehicle(ABC):
         return self.at(setting, **struts)[1]
 
     def linearised(
-        self, setting: Setting, road: Any, speed: float, *, band: tuple[float, float] = (0.0, 20.0)
+        self, setting: Setting, road: Any, speed: float, *, band: tuple[float, float] | None = None
     ) -> "Vehicle":
         """Return the vehicle with linear struts in place of force laws, as on a road; see `linearised`."""
         import suspension_ctrl  # the package's top: a vehicle knows no response
