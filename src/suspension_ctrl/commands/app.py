@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from typer import Typer
 
-from . import bode, compare, exposure, optimum, ride, weighting
+from . import bode, compare, exposure, optimum, ride, road, weighting
 
 app = Typer(
     add_completion=False, pretty_exceptions_enable=False,
@@ -37,4 +37,10 @@ _add(
     exposure.exposure,
     "seat.csv --duration 4h",
     "drive.csv --axes body_acceleration=z --settling 5s",
+)
+_add(
+    road.road,
+    "survey.csv",
+    "survey.txt --columns 'distance [ft],left [in]'",
+    "surface.crg --tracks 0.75,-0.75 --segments 100m",
 )

@@ -54,6 +54,11 @@ def band(text: str) -> tuple[float, float]:
     return lower, upper
 
 
+def lengths(name: str, text: str) -> tuple[float, ...]:
+    """Return the lengths [m] of a comma-separated list, bare or with a unit; ValueError naming `name`."""
+    return numbers(name, text, ["m"] * (text.count(",") + 1))
+
+
 def names(text: str) -> list[str]:
     """Return the names of a comma-separated list, each once."""
     return list(dict.fromkeys(part.strip() for part in text.split(",")))
@@ -104,6 +109,13 @@ AllowOutside = Annotated[
 ]
 Speed = Annotated[Real, _real("Speed [m/s], or with a unit: 72km/h.  [default: 20]", "m/s")]
 Band = Annotated[Text, _option("LOW,HIGH", "Frequencies [Hz]: 0.5,20 or 0.5Hz..  [default: 0,20]")]
+ProfileFile = Annotated[Path, Argument(metavar="FILE", help="Profile: .csv, .txt, .erd, .crg, ...")]
+Columns = Annotated[Text, _option("NAME,...", "Names of all columns: 'distance [ft],left [in],right [in]'.")]
+Step = Annotated[Real, _real("Step of a table of heights alone [m].", "m")]
+TrackWidth = Annotated[Real, _real("Distance of left and right [m].  [default: 1.5]", "m")]
+Tracks = Annotated[Text, _option("NUMBER,...", "Places across an OpenCRG surface, to the left [m].")]
+Segments = Annotated[str, _option("NUMBER,...", "Lengths of segments for the index [m].")]
+Smoothed = Annotated[bool, _option(None, "The profile has been averaged over 250 mm already.", "--smoothed")]
 Weighting = Annotated[Text, _option("NAME", "ISO 2631 weighting of ACC: Wk, Wb, Wb-table, ...  [default: Wk]")]
 Setting = Annotated[Text, _option("NAME=NUMBER,...", "Coefficients of struts [N/m, N s/m, ...] to change.")]
 BodyMass = Annotated[Real, _real("Body mass of a quarter car [kg].", "kg")]

@@ -120,7 +120,8 @@ def load_road(source: str | PathLike[str], *, allow_outside: bool = False) -> Ro
     if ending in ENDINGS:
         return MeasuredRoad.from_csv(path)
     if ending != ".toml":
-        known = f"a class of ISO 8608 such as C, C-lower or C-upper, or a file {', '.join(ENDINGS)} or .toml"
+        file = f"the path of a {', '.join(ENDINGS)} or .toml file"
+        known = f"a class of ISO 8608 such as C, C-lower or C-upper, or {file}"
         raise ValueError(f"road must be {known}, got {checks.shown(str(source))}")
     with document(path, allow_outside) as table:
         return read_road(table)
