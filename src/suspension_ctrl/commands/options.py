@@ -111,7 +111,7 @@ Speed = Annotated[Real, _real("Speed [m/s], or with a unit: 72km/h.  [default: 2
 Band = Annotated[Text, _option("LOW,HIGH", "Frequencies [Hz]: 0.5,20 or 0.5Hz..  [default: 0,20]")]
 ProfileFile = Annotated[Path, Argument(metavar="FILE", help="Profile: .csv, .txt, .erd, .crg, ...")]
 Columns = Annotated[Text, _option("NAME,...", "Names of all columns: 'distance [ft],left [in],right [in]'.")]
-Step = Annotated[Real, _real("Step of a table of heights alone [m].", "m")]
+RowStep = Annotated[Real, _real("Step of a table of heights alone [m].", "m")]
 TrackWidth = Annotated[Real, _real("Distance of left and right [m].  [default: 1.5]", "m")]
 Tracks = Annotated[Text, _option("NUMBER,...", "Places across an OpenCRG surface, to the left [m].")]
 Segments = Annotated[str, _option("NUMBER,...", "Lengths of segments for the index [m].")]

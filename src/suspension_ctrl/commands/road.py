@@ -1,6 +1,6 @@
 """Roughness, spectrum and class of a measured road, printed, drawn and written as CSV."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import options as o
 
@@ -16,7 +16,7 @@ SEGMENTS = "100,20,10"  # m
 def road(
     file: o.ProfileFile,
     columns: o.Columns = None,
-    step: o.Step = None,
+    step: o.RowStep = None,
     track_width: o.TrackWidth = None,
     tracks: o.Tracks = None,
     segments: o.Segments = SEGMENTS,
@@ -37,19 +37,19 @@ def road(
     from .road_figure import road_figure
 
     lengths = o.lengths("segments", segments)
-    places = None if tracks is None else o.lengths("tracks", tracks)
-    names = None if columns is None else o.names(columns)
-    profile = load_profile(file, columns=names, step=step, track_width=track_width, tracks=places)
+    given: dict[str, Any] = {
+        "columns": columns and o.names(columns),
+        "tracks": tracks and o.lengths("tracks", tracks),
+    }
+    profile = load_profile(file, step=step, track_width=track_width, **given)
     index = international_roughness_index(profile, average=not smoothed)
     parts = {length: index.by_segment(length) for length in lengths if length <= index.length}
     measured, told = spectrum_of(profile, str(file))
     folder = results.results_folder(out)
     rows = {"track [m]": [*profile.tracks, "mean"], "IRI [mm/m]": [*index.tracks, index.mean]}
-    tables = {"roughness": pd.DataFrame(rows)}
-    tables |= {f"roughness_{length:g}m": part for length, part in parts.items()}
+    tables = {"roughness": pd.DataFrame(rows), **{f"roughness_{length:g}m": one for length, one in parts.items()}}
     if measured is not None:
-        n, density = measured.wavenumber, measured.density
-        tables["spectrum"] = pd.DataFrame({"wavenumber [cycle/m]": n, "psd [m^3]": density})
+        tables["spectrum"] = spectrum_table(measured)
     for name, table in tables.items():
         write_csv(folder / f"{name}.csv", table)
     with terminal.waiting("drawing"):
@@ -80,6 +80,13 @@ def spectrum_of(profile: "Profile", source: str) -> "tuple[MeasuredRoad | None, 
     line = f"Gd({REFERENCE:g} cycle/m) = {1e6 * found.roughness:.3g}e-6 m^3, waviness {found.waviness:.2f}"
     fit = f"fitted from {found.band[0]:.3g} to {found.band[1]:.3g} cycle/m"
     return measured, f"ISO 8608 class {found.road_class}: {line}, {fit}."
+
+
+def spectrum_table(measured: "MeasuredRoad") -> "pd.DataFrame":
+    """Return the spectrum as a table that `load_road` reads."""
+    import pandas as pd
+
+    return pd.DataFrame({"wavenumber [cycle/m]": measured.wavenumber, "psd [m^3]": measured.density})
 
 
 def spread(parts: "dict[float, pd.DataFrame]") -> "pd.DataFrame":
