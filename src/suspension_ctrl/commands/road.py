@@ -23,7 +23,7 @@ def road(
     smoothed: o.Smoothed = False,
     out: o.Out = None,
 ) -> None:
-    """Print roughness index, spectrum and class of ISO 8608 of a profile in a file.
+    """Print roughness, spectrum and class of a measured road.
 
     A table as text, ERD or OpenCRG. Writes roughness.csv, roughness_100m.csv and so on by segments, spectrum.csv
     and road (PNG, PDF) to a folder; its path is the last line printed.
@@ -48,14 +48,12 @@ def road(
     folder = results.results_folder(out)
     rows = {"track [m]": [*profile.tracks, "mean"], "IRI [mm/m]": [*index.tracks, index.mean]}
     tables = {"roughness": pd.DataFrame(rows), **{f"roughness_{length:g}m": one for length, one in parts.items()}}
-    if measured is not None:
-        tables["spectrum"] = spectrum_table(measured)
+    tables |= {} if measured is None else {"spectrum": spectrum_table(measured)}
     for name, table in tables.items():
         write_csv(folder / f"{name}.csv", table)
     with terminal.waiting("drawing"):
         write_figure(folder / "road", road_figure(profile, index, max(parts, default=None), measured))
-    start, end = profile.distance[[0, -1]]
-    terminal.note(f"{file}: {start:g} to {end:g} m in steps of {profile.step:g} m.")
+    terminal.note(f"{file}: {profile.distance.size} points in steps of {profile.step:g} m.")
     terminal.show("International Roughness Index", tables["roughness"], {"IRI [mm/m]": 2})
     if parts:
         terminal.show("By segments: least, mean and largest", spread(parts), keys=1)
