@@ -32,6 +32,7 @@ PUBLIC = {
     "A8", "ACC", "DLC", "DTL", "MSDV", "SEAT", "TotalValue", "VDV",
     "FrontLoadTransfer", "Limit", "LoadCase", "Measure", "Peak", "RideProblem",
     "Bottoming", "DamperPower", "LargestPeak", "Lift", "Topping", "time_in_zones", "RollDamping",
+    "ModeDamping", "ModeFrequency",
     "RollGradient", "RootSumSquare", "SWS", "Term", "exposure", "exposure_by_axis",
     "international_roughness_index", "load_problem",
     "save_problem", "certify", "Correlation", "correlate", "correlation_figure", "LiftOffWarning",

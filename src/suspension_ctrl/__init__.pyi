@@ -24,6 +24,8 @@ from .response.measures.handling import RollDamping as RollDamping
 from .response.measures.handling import RollGradient as RollGradient
 from .response.measures.limits import Limit as Limit
 from .response.measures.measure import Measure as Measure
+from .response.measures.modal import ModeDamping as ModeDamping
+from .response.measures.modal import ModeFrequency as ModeFrequency
 from .response.measures.peak import Peak as Peak
 from .response.measures.power import DamperPower as DamperPower
 from .response.measures.terms import Term as Term
