@@ -35,7 +35,7 @@ PUBLIC = {
     "ModeDamping", "ModeFrequency",
     "RollGradient", "RootSumSquare", "SWS", "Term", "exposure", "exposure_by_axis",
     "international_roughness_index", "load_problem",
-    "save_problem", "certify", "Correlation", "correlate", "correlation_figure", "LiftOffWarning",
+    "save_problem", "certify", "correlate", "correlation_figure", "LiftOffWarning",
     "linearised", "response_psds", "ride", "simulate",
     "UnitSlipWarning", "weighted_rms", "weighting",
     "FailureWarning", "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run",

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import garage
-from suspension_ctrl import Iso8608Road, ride
+from suspension_ctrl import Iso8608Road, QuarterCar, ride
 
 EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.py"))
 
@@ -41,8 +41,9 @@ def printed(ran):
     return lambda number: ran(number)[0]
 
 
-def test_there_are_twelve_of_a_page_each():
-    assert [int(path.name[:2]) for path in EXAMPLES] == list(range(1, 13))
+def test_they_are_numbered_and_of_a_page_each():
+    assert [int(path.name[:2]) for path in EXAMPLES] == list(range(1, len(EXAMPLES) + 1))
+    assert len(EXAMPLES) >= 13
     assert all(20 <= len(path.read_text(encoding="utf-8").splitlines()) <= 60 for path in EXAMPLES)
 
 
@@ -156,3 +157,15 @@ def test_both_curves_damp_as_samples_of_their_rate_say(ran):
     np.testing.assert_allclose(table["digressive [N s/m]"], table["damping [N s/m]"], rtol=0.05)
     curve = names["axes"][0].lines[0]
     np.testing.assert_array_equal(curve.get_ydata(), names["supplier"].tension(curve.get_xdata()))
+
+
+def test_somebody_elses_matrices_are_the_quarter_car_of_their_numbers(ran):
+    """Of the same masses and tyre, built by us."""
+    names = ran(13)[1]
+    car = QuarterCar(body_mass=300.0, wheel_mass=60.0, tyre_stiffness=190e3)
+    wanted = ride(car, (16e3, 1000.0), Iso8608Road("C"), 20.0)["value"]
+    np.testing.assert_allclose(names["here"], wanted[["ACC", "SWS"]], rtol=1e-6)
+    best = names["same_travel"]
+    found = ride(car, best[["spring [N/m]", "damper [N s/m]"]].tolist(), Iso8608Road("C"), 20.0)["value"]
+    assert best["ACC [m/s^2]"] == pytest.approx(found["ACC"], rel=1e-6)
+    assert best["ACC [m/s^2]"] < wanted["ACC"]

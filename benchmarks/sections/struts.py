@@ -36,6 +36,7 @@ ROWS = (
     Row(FULL, "spring, damper", 1.08),
     Row(FULL, "two dampers by measured tables", 10.0),
     Row(FULL, "dampers on mounts", 1.5),
+    Row(FULL, "imported, 100 states", 1.1),
 )
 
 
@@ -50,9 +51,25 @@ def problems(nodes: int) -> dict[tuple[str, str], sc.RideProblem]:
     found = {}
     for vehicle, file, each in ((QUARTER, "yuen_ramli_2010", quarter), (FULL, "jian_2022_full", full)):
         names = [DEFAULT, *(row.strut for row in ROWS if row.vehicle == vehicle)]
-        for name, parts in zip(names, each, strict=True):
+        for name, parts in zip(names, each, strict=False):  # without the imported one, which is the last
             found[vehicle, name] = _problem(file, parts, nodes)
+    found[FULL, ROWS[-1].strut] = _imported(nodes)
     return found
+
+
+def _imported(nodes: int) -> sc.RideProblem:
+    """Return a full car whose body bends in 43 modes, left and right alike, as a plant of 100 states."""
+    car = sc.load_vehicle("jian_2022_full").vehicle
+    front, rear = np.random.default_rng(0).normal(size=(2, 43)) / 60
+    side = {1: np.ones(43), -1: np.resize([1, -1], 43)}
+    body = sc.FlexibleBody(
+        frequencies=tuple(np.geomspace(12.0, 300.0, 43).tolist()),
+        damping_ratios=(0.02,) * 43,
+        shapes={(x, 0.9 * y): shape * side[y] for x, shape in ((1.5, front), (-1.5, rear)) for y in side},
+    )
+    plant = sc.Plant(body.on(car).plant(), car.contacts, axles=("front", "rear"))
+    bounds = {one.name: _BOUNDS[one.name.split(".")[-1]] for one in plant.strut_coefficients}
+    return sc.RideProblem(plant, sc.Iso8608Road("C"), speed=20.0, bounds=bounds, band=(0.1, 20.0), nodes=nodes)
 
 
 def _measured(axle: str) -> Strut:

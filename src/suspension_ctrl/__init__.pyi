@@ -1,5 +1,4 @@
 from .response.certifying import certify as certify
-from .response.correlation import Correlation as Correlation
 from .response.correlation import correlate as correlate
 from .response.correlation import correlation_figure as correlation_figure
 from .response.driving import simulate as simulate

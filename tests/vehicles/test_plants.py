@@ -94,6 +94,25 @@ def test_rates_that_a_system_lacks_are_derived(car):
         np.testing.assert_allclose(plant.plant(car.responses)(s), h.frdata, rtol=1e-9, atol=1e-12)
 
 
+def test_struts_of_an_axle_share_their_coefficients():
+    """As in the full car, whose two loops of two equations they keep; `FULL` without bars."""
+    pair = {"front": (10e3, 2000.0), "rear": (13e3, 2000.0)}
+    plant = Plant(FULL.plant(), contacts(FULL), axles=("front", "rear"))
+    assert [one.name for one in plant.strut_coefficients] == [
+        "front.spring", "front.damper", "rear.spring", "rear.damper",
+    ]  # fmt: skip
+    here, there = plant.closed(pair), FULL.closed(pair)
+    np.testing.assert_allclose(here.A, there.A, rtol=1e-12, atol=1e-12 * np.abs(there.A).max())
+    assert pickle.loads(pickle.dumps(plant)) == plant != Plant(FULL.plant(), contacts(FULL))
+    one = Plant(FULL.plant(), contacts(FULL), axles=("rear",))
+    assert list(one.coefficients({"front_left": (1, 2), "front_right": (3, 4), "rear": (5, 6)})) == [
+        "front_left.spring", "front_left.damper", "front_right.spring", "front_right.damper", "rear.spring",
+        "rear.damper",
+    ]  # fmt: skip
+    with pytest.raises(ValueError, match=r"^axles must have two struts like 'middle_left', got front_left, .*$"):
+        Plant(FULL.plant(), contacts(FULL), axles=("middle",))
+
+
 def test_a_deflection_with_feedthrough_is_the_travel_if_its_rate_is_given():
     names = {"inputs": ["road", "strut"], "outputs": ["deflection", "deflection_rate"]}
     system = control.ss([[-2.0]], [[1.0, 3.0]], [[1.0], [-2.0]], [[0.5, 0.1], [1.0, 3.0]], **names)

@@ -244,8 +244,8 @@ def correlation_figure(correlation: Correlation) -> "Figure":
         decibels = {end: 20 * np.log10(bands[end] / bands["measured"]) for end in ("low", "high")}
         below.fill_between(middle, decibels["low"], decibels["high"], color="0.85", step="mid")
         below.plot(middle, bands["ratio [dB]"], "o-", ms=3)
-        above.set(title=escaping.figure(name), ylabel=f"({bands['unit'].iloc[0]})$^2$/Hz")
-        below.set(xlabel="frequency [Hz]", ylabel="computed/measured [dB]")
+        above.set(title=escaping.figure(name), ylabel=f"spectrum [({bands['unit'].iloc[0]})^2/Hz]")
+        below.set(xlabel="frequency [Hz]", ylabel="computed over measured [dB]")
         for one in (above, below):
             one.grid(alpha=0.25)
     axes[0, 0].legend(frameon=False, fontsize=8)

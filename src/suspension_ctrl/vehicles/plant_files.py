@@ -51,6 +51,8 @@ class PlantFile:
         names and SI units.
     contacts : array of tables
         Points where wheels touch the road; by default one wheel without a name.
+    axles : array of str
+        Axles with equal struts: ``front_left`` and ``front_right`` have the coefficients of ``front`` together.
     included : table
         Springs and dampers that the model has at its struts, which are taken out.
     """
@@ -59,6 +61,7 @@ class PlantFile:
     inputs: tuple[str, ...] | Mapping[str, Any] = ()
     outputs: tuple[str, ...] | Mapping[str, Any] = ()
     contacts: Mapping[str, Position] = field(default=ONE_WHEEL, metadata={"rows": Contact})
+    axles: tuple[str, ...] = ()
     included: Mapping[str, Any] = field(default_factory=dict)
 
 
@@ -73,7 +76,8 @@ def read_plant(record: PlantFile, table: Table, mistakes: Mistakes) -> Plant:
     if not bad(system):
         with mistakes.noted(), fields_named(PlantFile, table.name):
             inputs, outputs = _names(record.inputs), _names(record.outputs)
-            return Plant.named(system, inputs=inputs, outputs=outputs, contacts=record.contacts)
+            contacts, axles = record.contacts, record.axles
+            return Plant.named(system, inputs=inputs, outputs=outputs, contacts=contacts, axles=axles)
     return BAD
 
 

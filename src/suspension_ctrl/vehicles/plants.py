@@ -68,6 +68,9 @@ class Plant(Record, Vehicle):
         without a name.
     struts : sequence of str
         Names of the struts; by default all that the system has as inputs.
+    axles : sequence of str
+        Names of axles with equal struts: ``front_left`` and ``front_right`` have the coefficients
+        ``front.spring`` and ``front.damper`` together.
 
     Raises
     ------
@@ -96,6 +99,7 @@ class Plant(Record, Vehicle):
     system: System = field(metadata={"show": _brief})
     contacts: Mapping[str, Position] = field(default=ONE_WHEEL, metadata=unit("m"))
     struts: tuple[str, ...] = ()
+    axles: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         system = self.system
@@ -112,6 +116,11 @@ class Plant(Record, Vehicle):
         check_strut_names("struts", struts)
         contacts = _checked_contacts(self.contacts)
         _check_signals(system, [joined(wheel, "road") for wheel in contacts], struts, tensions)
+        checks.listed("axles", self.axles)
+        for axle in self.axles:
+            if missing := [side for side in _sides(axle) if side not in struts]:
+                raise ValueError(f"axles must have two struts like {missing[0]!r}, got {', '.join(struts)}")
+        self._keep(axles=tuple(self.axles))
         self._keep(contacts=contacts, struts=struts, system=_ported(system, tuple(contacts), struts))
 
     @classmethod
@@ -132,6 +141,7 @@ class Plant(Record, Vehicle):
         outputs: Names | None = None,
         contacts: Mapping[str, Position] = ONE_WHEEL,
         struts: Sequence[str] = (),
+        axles: Sequence[str] = (),
     ) -> "Plant":
         """Return the vehicle of a system with other names, units and signs, as of `load_system`.
 
@@ -144,7 +154,7 @@ class Plant(Record, Vehicle):
             acceleration. In their order, ``""`` for a signal without use, or by their names in the system. A road
             may be given by its rate alone, ``"front_road_rate [m/s]"``.
             All with their own names and in SI units if not given.
-        contacts, struts
+        contacts, struts, axles
             As of `Plant`.
 
         Raises
@@ -171,7 +181,7 @@ class Plant(Record, Vehicle):
         >>> print(table["value"].head(2).round(4).to_dict())
         {'ACC': 1.258, 'SWS': 0.011}
         """
-        return cls(renamed(system, inputs, outputs), contacts, tuple(struts))
+        return cls(renamed(system, inputs, outputs), contacts, tuple(struts), tuple(axles))
 
     def without(self, setting: Setting) -> "Plant":
         """Return the plant without springs and dampers that the model already has at its struts.
@@ -188,7 +198,7 @@ class Plant(Record, Vehicle):
         bare = around(self.system, -gains_by_order(known.values(), values, len(self.struts)))
         forces = {joined(strut, "strut_force") for strut in self.struts}  # then of all that is at the strut
         outputs = [name for name in bare.output_labels if name not in forces]
-        return Plant(selected(bare, outputs, bare.input_labels, "plant"), self.contacts, self.struts)
+        return Plant(selected(bare, outputs, bare.input_labels, "plant"), self.contacts, self.struts, self.axles)
 
     @property
     def meanings(self) -> Mapping[str, Response]:
@@ -210,8 +220,10 @@ class Plant(Record, Vehicle):
     @property
     def strut_coefficients(self) -> tuple[StrutCoefficient, ...]:
         """Coefficients of the struts."""
-        strut, shares = parallel(Spring(), Damper()), np.eye(len(self.struts)).tolist()
-        placements = (placed(strut, *one) for one in zip(self.struts, shares, strict=True))
+        axles = {side: axle for axle in self.axles for side in _sides(axle)}
+        owners = [axles.get(strut, strut) for strut in self.struts]
+        shares = {owner: [float(owner == one) for one in owners] for owner in owners}
+        placements = (placed(parallel(Spring(), Damper()), *one) for one in shares.items())
         return tuple(one for coefficients, _ in placements for one in coefficients)
 
     def plant(self, responses: Sequence[ResponseName] | None = None) -> System:
@@ -229,15 +241,19 @@ class Plant(Record, Vehicle):
         names = {"inputs": self.system.input_labels, "outputs": self.system.output_labels}
         if isinstance(self.system, control.StateSpace):
             names["states"] = self.system.state_labels
-        return _unpickled, (numbers_of(self.system), names, self.contacts, self.struts)
+        return _unpickled, (numbers_of(self.system), names, self.contacts, self.struts, self.axles)
 
     def _values(self) -> tuple[object, ...]:
         labels = (*self.system.input_labels, *self.system.output_labels)
-        return (*(a.tobytes() for a in numbers_of(self.system)), labels, self.contacts, self.struts)
+        return (*(a.tobytes() for a in numbers_of(self.system)), labels, self.contacts, self.struts, self.axles)
 
 
 def _unpickled(numbers: Sequence[NDArray[Any]], names: Mapping[str, list[str]], *rest: Any) -> Plant:
     return Plant(system_of(numbers, **names), *rest)
+
+
+def _sides(axle: str) -> tuple[str, str]:
+    return f"{axle}_left", f"{axle}_right"
 
 
 def _check_lines(system: control.FrequencyResponseData) -> None:
