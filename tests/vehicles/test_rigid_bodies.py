@@ -384,3 +384,30 @@ def body(**more) -> dict:
 def test_rejects_parts_that_do_not_fit(make, message):
     with pytest.raises(ValueError, match="^" + re.escape(message) + "$"):
         make()
+
+
+def test_struts_of_different_axles_that_share_a_force_law_have_working_points_of_their_own():
+    """Sharing a curve between front and rear is the same as giving it to both."""
+    law = sc.parallel(sc.Spring(), sc.DigressiveDamper(low_speed=4000.0, high_speed=800.0, knee=0.1))
+    bodies = [RigidBody(mass=650.0, pitch_inertia=1200.0)]
+    wheels = [
+        Wheel(name=name, position=(x, 0.0), mass=40.0, tyre_stiffness=2e5)
+        for name, x in {"front": 1.2, "rear": -1.5}.items()
+    ]
+    shared = RigidBodies(
+        bodies=bodies,
+        wheels=wheels,
+        suspensions=[
+            Suspension(name="front", coefficients="both", strut=law),
+            Suspension(name="rear", coefficients="both"),
+        ],
+    )
+    apart = replace(shared, suspensions=[Suspension(name=name, strut=law) for name in ("front", "rear")])
+    rides = [
+        sc.ride(vehicle, setting, ROAD, 20.0, band=(0.1, 20.0))["value"]
+        for vehicle, setting in (
+            (shared, {"both.spring": 2e4}),
+            (apart, {"front.spring": 2e4, "rear.spring": 2e4}),
+        )
+    ]
+    np.testing.assert_allclose(rides[0], rides[1], rtol=1e-8)

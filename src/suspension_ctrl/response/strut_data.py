@@ -40,7 +40,7 @@ def any_struts(
     networks = networks_of(vehicle, setting, variables, f, True)
     gains, nominal = _nominal(networks, omega)
     ports = Ports.of(vehicle, f, responses, setting, gains)
-    if not _alike(ports, roads, pairs):
+    if not (_paired(vehicle.networks, pairs[0]) and _alike(ports, roads, pairs)):
         pairs = tuple(np.eye(len(one)) for one in pairs)  # type: ignore[assignment]
         networks = networks_of(vehicle, setting, variables, f, False)
         gains, nominal = _nominal(networks, omega)
@@ -64,6 +64,12 @@ def _nominal(networks: Networks, omega: Real) -> tuple[Real, Real]:
     nominal = np.column_stack([nodes[networks.root, STIFFNESS], np.array(loss) / w])
     gains = np.array([np.diag(one @ networks.ports) for one in (*nominal.T, np.zeros(len(nominal)))])
     return gains, nominal
+
+
+def _paired(networks: Sequence[Network], struts: Real) -> bool:
+    """Whether the ports of each network are left and right of each other."""
+    shares = [np.flatnonzero(network.share) for network in networks]
+    return all(struts[np.ix_(share, share)].all() for share in shares)
 
 
 def _alike(ports: Ports, roads: Complex, pairs: Pairs) -> bool:

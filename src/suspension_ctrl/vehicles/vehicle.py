@@ -18,6 +18,7 @@ from .feedback import Dynamics, System, gains_by_order, selected, with_rates
 from .handling import Mechanics
 from .modes import modes_of
 from .motion import plant_of
+from .static import static_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -178,6 +179,21 @@ class Vehicle(ABC):
         without = [name for name in dampers if given.get(name, 1.0) == 0]
         vehicle, values = assembled(self).at({**given, **dict.fromkeys(without, 1.0)})
         return modes_of(vehicle.assembly, {**values, **dict.fromkeys(without, 0.0)})
+
+    def static(self, setting: Setting | None = None, /, **struts: Any) -> "pd.DataFrame":
+        """Return the static position on level ground; arguments and errors as of `closed`, masses needed.
+
+        Returns
+        -------
+        DataFrame
+            By ``name`` the ``value`` and its ``unit``: ``<wheel>_wheel_load``, positive on the ground;
+            ``<wheel>_tyre_deflection`` and ``<strut>_deflection`` from the free length, negative in compression;
+            ``body_displacement`` and the like, how far bodies and wheels sink from where nothing is loaded: the
+            difference of two vehicles is that of their ride heights. A spring that is a force law has its slope
+            about the static position without payload.
+        """
+        vehicle, values = assembled(self).at(setting, **struts)
+        return static_of(vehicle.statics, values)
 
 
 class AssembledVehicle(Vehicle):
