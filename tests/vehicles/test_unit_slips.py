@@ -45,14 +45,14 @@ def test_every_slip_of_every_vehicle_is_named(stem, kind):
     if not names or not any({**vars(car), **setting}.get(name) for name in names):
         return
     line = slip_of(car, setting)
-    assert line.startswith(f"{', '.join(names)} must be in ")
+    assert line.startswith(f"{', '.join(names)} must be in " if len(names) <= 4 else names[0])
     assert f" as if in {unit}: " in line
     assert "\n" not in line
 
 
-@given(st.sampled_from(stems("vehicles")), st.sampled_from(sorted(KINDS)), st.floats(0.5, 2.0))
+@given(st.sampled_from(stems("vehicles")), st.sampled_from(sorted(KINDS)), st.floats(0.6, 1.6))
 @settings(deadline=None, max_examples=60)
-def test_a_factor_of_two_is_real_spread(stem, kind, factor):
+def test_half_as_much_again_is_real_spread(stem, kind, factor):
     car, setting, _ = slipped(sc.load_vehicle(stem), kind, factor)
     assert slip_of(car, setting) is None
 

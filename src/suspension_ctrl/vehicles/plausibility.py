@@ -103,7 +103,7 @@ def _squares(stiffness: Real, mass: Real) -> Real:
 
 
 def _of_dampers(vehicle: AssembledVehicle, values: Mapping[str, float]) -> Iterator[Figure]:
-    """Damper over spring of a strut: 1 ms of a truck with hardly any damping to 0.2 s."""
+    """Damper over spring of a strut: 1 ms of a truck with hardly any damping to 0.5 s."""
     units = {one.name: one.unit for one in vehicle.strut_coefficients}
     ratios = []
     for name, unit in units.items():
@@ -116,5 +116,5 @@ def _of_dampers(vehicle: AssembledVehicle, values: Mapping[str, float]) -> Itera
         if unit == "N s/m" and values.get(name) and springs:
             ratios.append(values[name] / springs[0])
     if ratios:
-        yield Figure("a damper over its spring", min(ratios), 3e-4, 10.0, 0.07, "s", _WIDE)
-        yield Figure("a damper over its spring", max(ratios), 3e-4, 10.0, 0.07, "s", _WIDE)
+        yield Figure("a damper over its spring", min(ratios), 5.5e-4, 10.0, 0.07, "s", _WIDE)
+        yield Figure("a damper over its spring", max(ratios), 5.5e-4, 10.0, 0.07, "s", _WIDE)
