@@ -75,7 +75,7 @@ def test_off_centre_full_car():
 
 
 def test_motorcycle_from_the_points_of_its_source():
-    """Four coordinates: body, pitch, front wheel, swing arm. Ratios and inertias are rounded in the file, to 2e-4."""
+    """Four coordinates: body, pitch, front wheel, swing arm. The file rounds to 2e-4."""
     points = {
         "frame": (0.6779, 0.4724), "rider": (0.415, 1.14), "fork": (1.164, 0.77), "pivot": (0.549, 0.3608),
         "arm": (0.196, 0.3113), "wheel": (0.0, 0.297), "rod": (0.3722, 0.2748), "crank_rod": (0.4946, 0.1522),
@@ -114,7 +114,7 @@ def test_motorcycle_from_the_points_of_its_source():
 
 
 def test_tractor_and_semitrailer_from_energies():
-    """Sixteen coordinates; a fifth wheel makes heights and rolls equal. Masses and tyres as the file derives them."""
+    """Sixteen coordinates; a fifth wheel makes heights and rolls equal. Axles as in the file."""
     file = sc.load_vehicle("kraz_semitrailer")
     z, roll, pitch, turn, *rest = unit(16)
     axles, rolls = rest[:6], rest[6:]
