@@ -411,3 +411,24 @@ def test_struts_of_different_axles_that_share_a_force_law_have_working_points_of
         )
     ]
     np.testing.assert_allclose(rides[0], rides[1], rtol=1e-8)
+
+
+def test_a_truck_with_a_force_law_payload_and_seat_rides_and_drives():
+    """A bilinear damper of equal slopes is a linear one: ride and motion agree, with a load on the trailer."""
+    joint = [Joint(lower="body", upper="trailer", position=(-1.8, 0.0), roll=True)]
+    linear = articulated(-1.8, -7.0, -10.0, joint)
+    law = sc.parallel(sc.Spring(), sc.BilinearDamper(bump=15e3, rebound=15e3))
+    first, *others = linear.suspensions
+    curved = replace(linear, suspensions=[replace(first, strut=law), *others])
+    rest = {"rear": (8e5, 25e3), "trailer": (9e5, 3e4)}
+    found = []
+    for vehicle, setting in ((linear, {"front": (4e5, 15e3), **rest}), (curved, {"front.spring": 4e5, **rest})):
+        seat = sc.Seat(mass=90.0, spring=2e4, damper=900.0, name="sitting", position=(1.0, 0.4)).on(vehicle)
+        laden = sc.Payload(mass=2e3, position=(-1.0, 0.0), stands_on="trailer").on(seat)
+        ride = sc.ride(laden, setting, ROAD, 20.0, band=(0.1, 20.0), measures=["ACC driver", "ACC sitting"])
+        history = sc.simulate(laden, setting, sc.SpeedBump(height=0.05, length=2.0), 10.0)
+        load = history["load_acceleration [m/s^2]"] - history["load_acceleration [m/s^2]"].iloc[0]
+        time = np.linspace(0.0, 3.0, 301)
+        found.append((ride["value"], np.interp(time, history["time [s]"], load)))
+    np.testing.assert_allclose(found[1][0], found[0][0], rtol=1e-6)
+    np.testing.assert_allclose(found[1][1], found[0][1], atol=2e-3 * np.abs(found[0][1]).max())
