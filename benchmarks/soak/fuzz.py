@@ -35,6 +35,7 @@ from suspension_ctrl import (
 from suspension_ctrl.commands.bode import read_designs
 from suspension_ctrl.documents import FileError
 from suspension_ctrl.paper import experiment
+from suspension_ctrl.response.channels import channels_of
 from suspension_ctrl.response.files import load_problem
 from suspension_ctrl.response.history_files import read_accelerations
 from suspension_ctrl.roads.files import load_road
@@ -117,6 +118,14 @@ def readers() -> dict[str, Reader]:
         "problem": Reader(load_problem, ".toml", toml["studies"]),
         "plant": Reader(Plant.from_csv, ".csv", (plant,)),
         **_systems(),
+        "measured channels": Reader(
+            lambda path: channels_of(path, None),
+            ".csv",
+            (
+                b"time [ms],distance [m],body_acceleration [g]\n" + b"".join(b"%d,0,0.1\n" % i for i in range(9)),
+                b"frequency [Hz];body_acceleration [(m/s^2)^2/Hz]\n0,5;0,1\n1,5;0,2\n4;0,1\n",
+            ),
+        ),
         "profile": Reader(lambda path: international_roughness_index(load_profile(path)), ".csv", profiles),
         "profile in ERD": Reader(load_profile, ".erd", (ERD + b"0.001 0.002\n" * 200,)),
         "numbers of ERD": Reader(_read_numbers, ".bin", (np.linspace(0, 1, 400, dtype="<f4").tobytes(),)),
