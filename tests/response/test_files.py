@@ -11,6 +11,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from garage import DRIVER, FULL, ROAD
 from spoilt import VALUES, changed, spelt
 from suspension_ctrl import (
     ACC,
@@ -32,7 +33,7 @@ from suspension_ctrl import (
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.paper.experiment import chosen
 from suspension_ctrl.response import problem as objectives
-from suspension_ctrl.response.files import load_problem
+from suspension_ctrl.response.files import load_problem, save_problem
 from suspension_ctrl.search.constraints import feasible_objectives
 from suspension_ctrl.study.reference import best_known
 from suspension_ctrl.vehicles.files import load_vehicle
@@ -532,3 +533,17 @@ def test_the_damper_study_has_12_variables_and_limits_of_one_bump(checkout):
         [alone["SWS"] / 0.0115 - 1, alone["lift"] / 0.0035 - 1, alone["peak travel bump"] / 0.035 - 1], rel=1e-6
     )
     assert dtl < alone["DTL"]
+
+
+def test_parameters_and_frequencies_stand_in_problem_files(tmp_path):
+    bounds = {"front.damper": (1e3, 3e3), "front_tyre_stiffness": (1.5e5, 2.5e5), "driver.mass": (60.0, 100.0),
+              "front.ride_frequency": (0.9, 1.4)}  # fmt: skip
+    struts = {"rear.spring": 2e4, "rear.damper": 1500.0, "body_mass": 1250.0}
+    problem = RideProblem(DRIVER.on(FULL), ROAD, speed=20.0, bounds=bounds, struts=struts, band=(0.3, 20.0))
+    save_problem(tmp_path / "problem.toml", problem)
+    text = (tmp_path / "problem.toml").read_text(encoding="utf-8")
+    assert "front_tyre_stiffness_N_per_m = [150000.0, 250000.0]" in text
+    assert "ride_frequency_Hz = [0.9, 1.4]" in text
+    found = load_problem(tmp_path / "problem.toml")
+    assert found == problem
+    assert found.units["driver.mass"] == "kg"

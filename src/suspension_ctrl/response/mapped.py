@@ -18,13 +18,24 @@ class Mapped(NamedTuple):
     @compiled(error_model="numpy")
     def __call__(self, designs: Real) -> Real:
         """Return the mean squares (p, k) of designs (p, v), each as if alone."""
-        coefficients = np.empty((designs.shape[0], self.formulas.result.size))
-        slots = np.empty(self.formulas.start.size)
-        for p in range(designs.shape[0]):
-            fill(self.formulas, designs, p, slots, coefficients)
-        return call(self.case, (coefficients,))
+        return call(self.case, (coefficients_of(self.formulas, designs),))
+
+
+@compiled(error_model="numpy")
+def coefficients_of(formulas: Formulas, designs: Real) -> Real:
+    """Return the coefficients (p, w) of designs (p, v)."""
+    coefficients, slots = np.empty((designs.shape[0], formulas.result.size)), np.empty(formulas.start.size)
+    for p in range(designs.shape[0]):
+        fill(formulas, designs, p, slots, coefficients)
+    return coefficients
 
 
 def unmapped(case: Any, designs: Real) -> tuple[Any, Real]:
     """Return a case without formulas and its designs (p, w) of designs (p, v) of the case."""
-    return (case.case, case.formulas.of(designs)) if isinstance(case, Mapped) else (case, designs)
+    return (case.case, coefficients_of(case.formulas, designs)) if isinstance(case, Mapped) else (case, designs)
+
+
+def mean_squares_of(case: Any, designs: Real) -> Real:
+    """Return the mean squares (p, k) of designs (p, v) in two steps: quicker than both compiled into one."""
+    inner, coefficients = unmapped(case, designs)
+    return np.asarray(inner(coefficients))

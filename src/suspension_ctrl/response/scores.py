@@ -14,7 +14,7 @@ from ..vehicles.varied import Varied
 from ..vehicles.vehicle import Vehicle, assembled
 from .linearisation import check_reached, linear_vehicles, powers_of_laws, working_points
 from .load_case import LoadCase
-from .mapped import unmapped
+from .mapped import mean_squares_of, unmapped
 from .mean_squares import AnyCase, Case, cases_of, varying
 from .measures.terms import CaseMeasure, Designs, Term
 from .ports import Ports, dynamic_stiffness, paths
@@ -144,9 +144,9 @@ class Scores:
         kernel = self.kernel(nodes)
         if self._simple:
             which, factor = self._simple
-            found = _reached(kernel.cases[0](designs), designs).T[which]
+            found = _reached(mean_squares_of(kernel.cases[0], designs), designs).T[which]
             return np.asarray(kernel.scale * np.sqrt(factor * found).T + kernel.offset)
-        mean_squares = [case(designs) for case in kernel.cases]
+        mean_squares = [mean_squares_of(case, designs) for case in kernel.cases]
         scores = _reached(kernel.scores(mean_squares), designs)
         by_case = [self._designs(c, designs, kernel, each) for c, each in enumerate(mean_squares)]
         for column, score in enumerate(self.scores):
@@ -157,7 +157,7 @@ class Scores:
     def by_case(self, case: int, design: Real, nodes: int) -> Real:
         """Return each measure (s,) of one design (v,) in a load case, without its factor and its constant."""
         designs, kernel = design[None], self.kernel(nodes)
-        mean_squares = _reached(kernel.cases[case](designs), designs)
+        mean_squares = _reached(mean_squares_of(kernel.cases[case], designs), designs)
         found, one = self.roots(case, mean_squares[0]), self._designs(case, designs, kernel, mean_squares)
         for s, score in enumerate(self.scores):
             if function := score.cases[case].values:
@@ -182,7 +182,10 @@ class Scores:
     def errors(self, designs: Real, nodes: int) -> list[Real]:
         """Return by case the largest change (k,) of each root mean square by twice the nodes."""
         both = zip(self.kernel(nodes).cases, self.kernel(2 * nodes).cases, strict=True)
-        return [_change(*(np.sqrt(_reached(case(designs), designs)) for case in pair)) for pair in both]
+        return [
+            _change(*(np.sqrt(_reached(mean_squares_of(case, designs), designs)) for case in pair))
+            for pair in both
+        ]
 
     @cached_property
     def _simple(self) -> tuple[Integer, Real] | None:
