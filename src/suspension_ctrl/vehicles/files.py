@@ -263,7 +263,10 @@ def read_coefficients(
     A coefficient needs none either if a frequency or a ratio stands in its place.
     """
     flat = table.flat()
-    given = [*given, *(one.replaces for one in vehicle.variables.values() if _replaces(one, flat.content))]
+    given = [
+        *given,
+        *(one.replaces for one in vehicle.variables.values() if _replaces(one, [*flat.content, *given])),
+    ]
     keys = [_key(one, kind, one.name in given) for one in vehicle.variables.values()]
     values = read(flat, {one.key: one for one in keys}, mistakes, others)
     return {one.name: values[one.name] for one in keys if one.name in values}
