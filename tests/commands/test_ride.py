@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from suspension_ctrl import Iso8608Road, QuarterCar, load_vehicle, ride, save_system
+from suspension_ctrl import Iso8608Road, QuarterCar, RideProblem, certify, load_vehicle, ride, save_system
 
 QUARTER = ("--body-mass", 400, "--wheel-mass", 45, "--tyre-stiffness", "220e3")
 
@@ -120,3 +120,29 @@ def test_springs_laws_and_mean_travel_are_tables_of_80_columns(called, tmp_path)
     springs = pd.read_csv(tmp_path / "out" / "springs.csv").set_index("name")
     laws = pd.read_csv(tmp_path / "out" / "laws.csv").set_index("law")
     assert springs["spring rate [N/m]"]["front.spring"] == laws.equivalent["front.spring"]
+
+
+def test_roads_driven_in_time_stand_beside_the_ride(called, tmp_path):
+    """The certificate of a problem whose one design is the vehicle with its struts; a bar of 0 does not vary."""
+    done = called("ride", "--vehicle", "minaker_half", "--road", "C", "--certify", "0.4km", "--out", "out")
+    assert done.returncode == 0, done.stderr
+    file = load_vehicle("minaker_half")
+    bounds = {name: (0.9 * value, 1.1 * value) for name, value in file.setting.items()}
+    problem = RideProblem(file.vehicle, Iso8608Road("C"), speed=20.0, bounds=bounds)
+    wanted = certify(problem, list(file.setting.values()), length=400.0)
+    found = pd.read_csv(tmp_path / "out" / "certificate.csv").set_index("measure")
+    for column in ("linearised", "simulated", "low", "high"):
+        np.testing.assert_allclose(found[column], wanted.to_frame()[column], rtol=1e-6)
+    assert "\n".join(str(wanted).splitlines()[3:]) in done.stdout
+    assert max(map(len, done.stdout.partition("8 random roads")[2].splitlines())) <= 80
+
+
+def test_a_road_too_short_to_drive_is_refused_in_one_line(called):
+    done = called("ride", "--certify", 100)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "error: length must be 400 m or more at 20 m/s, got 100 m\n"
+
+
+def test_notes_have_80_columns_outside_of_a_terminal(called):
+    done = called("ride", "--vehicle", "jian_2022_full")
+    assert max(map(len, done.stdout.partition("Ride: ")[0].splitlines())) <= 80

@@ -148,5 +148,6 @@ Axes = Annotated[Text, _option("COLUMN=AXIS,...", "Axes of columns with other na
 Step = Annotated[Real, _real("Time step [s] of a file without times, or with a unit: 5ms.", "s")]
 Duration = Annotated[Real, _real("Time of exposure in a day [s], or with a unit: 4h.  [default: 8h]", "s")]
 Settling = Annotated[Real, _real("Time [s] at the start in which filters settle, not counted.  [default: 0]", "s")]
+Certify = Annotated[Real, _real("Drive 8 random roads of this length [m] in time, or with a unit: 2km.", "m")]
 Out = Annotated[File, _option("FOLDER", "Folder for the results, absent or empty.  [default: a new one]")]
 Resumed = Annotated[File, _option("FOLDER", "Folder: absent, empty, or of the same command, to resume it.")]

@@ -8,11 +8,15 @@ from . import options as o
 if TYPE_CHECKING:
     import pandas as pd
 
+    from ..response.certificates import Certificate
     from ..response.linearisation import LinearisedVehicle
+    from ..response.load_case import LoadCase
+    from ..response.problem import RideProblem
     from ..vehicles.files import VehicleFile
     from ..vehicles.vehicle import Vehicle
 
 PAPERS = "yuen_ramli_2010"
+_NARROW = 1e-3  # half the range of a coefficient of one vehicle, relative
 
 
 def ride(
@@ -28,13 +32,14 @@ def ride(
     speed: o.Speed = None,
     band: o.Band = None,
     weighting: o.Weighting = None,
+    certify: o.Certify = None,
     out: o.Out = None,
 ) -> None:
     """Print the ride, the modes and the springs of one vehicle.
 
     The vehicle is from a file, with its own struts, or a quarter car with given masses, tyre, spring and
-    damper; of a plant the ride alone. Writes ride.csv, modes.csv, springs.csv and, of force laws, laws.csv to
-    a folder; its path is the last line printed.
+    damper; of a plant the ride alone. Writes ride.csv, modes.csv, springs.csv, of force laws laws.csv, and of
+    roads driven in time certificate.csv to a folder; its path is the last line printed.
     """
     from ..paper import experiment as paper
     from ..response.linearisation import linearised
@@ -53,6 +58,9 @@ def ride(
     table = (table if table.note.any() else table.drop(columns="note")).reset_index()
     linear = linearised(car, values, case.road, case.speed, band=problem.band) if has_modes(car) else None
     tables = {"ride": table, **tables_of(linear)}
+    certificate = None if certify is None else certified(problem, case, values, certify)
+    if certificate is not None:
+        tables["certificate"] = certificate.to_frame().reset_index()
     folder = results.results_folder(out)
     for name, one in tables.items():
         write_csv(folder / f"{name}.csv", one)
@@ -60,7 +68,22 @@ def ride(
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table)
     show_tables(tables, linear)
+    if certificate is not None:
+        for line in [*str(certificate).splitlines(), ""]:
+            terminal.note(line)
     print(folder)
+
+
+def certified(
+    problem: "RideProblem", case: "LoadCase", values: Mapping[str, float], length: float
+) -> "Certificate":
+    """Return the measures of one vehicle linearised and driven in time on roads of a length [m]."""
+    from ..response.certifying import certify
+
+    varied = {name: value for name, value in values.items() if value > 0}
+    bounds = {name: ((1 - _NARROW) * value, (1 + _NARROW) * value) for name, value in varied.items()}
+    fixed = {name: value for name, value in values.items() if name not in varied}
+    return certify(problem.replace(cases=[case], bounds=bounds, struts=fixed), list(varied.values()), length)
 
 
 def has_modes(vehicle: "Vehicle") -> bool:

@@ -24,6 +24,7 @@ console = Console(width=None if sys.stdout.isatty() else 130)
 stderr = Console(stderr=True)
 T = TypeVar("T")
 
+_PIPE = 80  # columns of a paragraph outside of a terminal
 _GAP = 3  # columns of text between two columns of a table
 
 
@@ -129,8 +130,9 @@ def compiling() -> Iterator[None]:
 
 
 def note(text: str) -> None:
-    """Print a paragraph without markup, unprintable characters escaped."""
-    console.print(escaping.terminal(text), markup=False, highlight=False, emoji=False)
+    """Print a paragraph without markup, unprintable characters escaped; in 80 columns outside of a terminal."""
+    width = console.width if console.is_terminal else min(console.width, _PIPE)
+    console.print(escaping.terminal(text), markup=False, highlight=False, emoji=False, width=width)
 
 
 def show(title: str, table: "pd.DataFrame", digits: dict[str, int] | None = None, keys: int = 1) -> None:
