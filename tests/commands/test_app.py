@@ -92,9 +92,10 @@ def test_a_pipe_of_any_encoding_is_written(tmp_path, encoding, count):
     lines = (
         "compare --populations 20 --iterations 1 --repeats 1 --vehicle minaker_half\n"
         "optimum --population 50 --iterations 2 --sws-limit 0.006 --road B --vehicle minaker_half\n"
-        "bode --points 20\nweighting\nride --road C"
+        "bode --points 20\nweighting\nride --road C\nexposure seat.csv --step 8ms"
     )
     lines = "\n".join(lines.splitlines()[:count])
+    (tmp_path / "seat.csv").write_text("z [g]\n" + "1.0\n1.1\n" * 100, encoding="utf-8")
     environment = os.environ | {"PYTHONIOENCODING": encoding, "PYTHONWARNDEFAULTENCODING": "1", "PYTHONUTF8": "0"}
     done = subprocess.run(
         [sys.executable, "-c", program, lines], capture_output=True, cwd=tmp_path, env=environment
