@@ -1,6 +1,7 @@
 """Ride and modes of one vehicle on one road, printed and written as CSV."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import options as o
@@ -42,7 +43,6 @@ def ride(
     roads driven in time certificate.csv to a folder; its path is the last line printed.
     """
     from ..paper import experiment as paper
-    from ..response.linearisation import linearised
     from ..response.load_case import LoadCase
     from ..response.responses import ride
     from ..tables import write_csv
@@ -51,46 +51,58 @@ def ride(
     masses = {"body_mass": body_mass, "wheel_mass": wheel_mass, "tyre_stiffness": tyre_stiffness}
     file = chosen_vehicle(vehicle, masses, allow_outside)
     car, values = in_place(file, setting or "", given({"spring": spring, "damper": damper}))
-    units = {one.name: one.unit for one in car.strut_coefficients}
     problem, _ = paper.chosen(None, road, speed, allow_outside=allow_outside, **o.settings(weighting, band))
     case, (low, high) = LoadCase(vehicle=car, road=problem.road, speed=problem.speed), problem.band
     table = ride(car, values, case.road, speed=case.speed, weighting=problem.weighting, band=problem.band)
     table = (table if table.note.any() else table.drop(columns="note")).reset_index()
-    linear = linearised(car, values, case.road, case.speed, band=problem.band) if has_modes(car) else None
+    linear = linearised_if_assembled(case, values, problem.band)
     tables = {"ride": table, **tables_of(linear)}
-    certificate = None if certify is None else certified(problem, case, values, certify)
-    if certificate is not None:
-        tables["certificate"] = certificate.to_frame().reset_index()
+    certificate = certified(problem, case, values, certify)
     folder = results.results_folder(out)
     for name, one in tables.items():
         write_csv(folder / f"{name}.csv", one)
-    terminal.note(f"{file.name or vehicle}: {told(values, units)}.")
+    terminal.note(f"{file.name or vehicle}: {told(values, car)}.")
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table)
     show_tables(tables, linear)
-    if certificate is not None:
-        for line in [*str(certificate).splitlines(), ""]:
-            terminal.note(line)
+    show_certificate(certificate, folder)
     print(folder)
 
 
 def certified(
-    problem: "RideProblem", case: "LoadCase", values: Mapping[str, float], length: float
-) -> "Certificate":
-    """Return the measures of one vehicle linearised and driven in time on roads of a length [m]."""
+    problem: "RideProblem", case: "LoadCase", values: Mapping[str, float], length: float | None
+) -> "Certificate | None":
+    """Return the measures of one vehicle linearised and driven in time on roads of a length [m], if given."""
     from ..response.certifying import certify
 
+    if length is None:
+        return None
     varied = {name: value for name, value in values.items() if value > 0}
     bounds = {name: ((1 - _NARROW) * value, (1 + _NARROW) * value) for name, value in varied.items()}
     fixed = {name: value for name, value in values.items() if name not in varied}
     return certify(problem.replace(cases=[case], bounds=bounds, struts=fixed), list(varied.values()), length)
 
 
-def has_modes(vehicle: "Vehicle") -> bool:
-    """Whether a vehicle is one of masses and links."""
+def show_certificate(certificate: "Certificate | None", folder: Path) -> None:
+    """Write and print a certificate, if there is one."""
+    from ..tables import write_csv
+    from . import terminal
+
+    if certificate is not None:
+        write_csv(folder / "certificate.csv", certificate.to_frame().reset_index())
+        terminal.note_lines(f"{certificate}\n\n")
+
+
+def linearised_if_assembled(
+    case: "LoadCase", values: Mapping[str, float], band: tuple[float, float]
+) -> "LinearisedVehicle | None":
+    """Return the linearised vehicle of a load case, none unless it is one of masses and links."""
+    from ..response.linearisation import linearised
     from ..vehicles.vehicle import AssembledVehicle
 
-    return isinstance(vehicle, AssembledVehicle)
+    if not isinstance(case.vehicle, AssembledVehicle):
+        return None
+    return linearised(case.vehicle, values, case.road, case.speed, band=band)
 
 
 def in_place(file: "VehicleFile", setting: str, strut: Mapping[str, float]) -> "tuple[Vehicle, dict[str, float]]":
@@ -113,8 +125,9 @@ def given(values: Mapping[str, float | None]) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value is not None}
 
 
-def told(values: Mapping[str, float], units: Mapping[str, str]) -> str:
-    """Return the values in words, each with its unit."""
+def told(values: Mapping[str, float], vehicle: "Vehicle") -> str:
+    """Return the values of struts in words, each with its unit."""
+    units = {one.name: one.unit for one in vehicle.strut_coefficients}
     return ", ".join(f"{name} {value:g} {units[name]}".rstrip() for name, value in values.items())
 
 

@@ -135,6 +135,12 @@ def note(text: str) -> None:
     console.print(escaping.terminal(text), markup=False, highlight=False, emoji=False, width=width)
 
 
+def note_lines(text: str) -> None:
+    """Print a text line by line, as `note`."""
+    for line in text.splitlines():
+        note(line)
+
+
 def show(title: str, table: "pd.DataFrame", digits: dict[str, int] | None = None, keys: int = 1) -> None:
     """Print a table; `digits` is the number of decimals by column; NaN is blank.
 
