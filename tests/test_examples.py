@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import garage
-from suspension_ctrl import Iso8608Road, QuarterCar, ride
+from suspension_ctrl import Iso8608Road, QuarterCar, international_roughness_index, ride
 
 EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.py"))
 
@@ -169,3 +169,12 @@ def test_somebody_elses_matrices_are_the_quarter_car_of_their_numbers(ran):
     found = ride(car, best[["spring [N/m]", "damper [N s/m]"]].tolist(), Iso8608Road("C"), 20.0)["value"]
     assert best["ACC [m/s^2]"] == pytest.approx(found["ACC"], rel=1e-6)
     assert best["ACC [m/s^2]"] < wanted["ACC"]
+
+
+def test_the_survey_is_the_road_it_was_made_of(ran):
+    """Six decimals of an inch are 25 nm: the index of the survey itself, to a thousandth."""
+    names = ran(14)[1]
+    found = international_roughness_index(names["survey"])
+    np.testing.assert_allclose(names["index"].tracks, found.tracks, rtol=1e-3)
+    assert len(names["segments"]) == 25
+    assert names["ride"].value[["ACC", "SWS", "DTL"]].notna().all()

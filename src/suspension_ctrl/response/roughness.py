@@ -21,6 +21,7 @@ BASE = 0.25
 """Length over which a tyre averages the profile [m]."""
 _START = 11.0  # length whose mean slope the car begins with [m]: half a second of driving
 _COARSEST = 0.3048  # longest step of a profile [m]: a foot
+_ROUNDED = 1e-3  # of a step, by rounded distances
 _SLACK = 1e-9  # relative, of lengths and steps that are not round in binary
 
 
@@ -61,10 +62,10 @@ class RoughnessIndex(Record):
         step = float(self.distance[-1] - self.distance[0]) / (self.distance.size - 1)
         least = 2 * max(BASE, step)  # a segment at the end keeps points, although the average ends before it
         checks.positive("segment", length, "m")
-        if not least <= length <= self.length * (1 + _SLACK):
+        if not least <= length <= self.length + step / 2:
             raise ValueError(f"segment must be from {least:g} to {self.length:.6g} m, got {length:g} m")
-        count = math.floor(self.length / length * (1 + _SLACK))
-        edges = np.ceil(np.arange(count + 1) * length / step * (1 - _SLACK)).astype(int)
+        count = math.floor((self.length + step / 2) / length)  # distances in a file are rounded
+        edges = np.ceil(np.arange(count + 1) * length / step - _ROUNDED).astype(int)
         edges[-1] = min(edges[-1], self.distance.size)
         sums = np.add.reduceat(self.travel[: edges[-1]], edges[:-1], axis=0)
         start = self.distance[0] - step + length * np.arange(count)
@@ -147,7 +148,7 @@ def international_roughness_index(profile: Profile, *, average: bool = True) -> 
 
 def _half_up(number: float) -> int:
     """Return the nearest whole number, of two the larger as in Sayers' program."""
-    return math.floor(round(number, 9) + 0.5)
+    return math.floor(number + 0.5 + _ROUNDED)
 
 
 def _response(slope: Real, first: Real, dt: float) -> Real:
