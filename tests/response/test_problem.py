@@ -159,7 +159,7 @@ def test_any_layout_of_designs_is_taken():
         ),
         ({"band": (20.0, 0.0)}, "band must be finite with 0 <= lower < upper [Hz], got (20.0, 0.0)"),
         ({"band": (0.0, 1.0, 2.0)}, "band must be finite with 0 <= lower < upper [Hz], got (0.0, 1.0, 2.0)"),
-        ({"band": None}, "band must be finite with 0 <= lower < upper [Hz], got None"),
+        ({"band": "0,20"}, "band must be finite with 0 <= lower < upper [Hz], got '0,20'"),
         ({"lower": (31e3, 1e3)}, "lower must be finite, <= upper in every variable and < upper in one"),
         ({"lower": (0.0, 1e3)}, "lower bound of spring must be finite and > 0 N/m, got 0.0"),
         ({"lower": (1e3,), "upper": (3e4,)}, "lower and upper must bound spring, damper, got (1000.0,)"),
