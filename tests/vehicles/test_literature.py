@@ -154,3 +154,44 @@ def test_axles_of_the_semitrailer_are_those_of_its_source():
     assert wheels["trailer_front_left"].tyre_stiffness == pytest.approx(
         0.5 * 5000 * 9.81 / (0.16 * 0.385 * 0.65), abs=0.5
     )
+
+
+def test_cab_over_tractor_with_printed_loads_and_roll_stiffness():
+    """The source prints both: loads of wheels [N], and N m/deg of springs and auxiliary stiffness of an axle."""
+    file = sc.load_vehicle("trucksim_cab_over")
+    values = np.array([list(file.vehicle.coefficients(file.setting).values())])
+    loads = dict(zip(file.vehicle.wheels, file.vehicle.statics.static_loads(values)[0], strict=True))
+    printed = {"front": 18449.92485, "rear": 11175.9648}
+    for wheel, load in loads.items():
+        assert load == pytest.approx(printed[wheel.name.partition("_")[0]], rel=1e-8)
+    stiffness, at = file.vehicle.statics.stiffness_of(values)[0], file.vehicle.assembly.coordinates.index
+    for axle, roll in {"front": 10228.09413, "rear": 7608.652382}.items():
+        between = -stiffness[at("roll"), at(f"{axle}_axle_roll")]
+        assert between * np.pi / 180 == pytest.approx(roll, rel=1e-5)  # bars in the file rounded to 1 N m/rad
+
+
+def test_cab_over_tractor_from_energies():
+    """The frame by what the cab leaves of the sprung mass; an axle's wheels and tyres by their places."""
+    whole, cab = np.array([-1.110, 1.175]), np.array([0.5, 1.8])  # centres of gravity: forward, upward
+    frame = (4455 * whole - 1000 * cab) / 3455
+    pitch = 35402.8 - 100 - 3455 * ((frame - whole) ** 2).sum() - 1000 * ((cab - whole) ** 2).sum()
+    roll = 2283.9 - 100 - 3455 * (frame - whole)[1] ** 2 - 1000 * (cab - whole)[1] ** 2
+    z, r, p, zc, rc, pc, front, front_roll, rear, rear_roll = unit(10)
+    twin = (1.863 / 2) ** 2 + (0.310 / 2) ** 2  # mean square place of two tyres
+    masses = [(3455, z), (roll, r), (pitch, p), (1000, zc)]
+    masses += [(100 + 1000 * (1.8 - 0.8) ** 2, rc), (100 + 1000 * (1.8 - 0.875) ** 2, pc)]
+    masses += [(290 + 2 * (36 + 91), front), (80 + 2 * (36 + 91) * 1.015**2, front_roll)]
+    masses += [(679 + 4 * 91, rear), (215 + 4 * 91 * twin, rear_roll)]
+
+    def height(x, y):
+        return z - (x - frame[0]) * p + y * r
+
+    springs = [(487014, r - front_roll), (85944, r - rear_roll)]
+    for side in (1, -1):
+        springs.append((250e3, height(0.0, side * 0.445) - front - side * 0.445 * front_roll))
+        springs.append((700e3, height(-4.0, side * 0.5) - rear - side * 0.5 * rear_roll))
+        springs.append((980e3, front + side * 1.015 * front_roll))
+        springs.append((1.96e6, rear + side * twin**0.5 * rear_roll))
+        for x, y in ((1.4, 0.5), (0.0, 0.8)):
+            springs.append((100e3, zc - (x - 0.5) * pc + side * y * rc - height(x, side * y)))
+    np.testing.assert_allclose(found("trucksim_cab_over"), by_energies(masses, springs), rtol=2e-5)
