@@ -122,8 +122,8 @@ def test_tractor_and_semitrailer_from_energies():
     bodies = {body.name: body for body in file.vehicle.bodies}
     masses = [(10e3, z), (3441.0, roll), (28485.0, pitch), (20e3, trailer), (23904.0, roll), (322240.0, turn)]
     springs = []
-    sizes = {"front": (592176, 0.529, 336937, 0.919), "drive": (1026439, 0.429, 673874, 0.8491)}
-    sizes["trailer"] = (710612, 0.729, 612512, 1.0325)
+    sizes = {"front": (592176, 0.529, 673874, 0.919), "drive": (1026439, 0.429, 1347749, 0.8491)}
+    sizes["trailer"] = (710612, 0.729, 1225025, 1.0325)
     places = {"front": 2.0, "drive_front": -2.08, "drive_rear": -3.48}
     places |= {"trailer_front": -0.32, "trailer_middle": -1.63, "trailer_rear": -2.94}  # from its own centre
     for (name, x), height, tilt in zip(places.items(), axles, rolls, strict=True):
@@ -150,9 +150,11 @@ def test_axles_of_the_semitrailer_are_those_of_its_source():
     outside = 2 * (14.705 + 99.3) * 1.0325**2 + 2 * (0.04117 + 0.6 + 9.41035)
     assert bodies["trailer_front_axle"].roll_inertia == pytest.approx(178.4760417 + outside, abs=5e-3)
     wheels = {wheel.name: wheel for wheel in sc.load_vehicle("kraz_semitrailer").vehicle.wheels}
-    assert wheels["front_left"].tyre_stiffness == pytest.approx(0.5 * 3350 * 9.81 / (0.16 * 0.3048), abs=0.5)
+    assert wheels["front_left"].tyre_stiffness == pytest.approx(3350 * 9.81 / (0.16 * 0.3048), abs=0.5)
+    assert wheels["front_left"].tyre_damping == pytest.approx((673874 * 90) ** 0.5, abs=0.5)
+    assert wheels["trailer_front_left"].tyre_damping == pytest.approx((1225025 * 69.3) ** 0.5, abs=0.5)
     assert wheels["trailer_front_left"].tyre_stiffness == pytest.approx(
-        0.5 * 5000 * 9.81 / (0.16 * 0.385 * 0.65), abs=0.5
+        5000 * 9.81 / (0.16 * 0.385 * 0.65), abs=0.5
     )
 
 
