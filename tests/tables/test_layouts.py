@@ -9,7 +9,17 @@ from hypothesis import strategies as st
 
 from suspension_ctrl.tables.layouts import HEAD, Layout
 
-SIGNS = [("\t", "."), ("\t", ","), (";", "."), (";", ","), (",", "."), (" ", "."), (" ", ",")]
+SIGNS = [
+    ("\t", "."),
+    ("\t", ","),
+    (";", "."),
+    (";", ","),
+    (",", "."),
+    ("|", "."),
+    ("|", ","),
+    (" ", "."),
+    (" ", ","),
+]
 
 
 def layout_of(text: str) -> Layout:
@@ -27,6 +37,8 @@ def read(text: str, columns=None) -> np.ndarray:
         ("x,y\n1,2\n", ["x", "y"], ",", ".", "#"),
         ("# a\n\nx;y\n0,5;1\n", ["x", "y"], ";", ",", "#"),
         ("% a, b; c\nx\ty\n1.5\t2\n", ["x", "y"], "\t", ".", "%"),
+        ("! a, b\nx|y\n0,5|2\n", ["x", "y"], "|", ",", "!"),
+        ("  % a\nx,y\n1,2\n", ["x", "y"], ",", ".", "%"),
         ("1 2\n3 4\n", [], " ", ".", "#"),
         ("0,5   2\n3 4\n", [], " ", ",", "#"),
         ("0 0 # start\n3 4\n", [], " ", ".", "#"),
@@ -71,7 +83,9 @@ def test_columns_are_chosen_by_name_beside_texts():
 
 
 def test_comments_end_rows_and_stand_between_them():
-    assert read("x,y\n1,2 # one\n# two, three\n \n3,4\n").tolist() == [[1, 2], [3, 4]]
+    for sign in "#%!":
+        text = f"  {sign} none\nx,y\n1,2 {sign} one\n{sign} two, three\n \n3,4\n"
+        assert read(text).tolist() == [[1, 2], [3, 4]]
 
 
 @pytest.mark.parametrize(
@@ -84,9 +98,9 @@ def test_comments_end_rows_and_stand_between_them():
         ("x;y\n1.234,5;2\n", "'x' must be a number up to 1e+09, got '1.234,5' in row 1"),
         ("1 2\n3 x\n", "column 2 must be a number up to 1e+09, got 'x' in row 2"),
         ("x,y\n1,2,\n3,4,5\n", "row 2 must have 2 cells, got 3"),
-        ("x,y\n1,2,3\n", "row 1 must have 2 cells, got 3"),
-        ("x,y\n1\n", "row 1 must have 2 cells, got 1"),
-        ("x y z\n1 2\n", "row 1 must have 3 cells, got 2"),
+        ("x,y\n1,2,3\n", "row 1 must have 2 cells as in ['x', 'y'], got 3"),
+        ("x,y\n1\n", "row 1 must have 2 cells as in ['x', 'y'], got 1"),
+        ("x y z\n1 2\n", "row 1 must have 3 cells as in ['x', 'y', 'z'], got 2"),
         ("x,y\n1,\x1b[31m\n", r"'y' must be a number up to 1e+09, got '\x1b[31m' in row 1"),
         (f"x,y\n1,{'z' * 99}\n", f"'y' must be a number up to 1e+09, got '{'z' * 17}...{'z' * 18}' in row 1"),
         ("", "the file must begin with the names of its columns, got nothing"),

@@ -1,7 +1,7 @@
 """Layout of a CSV file, detected from its first lines: header, separator, decimal sign and comment sign.
 
-Cells are separated by tabs, semicolons, commas or blanks; a decimal comma is allowed unless commas separate.
-Lines that start with ``#`` or ``%`` are comments.
+Cells are separated by tabs, semicolons, commas, vertical bars or blanks; a decimal comma is allowed unless commas
+separate. Lines that start with ``#``, ``%`` or ``!`` are comments.
 """
 
 import csv
@@ -23,6 +23,7 @@ LARGEST = 1e9
 HEAD = 65536
 """Characters of the first lines together, and of any line at most."""
 _ROWS = 100_000  # at a time
+_COMMENTS, _SEPARATORS = ("#", "%", "!"), "\t;,|"
 _SIGNS = {".": str.maketrans("_", " "), ",": str.maketrans(",._", ".  ")}  # float() takes 1_0 for 10
 
 
@@ -42,14 +43,16 @@ class Layout(NamedTuple):
         """Detect the layout from the first lines of a file; csv.Error or ValueError without success."""
         if max(map(len, lines), default=0) > HEAD:
             raise ValueError(f"the file must have lines of {HEAD} characters at most, got a longer one")
-        comment = next((line[0] for line in lines if line.startswith(("#", "%"))), "#")
-        texts = [(i, line) for i, line in enumerate(lines) if line.strip() and line.lstrip()[0] not in "#%"]
+        comment = next((text[0] for text in map(str.lstrip, lines) if text.startswith(_COMMENTS)), "#")
+        texts = [
+            (i, line) for i, line in enumerate(lines) if line.strip() and not line.lstrip().startswith(_COMMENTS)
+        ]
         if not texts:
             raise ValueError("the file must begin with the names of its columns, got nothing")
         (first, top), row = texts[0], texts[min(1, len(texts) - 1)][1].partition(comment)[0]
         if bare := _separator(top.partition(comment)[0], single=True):
             row = top.partition(comment)[0]
-        separator = bare or _separator(row) or next((one for one in "\t;," if one in top), ",")
+        separator = bare or _separator(row) or next((one for one in _SEPARATORS if one in top), ",")
         names, cells = [] if bare else _without_last(_cells(top, separator)), _cells(row, separator)
         width, after = len(names) or len(_without_last(cells)), 0 if bare else 1
         comma = separator != "," and any("," in line for _, line in texts[after:])
@@ -119,7 +122,8 @@ class Layout(NamedTuple):
         for number, row in enumerate(self._rows(file, good), start=good + 1):
             cells = _without_last(row) if len(row) > self.width else row
             if len(cells) != self.width:
-                return f"row {number} must have {self.width} cells, got {len(cells)}"
+                names = f" as in {checks.shown(self.names)}" if number == 1 and self.names else ""
+                return f"row {number} must have {self.width} cells{names}, got {len(cells)}"
             for i in wanted:
                 if not abs(_number(cells[i], self.decimal)) <= LARGEST:
                     name = checks.shown(self.names[i]) if self.names else f"column {i + 1}"
@@ -152,7 +156,7 @@ def _separator(line: str, *, single: bool = False) -> str | None:
     """Return the separator of a line of two or more numbers, blanks of a `single` one; None for another line."""
     if single and not isnan(_number(line.strip(), ".")):
         return " "
-    for one in "\t;, ":
+    for one in f"{_SEPARATORS} ":
         signs = "." if one == "," else ".,"
         cells = _without_last(_cells(line, one)) if one in line.strip() else [""]
         if all(any(not isnan(_number(cell, sign)) for sign in signs) for cell in cells):

@@ -22,7 +22,8 @@ class TableDamper(Table):
         Rate of the deflection, ascending, positive in extension (rebound) [m/s]. A table without negative rates is
         that of an odd curve.
     force : (n,) array_like
-        Force, positive in tension, nowhere falling, 0 at 0 m/s [N].
+        Force, positive in tension, nowhere falling, 0 at 0 m/s [N]. Beyond the last row the curve goes on with its
+        last slope; one more row with the same force holds it.
     installation_ratio : float
         Deflection of the damper over the deflection at the wheel.
 
