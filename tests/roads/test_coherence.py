@@ -92,7 +92,21 @@ def test_simple_models():
     )
     table = Tabulated((0.1, 0.3), (0.8, 0.2), 1.5)
     np.testing.assert_allclose(table.between(np.array([0.05, 0.1, 0.2, 0.3, 9.0]), 1.5), [0.9, 0.8, 0.5, 0.2, 0.2])
-    np.testing.assert_allclose(table.between(np.array([0.1]), 3.0), table.between(np.array([0.2]), 1.5))
+    np.testing.assert_allclose(table.between(np.array([0.1, 0.3]), 3.0), [0.8**2, 0.2**2], rtol=1e-12)
+    exponential, knots = Exponential(3.0), np.linspace(0.05, 1.0, 20)
+    measured = Tabulated(tuple(knots), tuple(exponential.between(knots, 1.5)), 1.5)
+    np.testing.assert_allclose(measured.between(knots, 0.4), exponential.between(knots, 0.4), rtol=1e-12)
+
+
+@given(
+    st.lists(st.floats(0.0, 1.0), min_size=3, max_size=3),
+    st.lists(st.floats(0.6, 1.1), min_size=2, max_size=3, unique=True),
+)
+def test_a_measured_coherence_is_of_a_road_under_axles_of_any_track(values, halves):
+    """However it scatters: a power of the distance is positive definite, as of a Markov process across."""
+    model, y = Tabulated((0.1, 0.2, 0.3), tuple(values), 1.5), np.array([*halves, *(-half for half in halves)])
+    matrix = coherence_matrix(model.between, np.linspace(0.0, 0.4, 9), y)
+    assert np.linalg.eigvalsh(matrix).min() > -1e-12
 
 
 @pytest.mark.parametrize(

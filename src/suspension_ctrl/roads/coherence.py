@@ -132,7 +132,7 @@ class Tabulated(Checked):
     """Measured coherence of two tracks, linear over wavenumber between the rows of a table.
 
     Below the first row it rises to 1 at wavenumber 0, beyond the last it is constant. Tracks at a distance d have
-    at n the coherence of the measured distance D at n d/D, as on an isotropic power-law road.
+    the coherence of the measured distance D to the power of d/D, as of an exponential coherence.
 
     Parameters
     ----------
@@ -143,16 +143,15 @@ class Tabulated(Checked):
 
     Examples
     --------
-    Measured between tracks 1.5 m apart; tracks at half that distance have the same coherence at half the
-    wavelength:
+    Measured between tracks 1.5 m apart; tracks at half that distance have the root of that coherence:
 
     >>> import numpy as np
     >>> import suspension_ctrl as sc
     >>> measured = sc.Tabulated(wavenumber=(0.05, 0.2, 1.0), coherence=(0.95, 0.7, 0.1), distance=1.5)
     >>> measured.between(np.array([0.2, 0.6]), 1.5).round(2)
     array([0.7, 0.4])
-    >>> measured.between(np.array([0.4, 1.2]), 0.75).round(2)
-    array([0.7, 0.4])
+    >>> measured.between(np.array([0.2, 0.6]), 0.75).round(2)
+    array([0.84, 0.63])
     """
 
     wavenumber: tuple[float, ...] = field(metadata=unit("cycle/m") | {"most": 10_000})
@@ -172,7 +171,8 @@ class Tabulated(Checked):
 
     def between(self, n: Real, distance: float) -> Real:
         """Return the coherence; see `Coherence`."""
-        return np.interp(n * distance / self.distance, (0.0, *self.wavenumber), (1.0, *self.coherence))
+        measured = np.interp(n, (0.0, *self.wavenumber), (1.0, *self.coherence))
+        return np.asarray(measured ** (distance / self.distance))
 
 
 COHERENCES: dict[str, type] = {
