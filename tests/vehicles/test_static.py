@@ -1,10 +1,13 @@
 """The static position by weights over springs, by name."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import suspension_ctrl as sc
 from garage import FULL, HALF, QUARTER
+from suspension_ctrl.vehicles import body_parts
 
 GRAVITY = 9.80665
 
@@ -41,6 +44,61 @@ def test_a_payload_lowers_the_ride_height():
     np.testing.assert_allclose(loads.to_numpy() @ places, 100.0 * GRAVITY * np.array([0.2, 0.1]), rtol=1e-9)
     assert change["body_displacement"] < 0
     assert after.index.tolist() == before.index.tolist()
+
+
+@pytest.mark.parametrize("mass", [30.0, 300.0])
+def test_a_payload_moves_a_bilinear_spring_along_its_curve(mass):
+    """Softer by half beyond 10 mm of compression, for 20 kN/m: down to there a load of 200 N."""
+    spring = sc.TableSpring(deflection=[-0.11, -0.01, 0.01], force=[-1200.0, -200.0, 200.0])
+    car = sc.QuarterCar(
+        body_mass=300.0, wheel_mass=40.0, tyre_stiffness=2e5, strut=sc.parallel(spring, sc.Damper(value=1e3))
+    )
+    value, weight = sc.Payload(mass=mass).on(car).static({})["value"], mass * GRAVITY
+    beyond = max(weight - 200.0, 0.0)
+    compression = 300.0 * GRAVITY / 20e3 + (weight - beyond) / 20e3 + beyond / 10e3
+    assert value["deflection"] == pytest.approx(-compression, rel=1e-9)
+    assert value["wheel_load"] == pytest.approx((340.0 + mass) * GRAVITY, rel=1e-9)
+    assert value["tyre_deflection"] == pytest.approx(-(340.0 + mass) * GRAVITY / 2e5, rel=1e-9)
+
+
+TOP = sc.TableSpring("top", deflection=[-0.01, 0.0, 0.01], force=[-3e3, 0.0, 1e3])
+STOPS = sc.parallel(
+    sc.Spring(value=2e4, installation_ratio=0.9),
+    sc.series(TOP, sc.Damper(value=1.5e3)),
+    sc.series(sc.BumpStop(gap=0.01, stiffness=2e5), sc.Spring("mount", 3e5)),
+    sc.ReboundStop(gap=0.002, stiffness=1e5),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("mass", "place"), [(60.0, (0.3, 0.2)), (400.0, (-1.0, 0.5)), (900.0, (-2.5, 0.0))])
+def test_the_static_position_is_that_from_which_driving_begins(mass, place):
+    """With stops at both ends: of the light corner in extension, of the heavy one in compression."""
+    car = replace(FULL, front_strut=STOPS, rear_strut=STOPS)
+    laden = sc.Payload(mass=mass, position=place).on(car)
+    change = laden.static({})["value"] - car.static({})["value"]
+    responses = [name for name in laden.meanings if name.endswith(("displacement", "travel", "tyre_load"))]
+    bump = sc.SpeedBump(height=1e-4, length=1.0)  # behind a level stretch
+    start = sc.simulate(laden, {}, bump, 10.0, responses=responses).iloc[0]
+    for column, value in start.items():
+        name = column.split(" ")[0].replace("suspension_travel", "deflection")
+        if name.endswith("tyre_load"):
+            assert -change[name.replace("tyre_load", "wheel_load")] == pytest.approx(value, rel=1e-6)
+        elif name in change:
+            assert change[name] == pytest.approx(value, rel=1e-6, abs=1e-9)
+
+
+def test_a_strut_with_a_law_on_the_road_bears_its_wheel_load():
+    """One mass on a strut without a tyre: the load is all that weighs."""
+    strut = sc.parallel(sc.Spring(value=2e4), sc.Damper(value=1e3), sc.BumpStop(gap=0.01, stiffness=2e5))
+    car = sc.RigidBodies(
+        bodies=[body_parts.RigidBody(mass=300.0)],
+        wheels=[body_parts.Wheel(name="foot")],
+        suspensions=[body_parts.Suspension(name="foot", lower="foot_road", strut=strut)],
+    )
+    value = sc.Payload(mass=100.0).on(car).static({})["value"]
+    assert value["foot_wheel_load"] == pytest.approx(400.0 * GRAVITY, rel=1e-9)
+    depth = 0.01 + (100.0 * GRAVITY - 200.0) / 2.2e5
+    assert value["foot_deflection"] == pytest.approx(-300.0 * GRAVITY / 2e4 - depth, rel=1e-9)
 
 
 def test_a_plant_has_no_static_position():

@@ -92,6 +92,13 @@ class ForceLaw(Element):
         own = [values[one.name] for one in self.coefficients]
         return self.curve.slope_at_origin(own) * self.installation_ratio**2
 
+    def static_tension(self, values: Mapping[str, float], deflection: float, /) -> float:
+        """Return the change of tension at rest at the wheel; 0 N of a damper."""
+        if self.of_rate:
+            return 0.0
+        own, ratio = [values[one.name] for one in self.coefficients], self.installation_ratio
+        return float(self.curve.force(np.asarray(ratio * deflection), own)) * ratio
+
     def tension(self, x: ArrayLike, /, **values: float) -> Real:
         """Return the force at rates or deflections, at a jump the mean of both sides.
 

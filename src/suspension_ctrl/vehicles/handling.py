@@ -126,7 +126,7 @@ class Mechanics(NamedTuple):
             own = dict(zip((name.removeprefix(network.prefix) for name in names), coefficients.T, strict=True))
             yield network, np.broadcast_to(network.strut.static_stiffness(own), len(coefficients))
 
-    def _loads(self, coefficients: Real, displacement: Real) -> Real:
+    def loads(self, coefficients: Real, displacement: Real) -> Real:
         """Return the tension (p, t) on each road at displacements (p, n)."""
         loads = (self.tyre_loads @ displacement[..., None])[..., 0]
         standing = self.assembly.standing
@@ -139,15 +139,17 @@ class Mechanics(NamedTuple):
             struts = struts + np.multiply.outer(stiffness, np.diag(network.share))
         return np.asarray(loads + (standing @ struts @ p @ displacement[..., None])[..., 0])
 
-    def static_loads(self, coefficients: Real) -> Real:
-        """Return the load (p, t) of each tyre on level ground [N]."""
+    def displacement(self, coefficients: Real, mass: Real) -> Real:
+        """Return the displacement (p, n) by the weight of masses (n,) [kg, kg m] on springs alone."""
         try:
-            displacement = np.linalg.solve(
-                self.stiffness_of(coefficients), -GRAVITY * self.assembly.weights[:, None]
-            )[..., 0]
+            found = np.linalg.solve(self.stiffness_of(coefficients), -GRAVITY * mass[:, None])[..., 0]
         except np.linalg.LinAlgError:
             raise ValueError("struts must have a spring that carries the vehicle, got none") from None
-        return -self._loads(coefficients, np.asarray(displacement, dtype=float))
+        return np.asarray(found, dtype=float)
+
+    def static_loads(self, coefficients: Real) -> Real:
+        """Return the load (p, t) of each tyre on level ground [N]."""
+        return -self.loads(coefficients, self.displacement(coefficients, self.assembly.weights))
 
     def roll_gradient(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Return the roll angle (p,) per lateral acceleration [deg/g], at most 180: the body topples."""
@@ -157,7 +159,7 @@ class Mechanics(NamedTuple):
 
     def front_load_transfer(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Return the share (p,) of the front axle in the lateral load transfer [-], void if the body topples."""
-        loads = self._loads(coefficients, self._lean(coefficients, geometry))
+        loads = self.loads(coefficients, self._lean(coefficients, geometry))
         front, rear = (loads[:, list(self.assembly.contacts).index(f"{axle}_left")] for axle in _AXLES)
         return front / (front + rear)
 

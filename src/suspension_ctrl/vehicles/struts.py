@@ -15,6 +15,8 @@ from numpy.polynomial import polynomial
 from .. import checks
 from ..quantities import Real, Record, frozen_array, unit
 
+_SMALL, _ROUNDING = 1e-15, 1e-15  # m, and of a deflection: errors of that of a part in series
+
 Fraction = tuple[Real, Real]
 """Dynamic stiffness as numerator and denominator: coefficients by rising powers of s."""
 
@@ -70,6 +72,10 @@ class Strut(Record, ABC):
     def static_stiffness(self, values: Mapping[str, Any], /) -> Any:
         """Return the stiffness at the wheel at 0 Hz [N/m] about the static position; values may be arrays (p,)."""
 
+    @abstractmethod
+    def static_tension(self, values: Mapping[str, float], deflection: float, /) -> float:
+        """Return the change of tension [N] at the wheel that holds a deflection [m] from the static position."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Element(Strut):
@@ -95,6 +101,10 @@ class Element(Strut):
     def static_stiffness(self, _values: Mapping[str, Any], /) -> Any:
         """Return 0 N/m: the element holds no static force."""
         return 0.0
+
+    def static_tension(self, values: Mapping[str, float], deflection: float, /) -> float:
+        """Return the change of tension at rest at the wheel."""
+        return float(self.static_stiffness(values)) * deflection
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -338,6 +348,11 @@ class Parallel(Strut):
         """Return the sum of the stiffnesses of the parts, at the wheel."""
         return sum(part.static_stiffness(values) for part in self.parts) * self.installation_ratio**2
 
+    def static_tension(self, values: Mapping[str, float], deflection: float, /) -> float:
+        """Return the sum of the changes of tension of the parts at rest, at the wheel."""
+        own = self.installation_ratio * deflection
+        return sum(part.static_tension(values, own) for part in self.parts) * self.installation_ratio
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Series(Parallel):
@@ -354,6 +369,27 @@ class Series(Parallel):
         soft = np.min(np.broadcast_arrays(*parts), axis=0) > 0
         total = sum(1 / np.where(soft, part, 1.0) for part in parts)
         return np.where(soft, self.installation_ratio**2 / total, 0.0)
+
+    def static_tension(self, values: Mapping[str, float], deflection: float, /) -> float:
+        """Return the change of tension of the parts at rest, at the wheel."""
+        own = self.installation_ratio * deflection
+        return _tension_in_series(self.parts, values, own) * self.installation_ratio
+
+
+def _tension_in_series(parts: Sequence[Strut], values: Mapping[str, float], deflection: float) -> float:
+    """Return the tension of parts end to end, by the deflection of the first at which it pulls like the rest."""
+    first, *rest = parts
+    if not rest:
+        return first.static_tension(values, deflection)
+    from scipy.optimize import brentq
+
+    def difference(own: float) -> float:
+        return first.static_tension(values, own) - _tension_in_series(rest, values, deflection - own)
+
+    if deflection == 0:
+        return 0.0
+    own = float(brentq(difference, 0.0, deflection, xtol=_SMALL, rtol=_ROUNDING))
+    return _tension_in_series(rest, values, deflection - own)
 
 
 def _sum(one: Fraction, other: Fraction) -> Fraction:

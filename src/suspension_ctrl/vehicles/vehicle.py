@@ -189,8 +189,23 @@ class Vehicle(ABC):
             By ``name`` the ``value`` and its ``unit``: ``<wheel>_wheel_load``, positive on the ground;
             ``<wheel>_tyre_deflection`` and ``<strut>_deflection`` from the free length, negative in compression;
             ``body_displacement`` and the like, how far bodies and wheels sink from where nothing is loaded: the
-            difference of two vehicles is that of their ride heights. A spring that is a force law has its slope
-            about the static position without payload.
+            difference of two vehicles is that of their ride heights. A spring that is a force law counts from the
+            position without payload: down to there it has its slope there, and a payload moves it along its curve.
+
+        Examples
+        --------
+        A load reaches the bump stop after 20 mm and then sinks the body less:
+
+        >>> import suspension_ctrl as sc
+        >>> stop = sc.BumpStop(gap=0.02, stiffness=80e3)
+        >>> strut = sc.parallel(sc.Spring(value=20e3), sc.Damper(value=1500.0), stop)
+        >>> car = sc.QuarterCar(body_mass=300.0, wheel_mass=40.0, tyre_stiffness=200e3, strut=strut)
+        >>> for mass in (1.0, 41.0, 81.0):
+        ...     laden = sc.Payload(mass=mass).on(car)
+        ...     print(laden.static({})["value"].round(4)["deflection"])
+        -0.1476
+        -0.1672
+        -0.1719
         """
         vehicle, values = assembled(self).at(setting, **struts)
         return static_of(vehicle.statics, values)
