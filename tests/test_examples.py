@@ -178,3 +178,14 @@ def test_the_survey_is_the_road_it_was_made_of(ran):
     np.testing.assert_allclose(names["index"].tracks, found.tracks, rtol=1e-3)
     assert len(names["segments"]) == 25
     assert names["ride"].value[["ACC", "SWS", "DTL"]].notna().all()
+
+
+def test_the_survey_shakes_the_truck_as_its_class_does(ran):
+    """A realisation of 1 km: its spectrum scatters by some percent about that of the class."""
+    names = ran(15)[1]
+    on_class = ride(
+        names["truck"], names["file"].setting, Iso8608Road("C"), 20.0,
+        measures=list(names["measures"].values()), band=(20.0 * names["road"].band[0], 20.0),
+    )  # fmt: skip
+    expected = [on_class.value[measure] for measure in names["measures"].values()]
+    np.testing.assert_allclose(names["weighted"], expected, rtol=0.15)
