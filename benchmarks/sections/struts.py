@@ -1,7 +1,7 @@
 """Section 7: mean squares of struts with force laws and networks, over those of a spring beside a damper."""
 
 from collections.abc import Sequence
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -9,11 +9,13 @@ import pandas as pd
 
 import suspension_ctrl as sc
 from sections.timing import Prepare, take_turns
+from suspension_ctrl.vehicles.body_parts import Support
 from suspension_ctrl.vehicles.struts import Strut
 
 DEFAULT = "default"
 """The strut to which the others are compared: that of a vehicle without one of its own."""
-QUARTER, FULL = "quarter car", "full car"
+QUARTER, FULL, TRUCK = "quarter car", "full car", "semitrailer"
+_REFERENCE = {QUARTER: QUARTER, FULL: FULL, TRUCK: FULL}  # the vehicle with whose default a vehicle is compared
 LIMIT, LEAST = 60.0, 0.02
 """Seconds: of a call after which there is no other, and up to which calls are repeated within one timing."""
 _BOUNDS = {"spring": (1e4, 3e4), "damper": (1e3, 5e3)}
@@ -37,6 +39,7 @@ ROWS = (
     Row(FULL, "two dampers by measured tables", 10.0),
     Row(FULL, "dampers on mounts", 1.5),
     Row(FULL, "imported, 100 states", 1.1),
+    Row(TRUCK, "springs, dampers of two axles", 1.5),
 )
 
 
@@ -53,8 +56,34 @@ def problems(nodes: int) -> dict[tuple[str, str], sc.RideProblem]:
         names = [DEFAULT, *(row.strut for row in ROWS if row.vehicle == vehicle)]
         for name, parts in zip(names, each, strict=False):  # without the imported one, which is the last
             found[vehicle, name] = _problem(file, parts, nodes)
-    found[FULL, ROWS[-1].strut] = _imported(nodes)
+    found[FULL, "imported, 100 states"] = _imported(nodes)
+    found[TRUCK, "springs, dampers of two axles"] = _semitrailer(nodes)
     return found
+
+
+def _semitrailer(nodes: int) -> sc.RideProblem:
+    """Return a tractor with semitrailer, 16 coordinates, 12 tyres in two tracks; two axles vary."""
+    truck: Any = sc.load_vehicle("kraz_semitrailer").vehicle
+    wheels = [replace(one, position=(one.position[0], np.copysign(0.9, one.position[1]))) for one in truck.wheels]
+    carriers = {one.name: one.carrier for one in truck.wheels}
+    varied = [one for one in truck.suspensions if one.name.startswith(("front", "drive_front"))]
+    constant = [
+        Support(
+            name=one.name, lower=carriers[one.name], upper=one.upper, position=one.position, stiffness=8e5,
+            damping=3e4,
+        )
+        for one in truck.suspensions if one not in varied
+    ]  # fmt: skip
+    truck = replace(
+        truck, wheels=wheels, suspensions=[replace(one, strut=None) for one in varied], supports=constant
+    )
+    bounds = {
+        one.name: (20 * low, 20 * high)
+        for one in truck.strut_coefficients
+        for low, high in [_BOUNDS[one.name.split(".")[-1]]]
+    }
+    road = sc.Iso8608Road("C")
+    return sc.RideProblem(truck, road, speed=20.0, bounds=bounds, band=(0.1, 20.0), nodes=nodes)
 
 
 def _imported(nodes: int) -> sc.RideProblem:
@@ -115,7 +144,7 @@ def ratios(timings: pd.DataFrame) -> pd.DataFrame:
     least = (timings.cpu_seconds / timings.designs).groupby([timings.vehicle, timings.strut]).min()
     rows = [(*row, least[row.vehicle, row.strut]) for row in ROWS]
     table = pd.DataFrame(rows, columns=[*Row._fields, "seconds"])
-    return table.assign(ratio=table.seconds / [least[vehicle, DEFAULT] for vehicle in table.vehicle])
+    return table.assign(ratio=table.seconds / [least[_REFERENCE[vehicle], DEFAULT] for vehicle in table.vehicle])
 
 
 def goals(timings: pd.DataFrame) -> list[tuple[str, float, float]]:

@@ -185,18 +185,33 @@ def strut_times(default: float, others: float) -> pd.DataFrame:
 
 def test_struts_are_held_to_their_bars_by_the_least_time():
     goals = struts.goals(strut_times(0.5, 1.0))
-    assert [ratio for _, _, ratio in goals] == [2.0] * 9
-    assert [ratio <= bar for _, bar, ratio in goals] == [False, True, True, True, True, False, True, False, False]
+    assert [ratio for _, _, ratio in goals] == [2.0] * 10
+    assert [ratio <= bar for _, bar, ratio in goals] == [
+        False,
+        True,
+        True,
+        True,
+        True,
+        False,
+        True,
+        False,
+        False,
+        False,
+    ]
 
 
 def test_struts_are_timed_in_turns_by_vehicle():
     """The measured tables are the two dampers of a car; designs are drawn within the bounds of each problem."""
-    found = struts.measure(256, {struts.QUARTER: 3, struts.FULL: 2}, repeats=1)
+    found = struts.measure(256, {struts.QUARTER: 3, struts.FULL: 2, struts.TRUCK: 2}, repeats=1)
     pairs = set(zip(found.vehicle, found.strut, strict=True))
     assert pairs == {(row.vehicle, row.strut) for row in struts.ROWS} | {
         (vehicle, struts.DEFAULT) for vehicle in (struts.QUARTER, struts.FULL)
     }
-    assert dict(zip(found.vehicle, found.designs, strict=True)) == {struts.QUARTER: 3, struts.FULL: 2}
+    assert dict(zip(found.vehicle, found.designs, strict=True)) == {
+        struts.QUARTER: 3,
+        struts.FULL: 2,
+        struts.TRUCK: 2,
+    }
     assert (struts.ratios(found).ratio > 0).all()
 
 
@@ -240,7 +255,7 @@ def test_page_has_all_sections_and_the_absent():
         "nodes": 200, "repeats": 3, "sample": 2, "evaluation_limit": 1.0, "memory_designs": 10, "generations": 20,
         "limit": 60.0, "repeat_limit": 5.0, "moead_population": 1000, "moead_generations": 4,
         "target_share": 0.995, "target_populations": (500,), "target_repeats": 3, "target_limit": 1.0,
-        "strut_nodes": 256, "strut_designs": {struts.QUARTER: 4000, struts.FULL: 400},
+        "strut_nodes": 256, "strut_designs": {struts.QUARTER: 4000, struts.FULL: 400, struts.TRUCK: 400},
     }  # fmt: skip
     machine = {"processor": "A processor", "cores": 2, "python": "3.11", "versions": {"numpy": "2.4"}}
     found = measurements(1.0, 4.0)
