@@ -111,9 +111,11 @@ def readers() -> dict[str, Reader]:
     header = "frequency [Hz],{0}/road real [m/m],{0}/road imag [m/m],{0}/strut real [m/N],{0}/strut imag [m/N]"
     plant = header.format("deflection").encode() + b"".join(b"\n%d,1,0,-0.001,0" % i for i in range(1, 60))
     curve = b"wavenumber [cycle/m],%s\n0.01,%s\n0.1,%s\n2,%s\n"
+    bodies = tuple(text for text in toml["vehicles"] if b'kind = "rigid-bodies"' in text)
     profiles = _profiles()
     return {
         "vehicle": Reader(load_vehicle, ".toml", toml["vehicles"]),
+        "vehicle of rigid bodies": Reader(load_vehicle, ".toml", bodies),
         "road": Reader(load_road, ".toml", (*toml["roads"], measured)),
         "problem": Reader(load_problem, ".toml", toml["studies"]),
         "plant": Reader(Plant.from_csv, ".csv", (plant,)),
