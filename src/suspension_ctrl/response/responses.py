@@ -1,6 +1,7 @@
 """Responses of a vehicle with its struts to a random road: frequency responses, spectra, root mean squares."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import control
@@ -101,8 +102,9 @@ def ride(
 
     checks.listed("measures", measures)
     checks.of_kind("vehicle", vehicle, Vehicle)
-    vehicle, setting = vehicle.at(setting)
     case = LoadCase(vehicle=vehicle, road=road, speed=speed, events=events or {})
+    vehicle, setting = vehicle.at(setting)
+    case = replace(case, vehicle=vehicle)
     band = band_of(band, [(road, speed)])
     known = checked(weighting)
     judged = [measure_of(one) for one in measures]
