@@ -156,6 +156,7 @@ def readers() -> dict[str, Reader]:
             (b"# Source: here\nvelocity [mm/s],force [kN]\n-1000,-0.9\n-100,-0.4\n0,0\n100,0.6\n1000,1.5\n",),
         ),
         "history": Reader(lambda path: exposure_by_axis(*read_accelerations(path)), ".csv", _histories()),
+        "history in RPC III": Reader(read_accelerations, ".rsp", _rpc_histories()),
         "property of a damper": Reader(load_property, ".dpr", _properties(".dpr")),
         "property of a spring": Reader(
             lambda path: load_property(path, static_load=4e3), ".spr", _properties(".spr")
@@ -264,6 +265,21 @@ def _histories() -> tuple[bytes, ...]:
     text = "time [s],x [m/s^2],seat z [g]\n" + "".join(f"{t:.3f},{x:.2f},{z:.2f}\n" for t, x, z in rows)
     other = "# made\nTime (ms);Z (g);note\n" + "".join(f"{1e3 * t:.1f};{z:.2f};ok\n" for t, _, z in rows)
     return text.encode(), other.replace(".", ",").encode()
+
+
+def _rpc_histories() -> tuple[bytes, ...]:
+    """Return a second of acceleration in numbers and in integers."""
+    from rpc3 import rpc3
+
+    signals = {"x": "m/s^2", "seat z": "g"}
+    channels = [rpc3.Channel(name, unit, 0.008, np.sin(np.arange(130.0))) for name, unit in signals.items()]
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "history.rsp"
+        content = []
+        for kind in (float, int):
+            rpc3.write(str(path), channels, datatype=kind, pts_per_group=64, overwrite=True)
+            content.append(path.read_bytes())
+    return tuple(content)
 
 
 def mutated(seeds: Sequence[bytes], rng: np.random.Generator) -> bytes:

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from suspension_ctrl import escaping
+from suspension_ctrl import Iso8608Road, RideProblem, escaping, load_vehicle, save_system
 from suspension_ctrl.commands import comparing
 from suspension_ctrl.paper.experiment import chosen
 
@@ -157,3 +157,26 @@ def test_hostile_names_are_harmless_in_all_that_is_written_and_printed(called, t
         assert all(f",'{start}" in header for start in "@-+")
         columns = [escaping.from_csv(name) for name in pd.read_csv(file).columns]
         assert columns[-3:] == [f"{name} [{unit}]" for name, unit in zip(names, ("m/s^2", "m", "N"), strict=True)]
+
+
+def test_compare_on_a_problem_of_a_plant_of_another_program(called, tmp_path, monkeypatch):
+    monkeypatch.setattr(comparing, "GRID_VARIABLES", 1)  # a reference front of the runs is made at once
+    save_system(tmp_path / "car.npz", load_vehicle("yuen_ramli_2010").vehicle.plant())
+    (tmp_path / "plant.toml").write_text('kind = "plant"\nfile = "car.npz"\n')
+    (tmp_path / "p.toml").write_text(
+        'measures = ["ACC", "DTL"]\nconstraints = ["SWS <= 0.03"]\nband_Hz = [0.1, 20.0]\n'
+        "[bounds]\nspring_N_per_m = [15e3, 30e3]\ndamper_N_s_per_m = [500, 4000]\n"
+        '[[cases]]\nvehicle = "plant.toml"\nroad = "C"\nspeed_m_per_s = 20\n'
+    )
+    done = called("compare", "--problem", "p.toml", *TINY, "--out", "out")
+    assert done.returncode == 0, done.stderr
+    assert "Limits: SWS <= 0.03" in done.stdout
+    assert_nothing_published(tmp_path / "out")
+    problem = RideProblem(
+        load_vehicle("yuen_ramli_2010").vehicle, Iso8608Road("C"), speed=20.0, measures=["ACC", "DTL"],
+        bounds={"spring": (15e3, 30e3), "damper": (500.0, 4000.0)}, band=(0.1, 20.0),
+    )  # fmt: skip
+    for algorithm in ("nsga2", "moead-dra"):
+        front = pd.read_csv(tmp_path / "out" / "fronts" / f"{algorithm}_n20_i2_r1.csv")
+        wanted = problem.evaluate(front[["spring [N/m]", "damper [N s/m]"]].to_numpy())
+        np.testing.assert_allclose(front[["ACC [m/s^2]", "DTL [N]"]], wanted, rtol=1e-9)

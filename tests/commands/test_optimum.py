@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from suspension_ctrl import load_vehicle, save_system
 from suspension_ctrl.paper.experiment import chosen
 
 VARIABLES = [
@@ -82,3 +83,22 @@ def test_optimum_of_force_laws(called, tmp_path):
     assert done.returncode == 0, done.stderr
     table = pd.read_csv(tmp_path / "out" / "table5.csv")
     assert {"damper.knee [m/s]", "damper.rebound_over_bump"} <= set(table.columns)
+
+
+def test_optimum_of_a_plant_of_another_program_is_on_its_quarter_car(called, tmp_path):
+    save_system(tmp_path / "car.npz", load_vehicle("yuen_ramli_2010").vehicle.plant())
+    (tmp_path / "car.toml").write_text(
+        'kind = "plant"\nfile = "car.npz"\n[struts]\nspring_N_per_m = 22e3\ndamper_N_s_per_m = 1500\n'
+        "[bounds]\nspring_N_per_m = [15e3, 30e3]\ndamper_N_s_per_m = [1000, 4000]\n"
+    )
+    quick = ("--road", "C", "--iterations", 1, "--population", 20, "--sws-limit", 0.03, "--out", "out")
+    done = called("optimum", "--vehicle", "car.toml", *quick)
+    assert done.returncode == 0, done.stderr
+    assert "published" not in done.stdout
+    table = pd.read_csv(tmp_path / "out" / "table5.csv").set_index(["weighting", "design"])
+    part = table.loc["Wb"]
+    struts = part[["spring [N/m]", "damper [N s/m]"]]
+    assert struts.loc["its own struts"].tolist() == [22e3, 1500.0]
+    problem, _ = chosen("yuen_ramli_2010", "C", None, weighting="Wb")
+    found = part[["ACC [m/s^2]", "SWS [m]", "DTL [N]"]]
+    np.testing.assert_allclose(found, problem.evaluate(struts.to_numpy(float)), rtol=1e-9)

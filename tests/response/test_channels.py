@@ -72,7 +72,7 @@ def test_other_tables_are_one_line(columns, names, message):
 
 
 def test_what_is_no_table_and_the_name_of_a_file(tmp_path):
-    with pytest.raises(ValueError, match=r"^measured must be a path of a CSV file or a DataFrame, got 3$"):
+    with pytest.raises(ValueError, match=r"^measured must be a path of a file or a DataFrame, got 3$"):
         channels_of(3, None)
     (tmp_path / "drive.csv").write_text("t,a\n1,2\n3,4\n")
     with pytest.raises(

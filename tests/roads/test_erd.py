@@ -73,6 +73,7 @@ def test_one_or_two_channels_without_names_are_height_or_left_and_right(tmp_path
         (", 5, 0.1", ", 0, 0.1", "fifth number of the second line must be 5 for text or 1 for 32-bit binary"),
         (", 5, 0.1", ", 1, 0.1", "numbers must be in 'r.bin' beside the file, got no such file"),
         (", 5, 0.1", ", 5, 0.0", "step must be finite and > 0 m, got 0.0"),
+        (", 5, 0.1", ", 5, 9e307", "step must be up to 1e+09 m, got 9e+307"),
         (", 5, 0.1", ", 5, nan", "step must be finite and > 0 m, got nan"),
         ("XUNITS  m", "XUNITS  s", "XUNITS must be one of m, metre, "),
         ("  2, 512", "  0, 512", "number of channels must be a number from 1 to 1000, got 0"),

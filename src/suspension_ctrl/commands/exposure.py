@@ -24,9 +24,9 @@ def exposure(
 
     Weighted accelerations, total values and daily exposure of a person, by ISO 2631-1 and Directive
     2002/44/EC. The file is CSV with even times and a column for each axis with its unit: 'time [s]', 'x
-    [m/s^2]', 'z [g]' of a seat, 'back x', 'feet z', 'floor z', 'hand x', 'seat roll [rad/s^2]'. Means such as
-    gravity are removed. Writes exposure.csv, total_values.csv and daily.csv to a folder; its path is the last
-    line printed.
+    [m/s^2]', 'z [g]' of a seat, 'back x', 'feet z', 'floor z', 'hand x', 'seat roll [rad/s^2]'; or RPC III
+    with such channels. Means such as gravity are removed. Writes exposure.csv, total_values.csv and daily.csv
+    to a folder; its path is the last line printed.
     """
     import pandas as pd
 

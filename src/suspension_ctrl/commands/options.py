@@ -143,7 +143,7 @@ Seeds = Annotated[Whole, _whole("Runs of each algorithm in --quality.  [default:
 Target = Annotated[float, _real("Share of the reference hypervolume to reach [-].")]
 Jobs = Annotated[Whole, _whole("Processes for the runs of --quality.")]
 Scheduler = Annotated[Text, _option("ADDRESS", "Dask scheduler for them: tcp://host:8786, tls://host:8786.")]
-Histories = Annotated[Path, Argument(metavar="FILE", help="CSV file of accelerations.")]
+Histories = Annotated[Path, Argument(metavar="FILE", help="CSV or RPC III file of accelerations.")]
 Axes = Annotated[Text, _option("COLUMN=AXIS,...", "Axes of columns with other names: body_acceleration=z.")]
 Step = Annotated[Real, _real("Time step [s] of a file without times, or with a unit: 5ms.", "s")]
 Duration = Annotated[Real, _real("Time of exposure in a day [s], or with a unit: 4h.  [default: 8h]", "s")]

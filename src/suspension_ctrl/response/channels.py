@@ -14,8 +14,8 @@ import numpy as np
 from .. import checks
 from ..documents import naming
 from ..quantities import Real, quantity, signal_unit
-from ..tables import read_table
 from ..vehicles.assembly import ResponseName, label
+from .recordings import read_recording
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -39,13 +39,13 @@ class Channels(NamedTuple):
 
 
 def channels_of(source: Source, names: Mapping[str, ResponseName] | None) -> Channels:
-    """Return the channels of a CSV file or a DataFrame; `names` are responses by header without unit."""
+    """Return the channels of a file or a DataFrame; `names` are responses by header without unit."""
     if isinstance(source, str | PathLike):
-        headers, values = read_table(source)
+        headers, values = read_recording(source)
         with naming(source):
             return _channels(headers, values, names)
     if not hasattr(source, "columns"):
-        raise ValueError(f"measured must be a path of a CSV file or a DataFrame, got {checks.shown(source)}")
+        raise ValueError(f"measured must be a path of a file or a DataFrame, got {checks.shown(source)}")
     values = checks.reals("measured must be", source.to_numpy())
     if not np.isfinite(values).all():
         raise ValueError("measured must hold finite values throughout, got others")

@@ -63,9 +63,9 @@ def correlate(
     setting : mapping of str to float or (float, float)
         Coefficients of its struts, as for ``vehicle.closed``.
     measured : path or DataFrame
-        A CSV file or its table. Histories have the columns ``time [s]``, in even steps, and responses by name
-        with their unit, ``body_acceleration [g]``; their means do not count. Spectra have ``frequency [Hz]`` and
-        ``body_acceleration [g^2/Hz]``.
+        A CSV or RPC III file (.rpc, .rsp, .tim), or a table. Histories have the columns ``time [s]``, in even
+        steps, and responses by name with their unit, ``body_acceleration [g]``; their means do not count. Spectra
+        have ``frequency [Hz]`` and ``body_acceleration [g^2/Hz]``.
     road : Road or Profile
         The road on which was measured: a `Profile` is driven over with `simulate` and the same estimate made of
         its responses; of another road they are computed in the frequency domain.

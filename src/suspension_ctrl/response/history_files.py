@@ -1,4 +1,4 @@
-"""Histories of acceleration from CSV files: a column for each axis with its unit, and one of even times.
+"""Histories of acceleration from CSV or RPC III files: a column for each axis with its unit, and even times.
 
 Headers are such as ``time [ms]``, ``z [g]``, ``seat x [m/s^2]``; round brackets are allowed. Other columns do not
 count.
@@ -13,9 +13,9 @@ import numpy as np
 from .. import checks
 from ..documents import naming
 from ..quantities import Real, quantity
-from ..tables import read_table
 from .axes import AXES
 from .human_exposure import axis_of
+from .recordings import read_recording
 
 TIME = ("time", "t")
 _HEADER = re.compile(r"\s*([^\[\](){}]*?)\s*(?:[\[(]\s*([^\[\]()]*?)\s*[\])])?\s*")
@@ -32,7 +32,7 @@ def read_accelerations(
     ValueError names the file.
     """
     named = {_plain(column): axis_of(axis) for column, axis in (axes or {}).items()}
-    headers, values = read_table(path, lambda names: _wanted(names, named))
+    headers, values = read_recording(path, lambda names: _wanted(names, named))
     with naming(path):
         step, histories = time_step, dict[str, Real]()
         for header, column in zip(headers, values.T, strict=True):

@@ -14,6 +14,7 @@ from .. import checks, escaping
 from ..documents import naming
 from ..quantities import Real
 from ..tables import read_table, write_csv
+from ..tables.layouts import LARGEST
 from .columns import DISTANCE, HEIGHT, TRACK_COLUMN, TRACK_WIDTH, belonging, kind_of, scaled, tracks_of, unitless
 from .erd import read_erd
 from .opencrg import read_opencrg
@@ -120,6 +121,8 @@ def profile_of(
     own = bool(names) and kind_of(names[0]) == "distance"
     if step is not None:
         checks.positive("step", step, "m")
+        if step > LARGEST:
+            raise ValueError(f"step must be up to {LARGEST:g} m, got {checks.shown(step)}")
     if own == (step is not None) or len(names) < 1 + own:
         needed = "a distance such as 'distance [m]' and heights such as 'height [m]'"
         given = "" if step is None else ", or heights alone with a step"

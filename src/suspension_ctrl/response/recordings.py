@@ -1,0 +1,52 @@
+"""Recordings as tables: CSV files, and RPC III files (.rpc, .rsp, .tim) of test rigs through rpc3-file."""
+
+import warnings
+from collections.abc import Callable, Sequence
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+
+from .. import checks
+from ..documents import naming
+from ..quantities import Real
+from ..tables import MEGABYTES, read_table
+from ..tables.layouts import LARGEST
+from ..vehicles.matrices import readable
+
+ENDINGS = (".rpc", ".rsp", ".tim")
+_KIND = "an RPC III time history, binary with the least byte first"
+
+
+def read_recording(
+    path: str | PathLike[str], columns: Callable[[Sequence[str]], Sequence[int]] | None = None
+) -> tuple[list[str], Real]:
+    """Return headers (c,) such as ``z [g]`` and values (n, c) of a recording, time included.
+
+    Only the given `columns` are returned, by a function from all headers to indices. A ValueError names the file.
+    """
+    if Path(path).suffix.lower() not in ENDINGS:
+        return read_table(path, columns)
+    with naming(path):
+        headers, channels = _read_rpc(Path(path))
+        wanted = range(len(headers)) if columns is None else columns(headers)
+        with np.errstate(invalid="ignore"):  # of numbers that are none, refused below
+            values = np.stack([channels[i] for i in wanted], axis=1, dtype=float)
+        if len(values) < 2:
+            raise ValueError(f"samples must be 2 or more, got {len(values)}")
+        if not (np.abs(values) <= LARGEST).all():
+            raise ValueError(f"samples must be numbers up to {LARGEST:g}, got others")
+    return [headers[i] for i in wanted], values
+
+
+def _read_rpc(path: Path) -> tuple[list[str], list[Real]]:
+    """Return headers, of time first, and samples (n,) of each, without the filling of the last group."""
+    with checks.installed("rpc"):
+        from rpc3 import rpc3
+    checks.regular(path, MEGABYTES)
+    rpc3.progressbar = False
+    with readable(_KIND), warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of a last group that is not full, as is common
+        channels, _ = rpc3.read(str(path))
+        time = channels[0].time()
+    return ["time [s]", *(f"{one.name} [{one.unit}]" for one in channels)], [time, *(one.data for one in channels)]
