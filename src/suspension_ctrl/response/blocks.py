@@ -92,8 +92,14 @@ class _Block(NamedTuple):
 
     def rows_of(self, response: int) -> Real:
         """Return the rows (s + q, 2, n) of a response, zeros if it has none."""
-        own = np.concatenate(self.parts[2:], axis=1)[self.response == response]
+        own = np.concatenate([part[self.response == response] for part in self.parts[2:]], axis=1)
         return own[0] if len(own) else np.zeros_like(self.parts[2][0, :1])
+
+    def sizes(self, m: int) -> Real:
+        """Return the root (m,) of the sum of squares of the rows of each response."""
+        squares = np.zeros(m)
+        squares[self.response] = sum((part**2).sum(axis=(1, 2, 3)) for part in self.parts[2:])
+        return np.sqrt(squares)
 
     def only(self, responses: Integer) -> "_Block":
         """Return the block without other responses."""
@@ -104,19 +110,20 @@ class _Block(NamedTuple):
 
 def _joined(blocks: Sequence[_Block], m: int, omega: Real, variables: Variables) -> ManyStruts:
     """Return the blocks one after the other, of equal responses among m the first alone."""
-    first = np.arange(m)
+    first, sizes = np.arange(m), np.array([block.sizes(m) for block in blocks]).reshape(-1, m)
     for i in range(m):
-        same = (j for j in range(i) if first[j] == j and all(_alike(block, i, j) for block in blocks))
-        first[i] = next(same, i)
+        near = (np.abs(sizes[:, :i] - sizes[:, i : i + 1]) <= 2 * _ALIKE * sizes[:, :i]).all(axis=0)
+        others = np.flatnonzero(near & (first[:i] == np.arange(i))).tolist()
+        first[i] = next((j for j in others if all(_alike(block, i, j) for block in blocks)), i)
     kept, channel = np.unique(first, return_inverse=True)
     blocks = [block.only(kept) for block in blocks]
-    sizes = [(*block.parts[1].shape[:2], block.response.size) for block in blocks]
+    shapes = [(*block.parts[1].shape[:2], block.response.size) for block in blocks]
     v, n = len(variables.gain), omega.size
     rows = [part.reshape(-1, 2, n) for block in blocks for part in block.parts]
     return ManyStruts(
         omega,
         np.concatenate([np.empty((0, 2, n)), *rows]),
-        np.array(sizes, dtype=np.int64).reshape(-1, 3),
+        np.array(shapes, dtype=np.int64).reshape(-1, 3),
         np.concatenate([np.empty(0, dtype=np.int64), *(channel[block.response] for block in blocks)]),
         channel.astype(np.int64),
         np.hstack([np.empty((v, 0)), *(block.gain.reshape(v, -1) for block in blocks)]),
