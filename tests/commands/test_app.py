@@ -204,7 +204,7 @@ OF = {
         (["--vehicle", "\x1b[31m.toml"], r"No such file or directory: '\x1b[31m.toml'", 1),
         (["--setting", "spring"], "setting must be like front.spring=10kN/m,front.damper=2000, got 'spring'", 2),
         (["--setting", "spring=soft"], "setting spring must be a number with a unit like N/m, got 'soft'", 2),
-        (["--setting", "front.spring=1e4"], "must be one of spring, damper, got 'front.spring'", 2),
+        (["--setting", "front.spring=1e4"], "setting must be one of spring, damper, tyre_stiffness", 2),
         (["--spring", "-1"], "spring must be finite and > 0 N/m, got -1.0", 2),
         (["--body-mass", "400"], "body_mass, wheel_mass, tyre_stiffness must stand together, got no t", 2),
         (["--vehicle", "minaker_half", "--body-mass", "400"],

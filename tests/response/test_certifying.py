@@ -181,9 +181,11 @@ def test_lift_off_is_counted_and_may_be_allowed():
 def test_every_kind_of_measure_is_of_a_trip_an_event_or_the_design():
     """A class with a function of designs says how it is counted in time."""
     texts = {"bottoming": "bottoming 0.05", "topping": "topping 0.05", "peak": "peak travel bump"}
-    texts["largest"], texts[""] = "largest travel 100", "Wk body_acceleration"
+    texts |= {"largest": "largest travel 100", "": "Wk body_acceleration", "SEAT": "SEAT driver"}
+    texts |= {"frequency": "frequency heave", "damping_ratio": "damping_ratio heave"}
+    seat = sc.Seat(mass=75.0, spring=15e3, damper=600.0, name="driver")
     case = sc.LoadCase(
-        vehicle=FULL,
+        vehicle=seat.on(FULL),
         road=ROAD,
         speed=SPEED,
         roll_geometry=GEOMETRY,

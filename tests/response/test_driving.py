@@ -365,7 +365,7 @@ def test_points_of_the_body_and_other_outputs():
         ({"contact_points": [[0.0, 0.0], [np.nan, 0.0]]}, "contact_points must be finite"),
         (
             {"closed": control.tf([1], [1, 1])},
-            "closed must be a state-space model in continuous time, got TransferFun",
+            "vehicle must be a Vehicle or StateSpace, got TransferFunction",
         ),
         (
             {"closed": control.ss(-1, 1, 1, 0, 0.1)},

@@ -110,7 +110,7 @@ class _Block(NamedTuple):
 
 def _joined(blocks: Sequence[_Block], m: int, omega: Real, variables: Variables) -> ManyStruts:
     """Return the blocks one after the other, of equal responses among m the first alone."""
-    first, sizes = np.arange(m), np.array([block.sizes(m) for block in blocks]).reshape(-1, m)
+    first, sizes = np.arange(m), np.array([block.sizes(m) for block in blocks]).reshape(len(blocks), m)
     for i in range(m):
         near = (np.abs(sizes[:, :i] - sizes[:, i : i + 1]) <= 2 * _ALIKE * sizes[:, :i]).all(axis=0)
         others = np.flatnonzero(near & (first[:i] == np.arange(i))).tolist()
