@@ -41,7 +41,7 @@ def any_struts(
     gains, nominal = _nominal(networks, omega)
     ports = Ports.of(vehicle, f, responses, setting, gains)
     if not (_paired(vehicle.networks, pairs[0]) and _alike(ports, roads, pairs)):
-        pairs = tuple(np.eye(len(one)) for one in pairs)  # type: ignore[assignment]
+        pairs = np.eye(len(pairs[0])), np.eye(len(pairs[1]))
         networks = networks_of(vehicle, setting, variables, f, False)
         gains, nominal = _nominal(networks, omega)
     varied = Variables.of(vehicle.strut_coefficients, {name: setting[name] for name in variables})
