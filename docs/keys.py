@@ -204,7 +204,8 @@ def rows(record: Any) -> Iterator[Row]:
     """Yield the keys of a dataclass, meanings from its docstring."""
     meanings = dict(parameters(record))
     for key in element_keys(record).values() if record in ELEMENTS.values() else keys_of(record).values():
-        default = "" if key.required or key.default in (None, "", (), {}) else _shown(key)
+        plain = key.required or key.default in (None, "", ()) or isinstance(key.default, Mapping)
+        default = "" if plain else _shown(key)
         yield Row(key.key, form(key), key.unit, "required" if key.required else default, meanings[key.name])
 
 

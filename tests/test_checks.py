@@ -151,3 +151,23 @@ def test_a_missing_package_names_its_extra():
         import suspension_ctrl_absent  # noqa: F401
     message = 'suspension_ctrl_absent must be installed, by: pip install "suspension-ctrl[study]"'
     assert (str(raised.value), raised.value.name) == (message, "suspension_ctrl_absent")
+
+
+def test_a_reader_may_fail_in_any_way():
+    with (
+        pytest.raises(ValueError, match=r"^the file must be fine, got one that cannot .*$"),
+        checks.readable("fine"),
+    ):
+        raise RuntimeError("two\nlines")
+
+
+def test_of_many_names_those_alike_are_told_first():
+    names = [f"{axle}.{what}" for axle in ("front", "middle", "rear") for what in "abcdefgh"] + ["front.spring"]
+    for value, told in (
+        ("front.sprng", "front.spring, front.g, front.h, front.a"),
+        ("?", "front.a, front.b, front.c"),
+    ):
+        message = rf"^setting must be one of {told}, .* or 18 others, got '{re.escape(value)}'$"
+        with pytest.raises(ValueError, match=message) as caught:
+            checks.one_of("setting", value, names)
+        assert str(caught.value).count(", ") == 7

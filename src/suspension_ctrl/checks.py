@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 _LARGEST = sys.float_info.max
 _SLACK = 1e-9  # tolerance of a bound, as a share of the range of the variable
 _SHOWN = 40  # characters of a value in an error
+_CHOICES, _TOLD = 16, 7  # most names in an error, and how many of more
 _KINDS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
     "integer": (
         "hold a whole number of at most 1e15",
@@ -37,6 +38,15 @@ def installed(extra: str) -> Iterator[None]:
     except ModuleNotFoundError as error:
         message = f'{error.name} must be installed, by: pip install "suspension-ctrl[{extra}]"'
         raise ImportError(message, name=error.name) from None
+
+
+@contextmanager
+def readable(kind: str) -> Iterator[None]:
+    """Replace any error of a reader, on a damaged file, by a ValueError of one line."""
+    try:
+        yield
+    except Exception:
+        raise ValueError(f"the file must be {kind}, got one that cannot be read") from None
 
 
 def shown(value: object) -> str:
@@ -159,9 +169,17 @@ def listed(name: str, value: object) -> None:
 
 
 def one_of(name: str, value: object, allowed: Collection[object]) -> None:
-    """Raise ValueError unless `value` is one of `allowed`."""
-    if not any(value == choice for choice in allowed):
-        raise ValueError(f"{name} must be one of {', '.join(map(str, allowed))}, got {shown(value)}")
+    """Raise ValueError unless `value` is one of `allowed`; of many it names those alike, then the first."""
+    if any(value == choice for choice in allowed):
+        return
+    names, others = list(map(str, allowed)), ""
+    if len(names) > _CHOICES:
+        from difflib import get_close_matches
+
+        alike = get_close_matches(shown(value), names)
+        names = list(dict.fromkeys([*alike, *names]))[:_TOLD]
+        others = f" or {len(allowed) - _TOLD} others"
+    raise ValueError(f"{name} must be one of {', '.join(names)}{others}, got {shown(value)}")
 
 
 def ordered(lower_name: str, upper_name: str, lower: ArrayLike, upper: ArrayLike) -> None:

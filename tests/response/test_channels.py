@@ -36,7 +36,7 @@ def test_spectra_are_in_si_units(unit, factor):
 
 
 def test_columns_of_other_names_and_points_of_the_body():
-    frame = FRAME.rename(columns={"body_acceleration [g]": "seat rail z [g]"}).assign(note=1)
+    frame = FRAME.rename(columns={"body_acceleration [g]": "seat rail z (g)"}).assign(note="ok", speed=np.nan)
     found = channels_of(
         frame, {"seat rail z": ("acceleration", 0.3, 0.4), "suspension_travel": "front_suspension_travel"}
     )
@@ -57,9 +57,15 @@ def test_columns_of_other_names_and_points_of_the_body():
          "body_acceleration must be in (m/s^2)^2/Hz or a unit like it, got 'g'"),
         ({"time [s]": T, "distance [m]": T}, None, "columns must include a response, got none"),
         ({"time [s]": T, "a [g]": T}, {"b": "body_acceleration"}, "columns must include 'b' once, got none"),
-        ({"time [s]": T[::-1], "body_acceleration [g]": T}, None, "time must ascend, got [0.03]"),
+        ({"time [s]": T[::-1], "body_acceleration [g]": T}, None, "time must ascend, got 0.03 s after 0.04 s"),
         ({"time [s]": T**2, "body_acceleration [g]": T}, None,
-         "time must have even steps, to 1%, got one 75% off the mean"),
+         "time must be even, each within 0.4 of a step of 0.0004 s, got 1 steps at 0.0004 s"),
+        ({"frequency [Hz]": T - 1, "body_acceleration [g^2/Hz]": T}, None,
+         "frequency must be finite and >= 0 Hz, got -1.0"),
+        ({"frequency [Hz]": T[::-1], "body_acceleration [g^2/Hz]": T}, None,
+         "frequency must ascend, got 0.03 Hz after 0.04 Hz"),
+        ({"time": T, "a [g]": T}, {"a": "body_acceleration"},
+         "first column must be 'time [s]' or 'frequency [Hz]', got 'time'"),
         ({"time [s]": T * np.nan, "body_acceleration [g]": T}, None,
          "measured must hold finite values throughout, got others"),
         ({"time [s]": T, "body_acceleration [g]": list("abcde")}, None,

@@ -111,7 +111,7 @@ def test_other_headers_are_refused_in_one_line(tmp_path, header, arguments, mess
 
 @pytest.mark.parametrize("time", [TIME[::-1], np.zeros(400), np.minimum(TIME, 1.0)])
 def test_times_that_do_not_ascend_are_refused(tmp_path, time):
-    with pytest.raises(ValueError, match=r"history.csv: time must ascend, got \[[^\n]*$"):
+    with pytest.raises(ValueError, match=r"history.csv: time must ascend, got [\d.]+ s after [\d.]+ s$"):
         read_accelerations(file(tmp_path, "time [s],z [g]", time, SIGNAL))
 
 

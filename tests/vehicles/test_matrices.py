@@ -16,7 +16,6 @@ from suspension_ctrl.vehicles.matrices import (
     read_npy,
     read_npz,
     read_texts,
-    readable,
     state_space,
     write_npz,
     write_texts,
@@ -118,11 +117,3 @@ def test_what_unpacks_to_too_much_is_refused_before_it_is_unpacked(tmp_path):
     assert (tmp_path / "car.npz").stat().st_size < 1e6
     with pytest.raises(ValueError, match=r"^the file must hold at most 50 MB, got 58.3201 MB$"):
         read_npz(tmp_path / "car.npz")
-
-
-def test_a_reader_may_fail_in_any_way():
-    with (
-        pytest.raises(ValueError, match=r"^the file must be fine, got one that cannot .*$"),
-        readable("fine"),
-    ):
-        raise RuntimeError("two\nlines")

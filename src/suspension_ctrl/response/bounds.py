@@ -20,8 +20,7 @@ def checked_bounds(
     if bounds is not None and not bounds:
         raise ValueError("bounds must hold one coefficient at least, got none")
     for name, pair in (bounds or {}).items():
-        if name not in known:
-            raise ValueError(f"bounds must be one of {', '.join(known)}, got {checks.shown(name)}")
+        checks.one_of("bounds", name, known)
         checks.interval(
             f"bounds of {name}", pair, known[name].unit, equal=True, signed=isinstance(known[name], Place)
         )

@@ -5,7 +5,7 @@ Columns are called ``time [s]`` and ``body_acceleration [g]``, or ``frequency [H
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, Union
 
@@ -15,18 +15,16 @@ from .. import checks
 from ..documents import naming
 from ..quantities import Real, quantity, signal_unit
 from ..vehicles.assembly import ResponseName, label
-from .recordings import read_recording
+from .recordings import check_ascending, even_step, parts_of, read_recording
 
 if TYPE_CHECKING:
     import pandas as pd
 
 Source: TypeAlias = Union[str, PathLike[str], "pd.DataFrame"]
 
-_HEADER = re.compile(r"([^\[\]]{1,200}?)\s*\[([^\[\]]{1,40})\]")
 _DENSITY = re.compile(r"\(?\s*(.+?)\s*\)?\^2\s*/\s*Hz")
 _AXES = {"time": "s", "frequency": "Hz"}
 _PASSED_OVER = "distance"
-_UNEVEN = 0.01  # largest deviation of a time step from the mean step, relative
 
 
 class Channels(NamedTuple):
@@ -41,24 +39,30 @@ class Channels(NamedTuple):
 def channels_of(source: Source, names: Mapping[str, ResponseName] | None) -> Channels:
     """Return the channels of a file or a DataFrame; `names` are responses by header without unit."""
     if isinstance(source, str | PathLike):
-        headers, values = read_recording(source)
+        headers, values = read_recording(source, lambda headers: _needed(headers, names))
         with naming(source):
             return _channels(headers, values, names)
     if not hasattr(source, "columns"):
         raise ValueError(f"measured must be a path of a file or a DataFrame, got {checks.shown(source)}")
-    values = checks.reals("measured must be", source.to_numpy())
+    headers = [str(name) for name in source.columns]
+    needed = _needed(headers, names)
+    values = checks.reals("measured must be", source.iloc[:, needed].to_numpy())
     if not np.isfinite(values).all():
         raise ValueError("measured must hold finite values throughout, got others")
-    return _channels([str(name) for name in source.columns], values, names)
+    return _channels([headers[i] for i in needed], values, names)
+
+
+def _needed(headers: Sequence[str], names: Mapping[str, ResponseName] | None) -> list[int]:
+    """Return the indices of the axis and of the responses."""
+    return [i for i, header in enumerate(headers) if i == 0 or names is None or parts_of(header)[0] in names]
 
 
 def _channels(headers: list[str], values: Real, names: Mapping[str, ResponseName] | None) -> Channels:
-    found = [_HEADER.fullmatch(header.strip()) for header in headers]
-    for header, match in zip(headers, found, strict=True):
-        if match is None and (names is None or header in names):
+    texts = [parts_of(header) for header in headers]
+    for header, (name, unit) in zip(headers, texts, strict=True):
+        if not unit and (names is None or name in names):
             raise ValueError(f"columns must be like 'body_acceleration [m/s^2]', got {checks.shown(header)}")
-    texts = [(match[1].strip(), match[2]) if match else ("", "") for match in found]
-    if not texts or texts[0][0] not in _AXES or len(values) < 2:
+    if not texts or texts[0][0] not in _AXES or not texts[0][1] or len(values) < 2:
         got = checks.shown(headers[0]) if headers else "no names"
         raise ValueError(f"first column must be 'time [s]' or 'frequency [Hz]', got {got}")
     kind, unit = texts[0]
@@ -95,9 +99,8 @@ def _factor(response: str, unit: str, kind: str) -> float:
 
 
 def _check_axis(kind: str, axis: Real) -> None:
-    steps = np.diff(axis)
-    if not (steps > 0).all() or (kind == "frequency" and axis[0] < 0):
-        raise ValueError(f"{kind} must ascend, got {axis[1:][~(steps > 0)][:1].tolist() or axis[0]}")
-    worst = float(np.abs(steps / steps.mean() - 1).max())
-    if kind == "time" and worst > _UNEVEN:
-        raise ValueError(f"time must have even steps, to {_UNEVEN:.0%}, got one {worst:.0%} off the mean")
+    if kind == "time":
+        even_step(axis)
+    else:
+        checks.not_negative(kind, float(axis[0]), "Hz")
+        check_ascending(kind, axis, "Hz")

@@ -236,9 +236,9 @@ def correlation_figure(correlation: Correlation) -> "Figure":
     for column, name in enumerate(names):
         above, below = axes[:, column]
         spectra = correlation.spectra.filter(regex=rf"^{name} (computed|measured) ")
-        for i, (header, style) in enumerate(zip(spectra, ("-", "-"), strict=True)):
+        for header in spectra:
             kind = str(header)[len(name) + 1 :].partition(" ")[0]
-            above.loglog(correlation.spectra["frequency [Hz]"], spectra[header], style, color=f"C{i}", label=kind)
+            above.loglog(correlation.spectra["frequency [Hz]"], spectra[header], label=kind)
         bands = correlation.table[correlation.table["response"] == name].iloc[:-1]
         middle = np.sqrt(bands["from [Hz]"] * bands["to [Hz]"])
         decibels = {end: 20 * np.log10(bands[end] / bands["measured"]) for end in ("low", "high")}

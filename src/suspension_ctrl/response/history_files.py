@@ -4,22 +4,17 @@ Headers are such as ``time [ms]``, ``z [g]``, ``seat x [m/s^2]``; round brackets
 count.
 """
 
-import re
 from collections.abc import Mapping, Sequence
 from os import PathLike
-
-import numpy as np
 
 from .. import checks
 from ..documents import naming
 from ..quantities import Real, quantity
 from .axes import AXES
 from .human_exposure import axis_of
-from .recordings import read_recording
+from .recordings import even_step, parts_of, read_recording
 
 TIME = ("time", "t")
-_HEADER = re.compile(r"\s*([^\[\](){}]*?)\s*(?:[\[(]\s*([^\[\]()]*?)\s*[\])])?\s*")
-_UNEVEN = 0.4  # of a step: times may be rounded, no sample may lack
 _UNIT_OF = {"roll": "rad/s^2", "pitch": "rad/s^2", "yaw": "rad/s^2"}
 
 
@@ -41,7 +36,7 @@ def read_accelerations(
                 if step is not None:
                     needed = "one column, or time_step without one"
                     raise ValueError(f"time must be {needed}, got {checks.shown(header)}")
-                step = _even_step(column * _factor(header, unit, "s"))
+                step = even_step(column * _factor(header, unit, "s"))
                 continue
             axis = named.get(name) or axis_of(name)
             if axis in histories:
@@ -76,25 +71,13 @@ def _plain(name: str) -> str:
 
 
 def _parts(header: str) -> tuple[str, str]:
-    """Return name and unit of a header, no unit where there is none."""
-    found = _HEADER.fullmatch(header)
-    return (_plain(found[1]), found[2] or "") if found else (_plain(header), "")
+    """Return plain name and unit of a header."""
+    name, unit = parts_of(header)
+    return _plain(name), unit
 
 
 def _factor(header: str, unit: str, needed: str) -> float:
     """Return the factor of a column to the unit that is needed; ValueError for another dimension or none."""
     if not unit:
         raise ValueError(f"columns must have their units, as in '{header} [{needed}]', got {checks.shown(header)}")
-    return quantity(f"unit of {checks.shown(header)}", f"1 {unit.replace('²', '^2').replace('**', '^')}", needed)
-
-
-def _even_step(time: Real) -> float:
-    """Return the step of times (n,) [s]; ValueError unless they are even."""
-    step = float(time[-1] - time[0]) / (time.size - 1)
-    if not step > 0 or not (np.diff(time) > 0).all():
-        raise ValueError(f"time must ascend, got {checks.shown(time.tolist())}")
-    off = np.abs(time - time[0] - step * np.arange(time.size)) / step
-    if off.max() > _UNEVEN:
-        got = f"{off.max():.3g} steps at {time[off.argmax()]:g} s"
-        raise ValueError(f"time must be even, each within {_UNEVEN} of a step of {step:.6g} s, got {got}")
-    return step
+    return quantity(f"unit of {checks.shown(header)}", f"1 {unit}", needed)

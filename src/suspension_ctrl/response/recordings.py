@@ -1,5 +1,9 @@
-"""Recordings as tables: CSV files, and RPC III files (.rpc, .rsp, .tim) of test rigs through rpc3-file."""
+"""Recordings as tables: CSV files, and RPC III files (.rpc, .rsp, .tim) of test rigs through rpc3-file.
 
+Headers have a unit in square or round brackets, ``z [g]``, ``speed (m/s)``.
+"""
+
+import re
 import warnings
 from collections.abc import Callable, Sequence
 from os import PathLike
@@ -12,9 +16,10 @@ from ..documents import naming
 from ..quantities import Real
 from ..tables import MEGABYTES, read_table
 from ..tables.layouts import LARGEST
-from ..vehicles.matrices import readable
 
 ENDINGS = (".rpc", ".rsp", ".tim")
+_HEADER = re.compile(r"\s*([^\[\](){}]*?)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\))?\s*")
+_UNEVEN = 0.4  # of a step: times may be rounded, no sample may lack
 _KIND = "an RPC III time history, binary with the least byte first"
 
 
@@ -39,13 +44,41 @@ def read_recording(
     return [headers[i] for i in wanted], values
 
 
+def parts_of(header: str) -> tuple[str, str]:
+    """Return name and unit of a header, no unit where there is none."""
+    found = _HEADER.fullmatch(header)
+    if not found:
+        return header.strip(), ""
+    unit = (found[2] or found[3] or "").strip()
+    return found[1], unit.replace("²", "^2").replace("**", "^")
+
+
+def check_ascending(name: str, values: Real, unit: str) -> None:
+    """Raise ValueError unless values (n,) ascend."""
+    wrong = ~(np.diff(values) > 0)
+    if wrong.any():
+        before, after = values[wrong.argmax() :][:2]
+        raise ValueError(f"{name} must ascend, got {after:.6g} {unit} after {before:.6g} {unit}")
+
+
+def even_step(time: Real) -> float:
+    """Return the step of times (n,) [s], the mean one; ValueError unless they are even."""
+    check_ascending("time", time, "s")
+    step = float(time[-1] - time[0]) / (time.size - 1)
+    off = np.abs(time - time[0] - step * np.arange(time.size)) / step
+    if off.max() > _UNEVEN:
+        got = f"{off.max():.3g} steps at {time[off.argmax()]:g} s"
+        raise ValueError(f"time must be even, each within {_UNEVEN} of a step of {step:.6g} s, got {got}")
+    return step
+
+
 def _read_rpc(path: Path) -> tuple[list[str], list[Real]]:
     """Return headers, of time first, and samples (n,) of each, without the filling of the last group."""
     with checks.installed("rpc"):
         from rpc3 import rpc3
     checks.regular(path, MEGABYTES)
     rpc3.progressbar = False
-    with readable(_KIND), warnings.catch_warnings():
+    with checks.readable(_KIND), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of a last group that is not full, as is common
         channels, _ = rpc3.read(str(path))
         time = channels[0].time()

@@ -3,7 +3,8 @@
 A corner is the mass m that stands on a wheel by the static loads (the mean of left and right), its spring K and
 damper C at the wheel, its tyre K_t and its wheel M_w. Spring and tyre in series give the ride frequency f,
 K K_t/(K + K_t) = m (2 pi f)^2; the damping ratio of the body is C/(2 sqrt(K m)); the wheel hops between spring and
-tyre, K + K_t = M_w (2 pi f_w)^2 (T. D. Gillespie, "Fundamentals of Vehicle Dynamics", SAE 1992, chapter 5).
+tyre, K + K_t = M_w (2 pi f_w)^2. Ride rate and hop rate, tyre in series and in parallel, are those of "Wheel Rate,
+Ride Rate, and Hop Rate" in the help of Altair MotionView 2021.
 """
 
 from collections.abc import Mapping, Sequence
@@ -15,7 +16,7 @@ import numpy as np
 
 from .. import checks
 from ..quantities import Real, Record
-from .assembly import Assembly, StrutCoefficient, joined
+from .assembly import Assembly, Network, StrutCoefficient, joined
 from .force_laws import ForceLaw
 from .formulas import Sheet
 from .parameters import TyreParameter, alike, parameters_of
@@ -138,9 +139,8 @@ def _strut_over(assembly: Assembly, tyres: Sequence[str]) -> tuple[str, str, flo
     return spring, damper, springs, dampers
 
 
-def _of_rate(network: object) -> bool:
-    elements = network.strut.elements  # type: ignore[attr-defined]
-    return all(isinstance(one, ForceLaw) and one.of_rate for one in elements)
+def _of_rate(network: Network) -> bool:
+    return all(isinstance(one, ForceLaw) and one.of_rate for one in network.strut.elements)
 
 
 def _only(one: StrutCoefficient, ports: Sequence[int]) -> bool:

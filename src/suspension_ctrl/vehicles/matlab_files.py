@@ -16,7 +16,7 @@ from .. import checks
 from ..tables import write_bytes
 from .feedback import System
 from .mat_variables import variables
-from .matrices import LETTERS, MEGABYTES, labels_of, matrices_of, readable, state_space
+from .matrices import LETTERS, MEGABYTES, labels_of, matrices_of, state_space
 
 _NAMES = {"inputs": "InputName", "outputs": "OutputName", "states": "StateName"}
 _DYMOLA = {"ABCD", "nx"}
@@ -29,7 +29,7 @@ def read_mat(path: Path) -> control.StateSpace:
     content = path.read_bytes()
     if content.startswith(b"MATLAB 7.3"):
         raise ValueError("the file must be of MATLAB version 7 or less, as by save('-v7'), got version 7.3")
-    with readable(f"a MATLAB file of version 4 to 7 with real matrices of at most {MEGABYTES:g} MB"):
+    with checks.readable(f"a MATLAB file of version 4 to 7 with real matrices of at most {MEGABYTES:g} MB"):
         known = variables(content, _READ, int(MEGABYTES * 1e6))
         values = {name: value for name, value in known.items() if value is not None}
         names = {kind: list[str](values.pop(name, [])) for kind, name in _NAMES.items()}

@@ -6,8 +6,7 @@ texts ``inputs`` and ``outputs``, or four files ``car_A.npy`` to ``car_D.npy``.
 """
 
 import zipfile
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -27,15 +26,6 @@ MEGABYTES = 50.0
 
 _MOST = {"states": 1000, "inputs": 200, "outputs": 1000}
 _STEPS, _DESCRIPTOR = ("TS", "DT"), "E"
-
-
-@contextmanager
-def readable(kind: str) -> Iterator[None]:
-    """Replace any error of a reader, on a damaged file, by a ValueError of one line."""
-    try:
-        yield
-    except Exception:
-        raise ValueError(f"the file must be {kind}, got one that cannot be read") from None
 
 
 def state_space(
@@ -100,7 +90,7 @@ def read_texts(path: Path) -> control.StateSpace:
 
 def _text(path: Path) -> Real:
     checks.regular(path, MEGABYTES)
-    with readable(f"rows of numbers, {path.name}"):
+    with checks.readable(f"rows of numbers, {path.name}"):
         lines = path.read_text(encoding="utf-8-sig").translate(str.maketrans(",;", "  ")).splitlines()
         numbers = [line for line in lines if line.strip() and line.lstrip()[0] not in "%#"]
         return np.loadtxt(numbers, comments=["%", "#"], ndmin=2)
@@ -123,11 +113,11 @@ def matrices_of(system: System) -> tuple[Real, Real, Real, Real]:
 def read_npz(path: Path) -> control.StateSpace:
     """Return the system of one file of NumPy arrays."""
     checks.regular(path, MEGABYTES)
-    with readable("a NumPy file of arrays"), zipfile.ZipFile(path) as archive:
+    with checks.readable("a NumPy file of arrays"), zipfile.ZipFile(path) as archive:
         size = sum(one.file_size for one in archive.infolist()) / 1e6
     if size > MEGABYTES:
         raise ValueError(f"the file must hold at most {MEGABYTES:g} MB, got {size:g} MB")
-    with readable("a NumPy file of arrays"), np.load(path) as file:
+    with checks.readable("a NumPy file of arrays"), np.load(path) as file:
         arrays = {name: file[name] for name in file.files}
         names = {kind: [str(name) for name in np.ravel(arrays.pop(kind, []))] for kind in _MOST}
     return state_space(arrays, **names)
@@ -138,7 +128,7 @@ def read_npy(path: Path) -> control.StateSpace:
     arrays = {}
     for letter, part in zip(LETTERS, parts_of(path), strict=True):
         checks.regular(part, MEGABYTES)
-        with readable(f"a NumPy array, {part.name}"):
+        with checks.readable(f"a NumPy array, {part.name}"):
             arrays[letter] = np.load(part)
     return state_space(arrays)
 

@@ -12,7 +12,6 @@ import numpy as np
 
 from .. import checks
 from ..quantities import Real
-from .matrices import readable
 
 _MEGABYTES = 20.0  # a file is held in memory several times while it is read
 _FREQUENCY_RESPONSE = 4  # function type of dataset 58
@@ -25,7 +24,7 @@ def read_uff(path: Path) -> control.FrequencyResponseData:
     with checks.installed("uff"):
         import pyuff
     checks.regular(path, _MEGABYTES)
-    with readable(_KIND):
+    with checks.readable(_KIND):
         file = pyuff.UFF(str(path))
         found = [file.read_sets(int(i)) for i in np.flatnonzero(file.get_set_types() == 58)]
         sets = [one for one in found if one["func_type"] == _FREQUENCY_RESPONSE]

@@ -86,8 +86,7 @@ class Varied(Record, AssembledVehicle):
         ports = AddedPorts(base)
         for one in self._parameters.values():
             if isinstance(one, Ported):
-                added = sheet.sum((1.0, {slots[one.name]: 1.0}), constant=-one.default)
-                ports.add(one, added)
+                ports.add(one, sheet.sum((1.0, {slots[one.name]: 1.0}), constant=-one.default))
         self._place(sheet, slots, ports)
         known = {one.name: slots[one.name] for one in base.strut_coefficients if slots.get(one.name) is not None}
         varying = {**known, **ports.slots}
@@ -106,7 +105,7 @@ class Varied(Record, AssembledVehicle):
                     found[name] = sheet.sum((one.default**-2, product))
         return found
 
-    def _place(self, sheet: Sheet, slots: Slots, ports: "AddedPorts") -> None:
+    def _place(self, sheet: Sheet, slots: Slots, ports: AddedPorts) -> None:
         """Add ports of pitch and roll for seats with places that vary.
 
         A seat moved by dx and dy extends its strut by dx pitch - dy roll more.

@@ -141,7 +141,7 @@ def test_a_subclass_alone_is_a_further_measure():
         (HALF, "ACC pitch", "ACC must be of one of body or a point (x, y), got 'pitch'"),
         (HALF, "ACC (1, 2", "ACC must be of one of body or a point (x, y), got '(1, 2'"),
         (HALF, "Wz body_acceleration", "weighting must be one of Wk, Wd, Wf, Wc, We, Wj, Wb, Wm, Wh, Wk-table"),
-        (HALF, "roll_acceleration", "response must be one of body_acceleration, pitch_acceleration, "),
+        (HALF, "roll_acceleration", "response must be one of body_acceleration, "),
         (HALF, "SWS + DTL", "SWS must be of one of front, rear, got '+ DTL'"),
         (HALF, "comfort = Wk body_acceleration + ", "measure must be "),
         (HALF, "a b c d",
