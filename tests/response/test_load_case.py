@@ -178,7 +178,7 @@ PLAIN = {"vehicle": FULL, "road": ROAD, "speed": 30.0}
         ({}, "vehicle, road and speed must be given, or cases in their place, got neither"),
         ({**PLAIN, "road": None}, "vehicle, road and speed must be given, or cases in their place, got neither"),
         ({**PLAIN, "speed": -1.0}, "speed must be finite and > 0 m/s, got -1.0"),
-        ({**PLAIN, "bounds": {"front.stiffness": (1e4, 2e4)}}, "bounds must be one of front.spring, "),
+        ({**PLAIN, "bounds": {"front.stiffness": (1e4, 2e4)}}, "bounds must be one of "),
         ({**PLAIN, "bounds": {"rear.damper": (2e3, 1e3)}}, "bounds of rear.damper must be finite with 0 <= "),
         ({**PLAIN, "bounds": {"rear.damper": 2e3}}, "bounds of rear.damper must be finite with 0 <= "),
         ({**PLAIN, "struts": STRUTS | {"rear.damper": 1e3}}, "struts must be those that do not vary, "),
@@ -196,7 +196,7 @@ PLAIN = {"vehicle": FULL, "road": ROAD, "speed": 30.0}
         ({**PLAIN, "struts": {"front": (2e4, 1500.0)}},
          "setting must have front.spring, front.damper, rear.spring, rear.damper, front_antiroll, rear_antiroll, "
          "got none for rear.spring"),
-        ({**PLAIN, "struts": STRUTS | {"middle.spring": 1.0}}, "setting must be one of front.spring, "),
+        ({**PLAIN, "struts": STRUTS | {"middle.spring": 1.0}}, "setting must be one of "),
         ({**PLAIN, "measures": ("ACC",)}, "measures must be 2 or more with different names, got ('ACC',)"),
         ({**PLAIN, "measures": "ACC"}, "measures must be a list, got 'ACC'"),
         ({**PLAIN, "measures": ("ACC", "ACC")},
@@ -216,7 +216,7 @@ PLAIN = {"vehicle": FULL, "road": ROAD, "speed": 30.0}
         ({**PLAIN, "nodes": 20}, "nodes must resolve every resonance in the box to 1e-06, got 20, which is off"),
         ({**PLAIN, "nodes": 2.5}, "nodes must be a whole number >= 2, got 2.5"),
         ({"cases": [CASES[0], replace(CASES[0], vehicle=HALF)]},
-         "setting must be one of front.spring, front.damper, rear.spring, rear.damper, front_tyre_stiffness, "),
+         "setting must be one of front.damper, rear.spring, rear.damper, front_tyre_stiffness, "),
     ],
 )  # fmt: skip
 def test_rejects_bad_settings(changes, message):
