@@ -101,6 +101,22 @@ def test_a_strut_with_a_law_on_the_road_bears_its_wheel_load():
     assert value["foot_deflection"] == pytest.approx(-300.0 * GRAVITY / 2e4 - depth, rel=1e-9)
 
 
+@pytest.mark.parametrize("compression", [1e-9, 1e-4, 0.005])
+def test_a_stop_out_of_reach_in_series_holds_nothing(compression):
+    """In its gap no force at all, where a sum of the slopes of its curve leaves 1e-17 of rounding."""
+    stop = sc.series(sc.BumpStop(gap=0.0054, stiffness=9346.0), sc.Spring("mount", 1e5))
+    values = {one.name: one.default for one in stop.coefficients}
+    assert stop.static_tension(values, -compression) == 0
+    assert stop.static_tension(values, 0.01) == 0
+    depth = 0.1 - 0.0054  # of stop and mount in series
+    assert stop.static_tension(values, -0.1) == pytest.approx(-depth / (1 / 9346.0 + 1e-5), rel=1e-9)
+
+
+def test_symmetric_loads_leave_no_roll():
+    value = FULL.static({"front": (2e4, 1e3), "rear": (2e4, 1e3)})["value"]
+    assert value["roll_displacement"] == 0
+
+
 def test_a_plant_has_no_static_position():
     with pytest.raises(ValueError, match=r"^vehicle must be one of masses and links for static loads"):
         sc.Plant(QUARTER.plant()).static({"spring": 1.0, "damper": 1.0})

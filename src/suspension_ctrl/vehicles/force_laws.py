@@ -39,11 +39,11 @@ class Curve(NamedTuple):
         def product(factors: Factors) -> float:
             return factors[0] * prod(values[i] for i in factors[1])
 
-        first, *slopes = map(product, self.slopes)
-        force, jumps = first * x, [*map(product, self.jumps)] or [0.0] * len(slopes)
-        for (constant, factors), rise, jump in zip(self.knots, np.diff([first, *slopes]), jumps, strict=True):
-            knot = constant + product(factors)
-            force += rise * (np.maximum(x - knot, 0.0) - max(-knot, 0.0))
+        slopes, jumps = [*map(product, self.slopes)], [*map(product, self.jumps)] or [0.0] * len(self.knots)
+        knots = [constant + product(factors) for constant, factors in self.knots]
+        force = slopes[sum(knot < 0 for knot in knots)] * x
+        for knot, rise, jump in zip(knots, np.diff(slopes), jumps, strict=True):  # outward: no rounding near 0
+            force += rise * (np.maximum(x - knot, 0.0) if knot >= 0 else -np.minimum(x - knot, 0.0))
             force += jump * (np.heaviside(x - knot, 0.5) - np.heaviside(-knot, 0.5))
         c, a = (values[i] for i in self.power) if self.power else (0.0, 1.0)
         return force + c * np.abs(x) ** a * np.sign(x)

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 _STEP = 1e-8  # m, of deflections for slopes
 _NEAR, _BALANCE = 1e-13, 1e-9  # change of a displacement, of itself; what remains of a load
+_ROUNDING = 1e-13  # of the largest displacement
 
 
 def static_of(statics: Mechanics, values: Mapping[str, float]) -> "pd.DataFrame":
@@ -31,6 +32,7 @@ def _rows(statics: Mechanics, values: Mapping[str, float]) -> Iterator[tuple[str
     """Yield loads of wheels, deflections of tyres and struts, and displacements of bodies and wheels."""
     assembly = statics.assembly
     at, loads = _position(statics, values)
+    at = np.where(np.abs(at) > _ROUNDING * np.abs(at).max(), at, 0.0)
     for wheel, load in zip(assembly.contacts, loads, strict=True):
         yield joined(wheel, "wheel_load"), load
     tyres, struts = (assembly.elongations(links)[0] @ at for links in (assembly.tyres, assembly.struts))
