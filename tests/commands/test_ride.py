@@ -115,11 +115,15 @@ def test_springs_laws_and_mean_travel_are_tables_of_80_columns(called, tmp_path)
     assert done.returncode == 0, done.stderr
     shown = done.stdout.partition("Ride: ")[2]
     assert max(map(len, shown.splitlines())) <= 80
-    for title in ("Springs at the working point", "Force laws", "Mean travel"):
+    for title in ("Springs at the working point", "Static loads", "Force laws", "Mean travel"):
         assert f"\n{title}" in shown
     springs = pd.read_csv(tmp_path / "out" / "springs.csv").set_index("name")
     laws = pd.read_csv(tmp_path / "out" / "laws.csv").set_index("law")
     assert springs["spring rate [N/m]"]["front.spring"] == laws.equivalent["front.spring"]
+    file, static = load_vehicle("volvo_xc90_full"), pd.read_csv(tmp_path / "out" / "static.csv").set_index("name")
+    wanted = file.vehicle.static(file.setting)  # of the laws, not of their mean slopes
+    np.testing.assert_allclose(static["value"], wanted["value"], rtol=1e-12)
+    assert static["unit"].equals(wanted["unit"])
 
 
 def test_roads_driven_in_time_stand_beside_the_ride(called, tmp_path):
@@ -146,3 +150,12 @@ def test_a_road_too_short_to_drive_is_refused_in_one_line(called):
 def test_notes_have_80_columns_outside_of_a_terminal(called):
     done = called("ride", "--vehicle", "jian_2022_full")
     assert max(map(len, done.stdout.partition("Ride: ")[0].splitlines())) <= 80
+
+
+def test_a_vehicle_that_no_spring_carries_rides_without_static_loads(called, tmp_path):
+    text = 'kind = "quarter-car"\nbody_mass_kg = 300\nwheel_mass_kg = 40\ntyre_stiffness_N_per_m = 2e5\n'
+    (tmp_path / "car.toml").write_text(f'{text}strut.layout = "damper"\nstruts.damper_N_s_per_m = 1500\n')
+    done = called("ride", "--vehicle", "car.toml", "--road", "C", "--band", "0.5,20", "--out", "out")
+    assert done.returncode == 0, done.stderr
+    assert "Static loads" not in done.stdout
+    assert not (tmp_path / "out" / "static.csv").exists()

@@ -1,6 +1,7 @@
 """Ride and modes of one vehicle on one road, printed and written as CSV."""
 
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -36,11 +37,11 @@ def ride(
     certify: o.Certify = None,
     out: o.Out = None,
 ) -> None:
-    """Print the ride, the modes and the springs of one vehicle.
+    """Print the ride, the modes, the springs and the wheel loads of one vehicle.
 
     The vehicle is from a file, with its own struts, or a quarter car with given masses, tyre, spring and
-    damper; of a plant the ride alone. Writes ride.csv, modes.csv, springs.csv, of force laws laws.csv, and of
-    roads driven in time certificate.csv to a folder; its path is the last line printed.
+    damper; of a plant the ride alone. Writes ride.csv, modes.csv, springs.csv, static.csv, of force laws laws.csv,
+    and of roads driven in time certificate.csv to a folder; its path is the last line printed.
     """
     from ..paper import experiment as paper
     from ..response.load_case import LoadCase
@@ -56,7 +57,7 @@ def ride(
     table = ride(car, values, case.road, speed=case.speed, weighting=problem.weighting, band=problem.band)
     table = (table if table.note.any() else table.drop(columns="note")).reset_index()
     linear = linearised_if_assembled(case, values, problem.band)
-    tables = {"ride": table, **tables_of(linear)}
+    tables = {"ride": table, **tables_of(linear, values)}
     certificate = certified(problem, case, values, certify)
     folder = results.results_folder(out)
     for name, one in tables.items():
@@ -131,19 +132,22 @@ def told(values: Mapping[str, float], vehicle: "Vehicle") -> str:
     return ", ".join(f"{name} {value:g} {units[name]}".rstrip() for name, value in values.items())
 
 
-def tables_of(linear: "LinearisedVehicle | None") -> "dict[str, pd.DataFrame]":
-    """Return the tables of modes and springs and, if there are force laws, of laws; none of a plant."""
+def tables_of(linear: "LinearisedVehicle | None", values: Mapping[str, float]) -> "dict[str, pd.DataFrame]":
+    """Return tables of modes and springs, of laws if there are any, and of statics on springs; none of a plant."""
     if linear is None:
         return {}
     from ..vehicles.rates import rates_of
 
     modes = linear.modes().filter(regex=r"^name$|\]$")  # no amplitudes
     laws = {"laws": linear.table().reset_index()} if linear.laws else {}
-    return {"modes": modes, "springs": rates_of(linear, linear.coefficients()), **laws}
+    tables = {"modes": modes, "springs": rates_of(linear, linear.coefficients()), **laws}
+    with suppress(ValueError):  # of a vehicle that no spring carries
+        tables["static"] = linear.vehicle.static(values).reset_index()
+    return tables
 
 
 def show_tables(tables: "Mapping[str, pd.DataFrame]", linear: "LinearisedVehicle | None") -> None:
-    """Show modes and springs, and force laws at their working point with the mean travel that they cause."""
+    """Show modes, springs, wheel loads, and force laws at their working point with the mean travel they cause."""
     import pandas as pd
 
     from . import terminal
@@ -152,6 +156,9 @@ def show_tables(tables: "Mapping[str, pd.DataFrame]", linear: "LinearisedVehicle
         return
     terminal.show("Modes", tables["modes"], dict.fromkeys(tables["modes"].columns[1:], 3))
     terminal.show("Springs" + " at the working point" * bool(linear.laws), tables["springs"])
+    if "static" in tables:
+        loads = tables["static"][tables["static"]["name"].str.endswith("wheel_load")]
+        terminal.show("Static loads", loads, {"value": 1})
     if linear.laws:
         terminal.show("Force laws, linearised on this road: SI units", tables["laws"])
         travel = [(strut or "strut", 1e3 * mean) for strut, mean in linear.mean_travel.items()]
