@@ -12,7 +12,7 @@ from scipy import stats
 from scipy.integrate import solve_ivp
 
 from garage import FULL, HALF, QUARTER
-from suspension_ctrl import Iso8608Road, Seat, simulate
+from suspension_ctrl import Iso8608Road, Seat, load_vehicle, simulate
 from suspension_ctrl.roads.coherence import Constant
 from suspension_ctrl.roads.profiles import Profile
 from suspension_ctrl.study.machine import single_thread
@@ -356,7 +356,7 @@ def test_points_of_the_body_and_other_outputs():
         ({"profile": ROAD}, "profile must be a Profile or an event"),
         (
             {"profile": ROAD.profile(64.0, STEP, 1, (0.75, -0.75))},
-            r"profile must have a track at y = 0 m, as by road.profile\(..., tracks=\(0, ...\)\), got tracks at ",
+            r"profile must have tracks at y = 0 m, as by road.profile\(..., tracks=\(0,\)\), got tracks at ",
         ),
         (
             {"contact_points": [[0.0, 0.0]]},
@@ -410,6 +410,23 @@ def test_a_coarse_profile_is_refined_by_straight_interpolation(periodic):
 
 
 def test_a_road_under_other_wheels_says_how_to_give_tracks():
-    with pytest.raises(ValueError, match=r"^profile must have a track at y = 0.75 m, as by ") as caught:
+    message = r"^profile must have tracks at y = 0.75, -0.75, 0.73, -0.73 m, as by "
+    with pytest.raises(ValueError, match=message) as caught:
         simulate(FULL, STRUTS, ROAD.profile(64.0, STEP, 1), SPEED)
     assert "\n" not in str(caught.value)
+
+
+def test_a_measured_road_of_two_tracks_is_given_to_every_track_of_a_truck():
+    """A wheel on each side meets the column of its side, however far from it: as on tracks 0.1 m further out."""
+    truck, measured = load_vehicle("trucksim_cab_over"), Iso8608Road("A").profile(64.0, STEP, 1, (0.9, -0.9))
+    with pytest.raises(
+        ValueError, match=r"y = 1.015, -1.015, 0.9443, -0.9443 m, as by .*, got tracks at \[0.9, -0.9\] m$"
+    ):
+        simulate(truck.vehicle, truck.setting, measured, SPEED)
+    x, y = truck.vehicle.contact_points.T
+    sides = sorted(set(y.tolist()))
+    height = measured.height[:, [0 if side > 0 else 1 for side in sides]]
+    found = simulate(truck.vehicle, truck.setting, Profile(measured.distance, height, tracks=sides), SPEED)
+    at_tracks = np.column_stack([x, 0.9 * np.sign(y)])
+    expected = simulate(truck.vehicle.closed(truck.setting), measured, SPEED, at_tracks)
+    np.testing.assert_array_equal(found, expected)

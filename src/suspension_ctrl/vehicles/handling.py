@@ -69,6 +69,8 @@ def check_cornering(measure: str, assembly: Assembly) -> None:
     wheels = {f"{corner}_wheel" for corner in corners}
     if set(assembly.contacts) != set(corners) or not wheels <= set(assembly.coordinates):
         needed, got = f"tyres {', '.join(corners)} on wheels of these names", ", ".join(assembly.contacts)
+        if set(assembly.contacts) == set(corners):
+            got += f" on {', '.join(sorted(assembly.unsprung)) or 'the body'}"
         raise ValueError(f"{measure} must be of a vehicle with {needed}, got tyres {got}")
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from ...quantities import Complex, Real
 from ...roads.events import Event
 from ...roads.profiles import Profile
-from .courses import track_of
+from .courses import tracks_of
 from .equations import roads_of
 
 _STEPS = 200  # in the shortest wave of an event or mode: straight pieces then attenuate it by 8e-5
@@ -55,8 +55,7 @@ class Wheels(NamedTuple):
         times = np.arange(n if periodic else n - int(np.ceil(ahead.max())))
         index = times[:, None, None] + first[:, None] + np.arange(-1, 3)
         index = index % n if periodic else np.clip(index, 0, n - 1)
-        tracks = [track_of(profile, y) for y in contacts[:, 1].tolist()]
-        heights = profile.height[index, np.array(tracks)[:, None]]
+        heights = profile.height[index, tracks_of(profile, contacts)[:, None]]
         return cls(heights, ahead - first, float(profile.distance[0] - (0.0 if periodic else x.min())))
 
     @classmethod
