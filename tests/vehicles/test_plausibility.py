@@ -38,6 +38,15 @@ def test_ratios_are_quotients_of_the_parameters():
     assert not any("frequency" in name or "spring" in name for name in found)
 
 
+def test_axles_and_trailers_are_judged_too():
+    """Masses of six axles over that of tractor and trailer; a trailer's radius over the whole wheelbase."""
+    found = values_of(sc.load_vehicle("kraz_semitrailer").vehicle)
+    axles = 991.41 + 2 * 1226.41 + 3 * 728.01
+    assert found["wheels over body in mass"] == pytest.approx(axles / 30e3, rel=1e-12)
+    name = "a radius of gyration of trailer in pitch over the wheelbase"
+    assert found[name] == pytest.approx((322240 / 20e3) ** 0.5 / 13.54, rel=1e-12)
+
+
 def test_elastic_modes_are_not_judged():
     shapes = {(1.2, 0.0): (0.03,), (-1.5, 0.0): (-0.03,)}
     body = sc.FlexibleBody(frequencies=[90.0], damping_ratios=[0.02], shapes=shapes)

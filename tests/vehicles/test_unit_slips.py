@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import suspension_ctrl as sc
-from suspension_ctrl.datafiles import stems
+from suspension_ctrl.datafiles import named, stems
 from suspension_ctrl.vehicles.unit_slips import slip_of
 
 ROAD = sc.Iso8608Road("C")
@@ -147,6 +147,27 @@ def test_a_file_is_refused_unless_it_is_unusual(tmp_path, old, new, message):
     assert file.unusual
     sc.save_vehicle(tmp_path / "again.toml", file)
     assert sc.load_vehicle(tmp_path / "again.toml") == file
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("mass_kg = 20e3", "mass_kg = 20", "bodies.trailer.mass must be in kg, got 20 as if in t: "),
+        (
+            "mass_kg = 728.01",
+            "mass_kg = 0.72801",
+            "bodies.trailer_front_axle.mass, bodies.trailer_middle_axle.mass, bodies.trailer_rear_axle.mass must "
+            "be in kg, got 0.72801, 0.72801, 0.72801 as if in t: ",
+        ),
+        ("= 1225025", "= 1225", ".tyre_stiffness must be in N/m, got 1225, 1225, 1225 ... 1225 as if in N/mm: "),
+    ],
+)
+def test_slips_of_a_trailer_and_its_axles_are_named(tmp_path, old, new, message):
+    path, text = tmp_path / "truck.toml", named("vehicle", "vehicles", "kraz_semitrailer").read_text("utf-8")
+    path.write_text(text.replace(old, new))
+    with pytest.raises(ValueError, match=r"; unusual = true allows it$") as error:
+        sc.load_vehicle(path)
+    assert message in str(error.value)
 
 
 @pytest.mark.parametrize("place", ["bounds", "vehicle"])

@@ -46,6 +46,13 @@ def point_of(body: str, position: Position) -> Position | BodyPoint:
     return position if body == "body" else (body, *position)
 
 
+def _body_of(end: End) -> str:
+    """Return the body or the coordinate at an end, "" of the inertial frame."""
+    if isinstance(end, tuple):
+        return end[0] if len(end) == 3 else "body"
+    return end or ""
+
+
 def turning(body: str, motion: str) -> str:
     """Return the coordinate of the ``pitch`` or ``roll`` of a body."""
     return motion if body == "body" else f"{body}_{motion}"
@@ -231,11 +238,22 @@ class Assembly(Record):
         """Share (r, q) of the tension of each strut in the load on each road: 1 of a strut that stands on it."""
         return frozen_array(-self.elongations(self.struts)[1].T)
 
+    @cached_property
+    def unsprung(self) -> frozenset[str]:
+        """Names of the masses on tyres: wheels, axles and beams, but not the body."""
+        return frozenset(map(_body_of, (tyre.upper for tyre in self.tyres))) - {"body", ""}
+
     @property
     def sprung_mass(self) -> float:
         """Mass carried by the wheels, payload included [kg]."""
-        wheels = [tyre.upper[0] if isinstance(tyre.upper, tuple) else tyre.upper for tyre in self.tyres]
-        return sum(m for name, m in self.masses.items() if name not in wheels) + sum(m for m, _ in self.payload)
+        sprung = sum(mass for name, mass in self.masses.items() if name not in self.unsprung)
+        return sprung + sum(mass for mass, _ in self.payload)
+
+    @cached_property
+    def wheel_struts(self) -> tuple[str, ...]:
+        """Names of the struts on wheels, axles, beams and roads, without seats."""
+        below = {*self.unsprung, *self.roads}
+        return tuple(one.name for one in self.struts if _body_of(one.lower) in below and one.upper != one.name)
 
     def shape(self, end: End) -> Real:
         """Return the share (n,) of each coordinate in the displacement of an end."""

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..quantities import Real
+from .assembly import turning
 from .vehicle import AssembledVehicle
 
 _WIDE, _FREE = 0.03, 1e-10
@@ -66,14 +67,18 @@ def _span(vehicle: AssembledVehicle, axis: int) -> float:
 def _of_masses(vehicle: AssembledVehicle) -> Iterator[Figure]:
     """Wheels over body, 0.02 of a bicycle with its rider to 0.6 of an empty trailer; radii of gyration."""
     assembly = vehicle.assembly
-    wheels = {tyre.upper for tyre in assembly.tyres}
-    unsprung = sum(mass for name, mass in assembly.masses.items() if name in wheels)
+    unsprung = sum(assembly.masses[name] for name in assembly.unsprung)
     if unsprung > 0 and assembly.sprung_mass > 0:
         yield Figure("wheels over body in mass", unsprung / assembly.sprung_mass, 0.003, 3.0, 0.13)
     for axis, turn, over in ((0, "pitch", "wheelbase"), (1, "roll", "track")):
-        if turn in assembly.inertias and "body" in assembly.masses and (span := _span(vehicle, axis)) > 0:
-            radius = np.sqrt(assembly.inertias[turn] / assembly.masses["body"])
-            yield Figure(f"a radius of gyration in {turn} over the {over}", float(radius / span), 0.02, 2.0, 0.4)
+        span = _span(vehicle, axis)
+        for body, mass in assembly.masses.items():
+            inertia = assembly.inertias.get(turning(body, turn), 0.0)
+            if mass > 0 and inertia > 0 and span > 0:
+                # short are the beams of long trucks
+                lowest, whose = (0.02, "") if body == "body" else (1e-3, f" of {body}")
+                ratio = float(np.sqrt(inertia / mass) / span)
+                yield Figure(f"a radius of gyration{whose} in {turn} over the {over}", ratio, lowest, 2.0, 0.4)
 
 
 def _of_tyres(vehicle: AssembledVehicle) -> Iterator[Figure]:
@@ -104,17 +109,15 @@ def _squares(stiffness: Real, mass: Real) -> Real:
 
 def _of_dampers(vehicle: AssembledVehicle, values: Mapping[str, float]) -> Iterator[Figure]:
     """Damper over spring of a strut: 1 ms of a truck with hardly any damping to 0.5 s."""
-    units = {one.name: one.unit for one in vehicle.strut_coefficients}
     ratios = []
-    for name, unit in units.items():
-        prefix = name.partition(".")[0] if "." in name else ""
+    for one in vehicle.strut_coefficients:
         springs = [
-            values[one]
-            for one, its in units.items()
-            if its == "N/m" and values.get(one) and (one.partition(".")[0] if "." in one else "") == prefix
+            values[other.name]
+            for other in vehicle.strut_coefficients
+            if other.unit == "N/m" and other.prefix == one.prefix and values.get(other.name)
         ]
-        if unit == "N s/m" and values.get(name) and springs:
-            ratios.append(values[name] / springs[0])
+        if one.unit == "N s/m" and values.get(one.name) and springs:
+            ratios.append(values[one.name] / springs[0])
     if ratios:
         yield Figure("a damper over its spring", min(ratios), 5.5e-4, 10.0, 0.07, "s", _WIDE)
         yield Figure("a damper over its spring", max(ratios), 5.5e-4, 10.0, 0.07, "s", _WIDE)

@@ -18,10 +18,7 @@ _TAKEN_FOR = {  # units that are used, the usual one first
     "N/m": ("N/mm", "lbf/in"),
     "N s/m": ("N s/mm", "lbf s/in"),
 }
-_SELDOM, _SEVERAL = (
-    0.5,
-    1.5,
-)  # distances of a unit that is seldom taken, and of a slip in each further kind of number
+_SELDOM, _SEVERAL = 0.5, 1.5  # distances of a seldom taken unit, and of a slip in each further kind of number
 
 
 class UnitSlipWarning(UserWarning):
@@ -129,11 +126,13 @@ def _unlike(numbers: list[_Number], slip: _Slip) -> float:
 
 
 def _slips(numbers: list[_Number], settings: list[_Number]) -> Iterator[_Slip]:
-    """Yield every number alone, those of a like name, those of a unit, and stiffnesses with dampers."""
+    """Yield every number alone, equal ones, those of a name, of a unit, and stiffnesses with dampers."""
     groups: dict[tuple[_Number, ...], None] = {}
     for one in numbers:
         its = [other for other in numbers if other.unit == one.unit]
-        groups |= dict.fromkeys([tuple(its), tuple(n for n in its if _kind(n) == _kind(one)), (one,)])
+        like = [other for other in its if _kind(other) == _kind(one)]
+        equal = [other for other in like if other.value == one.value]  # axles of a tridem
+        groups |= dict.fromkeys([tuple(its), tuple(like), tuple(equal), (one,)])
     rates = [tuple(one for one in some if one.unit in ("N/m", "N s/m")) for some in (numbers, settings)]
     for group in [*groups, *rates]:
         unit = {one.unit for one in group}
