@@ -445,3 +445,35 @@ def test_peaks_of_a_truck_are_those_of_driving():
     driven = sc.simulate(vehicle, ARTICULATED, bump, 10.0)
     for measure, name in zip(measures, names, strict=True):
         assert table["value"][measure] == pytest.approx(driven[f"{name} [m/s^2]"].abs().max(), rel=1e-3)
+
+
+def test_travel_of_all_struts_counts_tandems_and_leaves_out_cabs_and_seats():
+    """Struts on the beams of a tandem and a tridem, which have no wheel's name; a mount of a cab has its own."""
+    file = sc.load_vehicle("cantero_2022_truck")
+    assert file.vehicle.wheel_struts == file.vehicle.struts
+    table = sc.ride(file.vehicle, file.setting, ROAD, 20.0, band=(0.1, 20.0), measures=["SWS", "SWS tandem"])
+    travels = {name: table["value"][f"{name}_suspension_travel"] for name in file.vehicle.struts}
+    assert table["value"]["SWS"] == pytest.approx(max(travels.values()), rel=1e-12)
+    assert table["value"]["SWS tandem"] == pytest.approx(travels["tandem"], rel=1e-12)
+    cab = sc.load_vehicle("trucksim_cab_over").vehicle
+    with_seat = sc.Seat(mass=60.0, spring=1e4, damper=500.0, stands_on="front_axle").on(cab)
+    assert with_seat.wheel_struts == tuple(name for name in cab.struts if not name.startswith("cab"))
+
+
+def test_travel_of_a_stiff_tandem_is_the_largest_if_its_spring_is_soft():
+    file = sc.load_vehicle("cantero_2022_truck")
+    soft = {**file.setting, "tridem.spring": 2e5, "tridem.damper": 1e3}
+    table = sc.ride(file.vehicle, soft, ROAD, 20.0, band=(0.1, 20.0), measures=["SWS"])["value"]
+    assert table["SWS"] == pytest.approx(table["tridem_suspension_travel"], rel=1e-12)
+
+
+def test_a_seat_in_a_cab_has_the_floor_of_the_cab_below_it():
+    """Its acceleration over that of a point of the cab, both weighted with Wk."""
+    file = sc.load_vehicle("trucksim_cab_over")
+    points = [BodyPoint(name="below", body="cab", position=(0.5 + 0.3, 0.4))]
+    seat = sc.Seat(mass=90.0, spring=2e4, damper=900.0, position=(0.3, 0.4), name="driver", stands_on="cab").on(
+        replace(file.vehicle, points=points)
+    )
+    names = ["SEAT driver", "Wk driver_acceleration", "Wk below_acceleration"]
+    factor, above, below = sc.ride(seat, file.setting, ROAD, 20.0, band=(0.1, 20.0), measures=names)["value"][:3]
+    assert factor == pytest.approx(above / below, rel=1e-9)

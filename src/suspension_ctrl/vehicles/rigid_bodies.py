@@ -169,14 +169,19 @@ class RigidBodies(Checked, AssembledVehicle):
 
     def _strut(self, number: int, one: Suspension) -> Link:
         """Return a strut, by default over the wheel of its name."""
-        key, own = f"suspensions[{number}]", next((wheel for wheel in self.wheels if wheel.name == one.name), None)
-        place = one.position if one.position is not None else own.position if own else _PLACE
+        key, place = f"suspensions[{number}]", self._place(one)
         roads = [joined(wheel.name, "road") for wheel in self.wheels]
-        if not (one.lower or own):
+        name = one.lower or next((wheel.upper for wheel in self.wheels if wheel.name == one.name), "")
+        if not name:
             raise ValueError(f"{key}.lower must be given where no wheel has the name of the strut, got none")
-        name = one.lower or own.upper  # type: ignore[union-attr]
         lower = name if name in roads else self._end(f"{key}.lower", name, place)
         return Link(one.name, lower, self._end(f"{key}.upper", one.upper, place))
+
+    def _place(self, one: Suspension) -> Position:
+        """Return the place (x, y) of a strut, by default that of the wheel of its name [m]."""
+        if one.position is not None:
+            return one.position
+        return next((wheel.position for wheel in self.wheels if wheel.name == one.name), _PLACE)
 
     def _support(self, number: int, one: Support) -> Link:
         key, place = f"supports[{number}]", one.position or _PLACE
@@ -209,19 +214,12 @@ class RigidBodies(Checked, AssembledVehicle):
             for name in bar.struts:
                 checks.one_of(f"anti_roll_bars[{i}].struts", name, places)
             left, right = map(places.index, bar.struts)
-            across = abs(self._across(left) - self._across(right))
+            across = abs(self._place(self.suspensions[left])[1] - self._place(self.suspensions[right])[1])
             checks.positive(f"anti_roll_bars[{i}].struts, distance across", across, "m")
             difference = np.zeros(len(places))
             difference[[left, right]] = 1.0, -1.0
             coefficients.append(anti_roll_bar(bar.name, difference.tolist(), across))
         return tuple(coefficients), tuple(networks)
-
-    def _across(self, strut: int) -> float:
-        """Return the lateral place of a strut [m]."""
-        one = self.suspensions[strut]
-        if one.position is not None:
-            return one.position[1]
-        return next((wheel.position[1] for wheel in self.wheels if wheel.name == one.name), 0.0)
 
     def _struts(self) -> Mapping[str, Strut]:
         """Return the strut by the beginning of its coefficients' names."""

@@ -48,6 +48,11 @@ class Vehicle(ABC):
         """Names of the struts; one over a tyre has its name."""
 
     @property
+    def wheel_struts(self) -> tuple[str, ...]:
+        """Names of the struts on wheels: those named like a tyre."""
+        return tuple(name for name in self.struts if name in self.contacts)
+
+    @property
     @abstractmethod
     def strut_coefficients(self) -> tuple[StrutCoefficient, ...]:
         """Coefficients of the struts."""
@@ -238,6 +243,11 @@ class AssembledVehicle(Vehicle):
     def struts(self) -> tuple[str, ...]:
         """Names of the struts; one over a tyre has its name."""
         return tuple(strut.name for strut in self.assembly.struts)
+
+    @property
+    def wheel_struts(self) -> tuple[str, ...]:
+        """Names of the struts on wheels, axles and beams."""
+        return self.assembly.wheel_struts
 
     @property
     def strut_coefficients(self) -> tuple[StrutCoefficient, ...]:

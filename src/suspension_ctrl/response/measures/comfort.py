@@ -159,4 +159,6 @@ def floor_below(vehicle: Vehicle, seat: object, word: str) -> ResponseName:
         known = ", ".join(links) or "seats, of which the vehicle has none"
         raise ValueError(f"{word} must be of one of {known}, got {checks.shown(seat)}")
     lower = links[str(seat)]
-    return ("acceleration", *lower) if isinstance(lower, tuple) else f"{lower}_acceleration"
+    if isinstance(lower, tuple):
+        return ("acceleration", *lower) if len(lower) == 2 else f"{seat}_floor_acceleration"
+    return f"{lower}_acceleration"

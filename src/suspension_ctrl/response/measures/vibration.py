@@ -81,7 +81,7 @@ class ACC(AccelerationMeasure, word="ACC", unit="m/s^2"):
 
 
 class WheelMeasure(PlacedMeasure):
-    """The largest root mean square of responses of one kind: of all wheels, an axle, a wheel or a seat."""
+    """The largest root mean square of responses of one kind: of all wheels, an axle, a strut or a seat."""
 
     kind: ClassVar[str]
 
@@ -91,14 +91,14 @@ class WheelMeasure(PlacedMeasure):
 
     def responses(self, vehicle: Vehicle) -> list[str]:
         """Return the responses at the place."""
-        tyres = set(vehicle.tyres)
+        wheels = {*vehicle.tyres, *vehicle.wheel_struts}
         found = {
             str(response.where): name
             for name, response in vehicle.meanings.items()
-            if response.kind == self.kind and (self.where or response.where in tyres)
+            if response.kind == self.kind and (self.where or response.where in wheels)
         }
-        axle = {f"{self.where}_left", f"{self.where}_right"} & tyres
-        chosen = [name for end, name in found.items() if self.where in ("", end) or end in axle]
+        ends = {self.where, f"{self.where}_left", f"{self.where}_right"}
+        chosen = [name for end, name in found.items() if not self.where or end in ends]
         if not found:
             raise ValueError(f"{self.word} must be of a vehicle that has it by name, got one without")
         if not chosen:
@@ -113,7 +113,8 @@ class SWS(WheelMeasure, word="SWS", unit="m"):
     Parameters
     ----------
     where : str
-        An axle, a wheel or a seat: ``"front"``, ``"front_left"``, ``"driver"``; all wheels by default.
+        An axle, a strut or a seat: ``"front"``, ``"front_left"``, ``"driver"``; by default all struts on wheels,
+        axles and beams, but not those of cabs and seats.
     name, maximise
         As of `Measure`; the name is optional.
 
