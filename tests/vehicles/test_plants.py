@@ -135,8 +135,10 @@ def test_signals_are_those_of_the_vehicle(car):
     assert plant.responses == car.responses
     assert all(plant.meanings[name].kind == car.meanings[name].kind for name in plant.meanings)
     unknown = {name for name in car.meanings if name.endswith(("displacement", "velocity", "tyre_deflection"))}
-    accelerations = {name for name in car.meanings if name.endswith("wheel_acceleration")}
-    assert car.meanings.keys() - plant.meanings.keys() == unknown | accelerations
+    further = {
+        name for name in car.meanings if name.endswith(("wheel_acceleration", "floor_acceleration", "floor_jerk"))
+    }
+    assert car.meanings.keys() - plant.meanings.keys() == unknown | further
     assert (plant.struts, plant.tyres) == (car.struts, car.tyres)
     np.testing.assert_array_equal(plant.contact_points, car.contact_points)
     here, there = plant.plant(car.responses), car.plant(car.responses)

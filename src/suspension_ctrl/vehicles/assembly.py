@@ -205,17 +205,32 @@ class Assembly(Record):
 
     @cached_property
     def meanings(self) -> Mapping[str, Response]:
-        """Meaning of every response by name: `responses`, then others of coordinates, struts and tyres."""
+        """Meaning of every response by name: `responses`, then others of coordinates, floors, struts and tyres."""
         wheels, further = [tyre.upper for tyre in self.tyres], dict[str, Response]()
-        for end in (*self.masses, *sorted(filter(turns, self.inertias))):
-            kinds = ("displacement", "velocity", "acceleration", *(("jerk",) if end not in wheels else ()))
-            further |= {f"{end}_{kind}": Response(kind, end) for kind in kinds}
+        ends: dict[str, End] = {name: name for name in (*self.masses, *sorted(filter(turns, self.inertias)))}
+        floors = {f"{seat}_floor": point for seat, point in self.seats.items()}
+        for name, end in (ends | floors | ends).items():
+            jerk = () if _body_of(end) in wheels else ("jerk",)
+            kinds = ("displacement", "velocity", "acceleration", *jerk)
+            further |= {f"{name}_{kind}": Response(kind, end) for kind in kinds}
         for strut in self.struts:
             further[joined(strut.name, "suspension_travel_rate")] = Response("travel_rate", strut.name)
             further[joined(strut.name, "strut_force")] = Response("strut_force", strut.name)
         for tyre in self.tyres:
             further[joined(tyre.name, "tyre_deflection")] = Response("tyre_deflection", tyre.name)
         return FrozenMapping({**self.responses, **further, **self.responses})
+
+    @cached_property
+    def seats(self) -> Mapping[str, Position | BodyPoint]:
+        """Point of a body below each mass that stands there on a strut of its own name."""
+        wheels = {tyre.upper for tyre in self.tyres}
+        own = (strut for strut in self.struts if strut.name == strut.upper and strut.upper not in wheels)
+        return FrozenMapping({strut.name: strut.lower for strut in own if isinstance(strut.lower, tuple)})
+
+    def body_below(self, end: End) -> str:
+        """Return the body or the coordinate at an end, of a seat the body on which it stands."""
+        name = _body_of(end)
+        return self.body_below(self.seats[name]) if name in self.seats else name
 
     @cached_property
     def mass_matrix(self) -> Real:

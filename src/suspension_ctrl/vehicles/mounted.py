@@ -48,7 +48,7 @@ class Mounted(Record, AssembledVehicle):
 class Seat(Part):
     """A seat with its occupant: a mass on a spring and a damper of its own, on any vehicle or on another seat.
 
-    Its responses are ``<name>_acceleration`` and ``<name>_suspension_travel``, elsewhere than on ``body`` also
+    Its responses are ``<name>_acceleration`` and ``<name>_suspension_travel``, that of the floor below it
     ``<name>_floor_acceleration``; ``<name>.spring`` and ``<name>.damper`` are coefficients of a strut, with these
     values as defaults.
 
@@ -120,13 +120,10 @@ class Seat(Part):
         others = (one._replace(share=(*one.share, 0.0)) for one in assembly.networks)
         kinds = {"acceleration": "acceleration", "suspension_travel": "travel"}
         responses = {f"{self.name}_{what}": Response(kind, self.name) for what, kind in kinds.items()}
-        floor = point_of(self.stands_on, self.position)
-        if self.stands_on != "body":
-            responses[f"{self.name}_floor_acceleration"] = Response("acceleration", floor)
         return replace(
             assembly,
             masses={**assembly.masses, self.name: self.mass},
-            struts=(*assembly.struts, Link(self.name, floor, self.name)),
+            struts=(*assembly.struts, Link(self.name, point_of(self.stands_on, self.position), self.name)),
             strut_coefficients=(*padded, *own),
             networks=(*others, *networks),
             responses={**assembly.responses, **responses},

@@ -6,7 +6,7 @@ and its place: ports of the plant with the value minus that of the vehicle.
 
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from .. import checks
@@ -186,11 +186,10 @@ def _tyres(assembly: Assembly) -> Iterator[Parameter]:
 
 
 def _inertias(assembly: Assembly) -> Iterator[Parameter]:
-    seats = {one.name for one in _seats(assembly)}
     inertias = {name: value for name, value in assembly.inertias.items() if not name.startswith("bending_")}
     for unit, values, what in (("kg", assembly.masses, "mass"), ("kg m^2", inertias, "inertia")):
         for common, names in alike(values).items():
-            name = f"{common}.mass" if common in seats else f"{common}_{what}"
+            name = f"{common}.mass" if common in assembly.seats else f"{common}_{what}"
             if values[names[0]] > 0:
                 yield Inertia(name=name, unit=unit, default=values[names[0]], coordinates=tuple(names), order=2)
 
@@ -201,13 +200,6 @@ def _loads(assembly: Assembly) -> Iterator[Parameter]:
         yield LoadMass(name=name, unit="kg", default=mass, number=number, order=2)
 
 
-def _seats(assembly: Assembly) -> Iterable[Link]:
-    """Return the struts between a point of the body and a mass of their own name."""
-    wheels = {one.upper for one in assembly.tyres}
-    named = (one for one in assembly.struts if one.name == one.upper and one.upper not in wheels)
-    return [one for one in named if isinstance(one.lower, tuple)]
-
-
 def _point(end: End) -> tuple[str, float, float]:
     """Return body and place of a point."""
     if not isinstance(end, tuple):
@@ -216,12 +208,12 @@ def _point(end: End) -> tuple[str, float, float]:
 
 
 def _places(assembly: Assembly) -> Iterator[Parameter]:
-    for one in () if assembly.bending else _seats(assembly):
-        body, *place = _point(one.lower)
+    for seat, point in () if assembly.bending else assembly.seats.items():
+        body, *place = _point(point)
         for axis, (letter, angle) in enumerate((("x", "pitch"), ("y", "roll"))):
             if turning(body, angle) in assembly.inertias:
-                name, value = f"{one.name}.{letter}", place[axis]
-                yield Place(name=name, unit="m", default=value, strut=one.name, body=body, axis=axis)
+                name, value = f"{seat}.{letter}", place[axis]
+                yield Place(name=name, unit="m", default=value, strut=seat, body=body, axis=axis)
 
 
 def _ratios(assembly: Assembly) -> Iterator[Parameter]:

@@ -16,6 +16,10 @@ from .frequencies import derived_of
 from .parameters import LoadMass, Parameter, Place, Ported, Ratio, parameters_of
 from .vehicle import AssembledVehicle, Struts, Vehicle
 
+_FLOOR = ("displacement", "velocity", "acceleration")
+_OF_PLACE = ("suspension_travel", "suspension_travel_rate", *(f"floor_{kind}" for kind in _FLOOR))
+"""Responses of a seat that depend on its place beside those of its port."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Varied(Record, AssembledVehicle):
@@ -61,12 +65,12 @@ class Varied(Record, AssembledVehicle):
 
     def plant(self, responses: Sequence[ResponseName] | None = None) -> control.StateSpace:
         """Return the vehicle without its struts, see `Vehicle.plant`."""
-        moved = {one.strut: name for name, one in self._parameters.items() if isinstance(one, Place)}
+        places = [one for one in self._parameters.values() if isinstance(one, Place)]
+        moved = {f"{one.strut}_{response}": one.name for one in places for response in _OF_PLACE}
         for name in self.responses if responses is None else responses:
-            meaning = self.meanings.get(str(name))
-            if meaning and meaning.kind in ("travel", "travel_rate") and meaning.where in moved:
-                where = moved[str(meaning.where)]
-                raise ValueError(f"{name} must be of a seat in a fixed place, got {where} among the variables")
+            if name in moved:
+                got = f"{moved[str(name)]} among the variables"
+                raise ValueError(f"{name} must be of a seat in a fixed place, got {got}")
         return super().plant(responses)
 
     @cached_property

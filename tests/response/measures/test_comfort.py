@@ -140,15 +140,66 @@ def test_what_is_not_there_is_named_in_one_line(make, message):
         make()
 
 
-def test_a_plant_has_no_floor_below_a_seat():
-    plant = Plant(
-        DRIVER.on(QUARTER).plant(["body_acceleration", "driver_acceleration"]), contacts={"": (0.0, 0.0)},
-        struts=("", "driver"),
+CAB, SETTING = sc.load_vehicle("trucksim_cab_over").vehicle, sc.load_vehicle("trucksim_cab_over").setting
+PLACE = (-0.1, 0.6)  # of the driver from the cab's centre of gravity [m]
+IN_CAB = replace(DRIVER, position=PLACE, stands_on="cab").on(CAB)
+
+
+def test_a_seat_in_a_cab_stands_on_its_floor_and_turns_with_it():
+    """The floor is a point of the cab, turns are the cab's; a head on the driver has the driver for a floor."""
+    point = sc.vehicles.body_parts.BodyPoint(name="below", body="cab", position=(0.5 + PLACE[0], PLACE[1]))
+    known = replace(DRIVER, position=PLACE, stands_on="cab").on(replace(CAB, points=[point]))
+    head = sc.Seat(mass=6.0, spring=9e3, damper=60.0, name="head", stands_on="driver").on(IN_CAB)
+
+    def found(vehicle, *measures) -> list[float]:
+        table = sc.ride(vehicle, SETTING, ROAD, SPEED, band=BAND, measures=measures)
+        return table["value"].iloc[: len(measures)].to_list()
+
+    turning = "0.63 We cab_roll_acceleration + 0.4 We cab_pitch_acceleration"
+    seat, below, total, feet = found(
+        known, "Wk driver_acceleration", "Wk below_acceleration", f"Wk driver_acceleration + {turning}",
+        "0.4 Wk below_acceleration + 0.05 Wk cab_pitch_acceleration + 0.05 Wk cab_roll_acceleration",
     )  # fmt: skip
-    case = sc.LoadCase(vehicle=plant, road=ROAD, speed=SPEED)
+    assert found(IN_CAB, "SEAT driver", "total driver at seat", "total driver at feet -0.2") == pytest.approx(
+        [seat / below, total, feet], rel=1e-7
+    )
+    up, driver, whole, *turns = found(
+        head, "ACC head", "ACC driver", f"Wk head_acceleration + {turning}", "Wd cab_roll_acceleration",
+        "Wd cab_pitch_acceleration",
+    )  # fmt: skip
+    assert found(head, "SEAT head", "total head at seat") == pytest.approx([up / driver, whole], rel=1e-7)
+    assert found(head, "A8 head at 20") == pytest.approx([1.4 * 20 * max(turns)], rel=1e-7)
+
+
+def test_a_seat_that_moves_has_no_fixed_floor():
+    message = r"^driver_floor_acceleration must be of a seat in a fixed place, got driver.x among the variables$"
+    with pytest.raises(ValueError, match=message):
+        RideProblem(
+            DRIVER.on(FULL), ROAD, speed=SPEED, bounds={"driver.x": (-0.5, 0.9)}, struts=struts_of(FULL),
+            band=BAND, measures=["ACC", "SEAT driver"],
+        )  # fmt: skip
+
+
+def test_the_floor_of_a_plant_is_a_response_of_its_own():
+    """With it measures are those of the vehicle; without it all but those of the seat alone are refused."""
+    seated, contacts = DRIVER.on(QUARTER), {"": (0.0, 0.0)}
+    names = ["body_acceleration", "driver_acceleration", "driver_floor_acceleration"]
+    plant, bare = (Plant(seated.plant(names[:n]), contacts=contacts, struts=("", "driver")) for n in (3, 2))
+    setting = seated.coefficients(struts_of(seated))
+    table = sc.ride(plant, setting, ROAD, SPEED, band=BAND, measures=["SEAT driver", "total driver"])
+    assert table["value"].iloc[:2].to_list() == pytest.approx(
+        value(seated, "SEAT driver", "total driver"), rel=1e-9
+    )
+    case = sc.LoadCase(vehicle=bare, road=ROAD, speed=SPEED)
     assert [term.response for term in TotalValue("driver", {"seat": 0.3}).in_case(case, None).terms] == [
         "driver_acceleration"
     ]
-    for measure in (SEAT("driver"), TotalValue("driver")):
-        with pytest.raises(ValueError, match=r"^vehicle must be one of masses and links"):
+    for measure, message in (
+        (SEAT("driver"), "SEAT must be of one of seats, of which the vehicle has none, got 'driver'"),
+        (
+            TotalValue("driver"),
+            "response below the feet must be one of body_acceleration, .*driver_jerk, got 'dri",
+        ),
+    ):
+        with pytest.raises(ValueError, match=rf"^{message}"):
             measure.in_case(case, None)

@@ -10,11 +10,11 @@ import numpy as np
 from ... import checks
 from ...quantities import FrozenMapping, Real, quantity, unit
 from ...vehicles.assembly import ResponseName
-from ...vehicles.vehicle import Vehicle, assembled
+from ...vehicles.vehicle import AssembledVehicle, Vehicle
 from ..axes import AXES, VERTICAL
 from ..load_case import LoadCase
 from ..weightings import Weighting
-from .dose import horizontal_terms
+from .dose import horizontal_terms, rotations
 from .measure import Measure
 from .terms import NUMBER, CaseMeasure, Designs, Term, number_text, place_text
 from .vibration import AccelerationMeasure, PlacedMeasure
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 POINTS = ("seat", "back", "feet")
 """Points of a seated person where vibration enters, ISO 2631-1, 8.2.2.1."""
+_FLOOR = "_floor_acceleration"
 _EVERY: Mapping[str, float | None] = FrozenMapping(dict.fromkeys(POINTS))
 _TEXT = re.compile(rf"(seat|back|feet)\b\s*({NUMBER}\s*[A-Za-z]{{0,2}}(?![A-Za-z]))?\s*")
 
@@ -35,17 +36,17 @@ class TotalValue(AccelerationMeasure, word="total", unit="m/s^2"):
     The axes of seat, backrest and feet have the weightings and factors k of ISO 2631-1, 8.2.2.1: vertical Wk 1,
     Wd 0.4, Wk 0.4; longitudinal Wd 1, Wc 0.8, Wk 0.25; lateral Wd 1, Wd 0.5, Wk 0.25; roll and pitch of the seat
     We 0.63 and 0.4 m/rad. Axes that the vehicle does not have are left out: a quarter car has the vertical ones
-    alone. Longitudinal and lateral motion is that of the body's pitch and roll at the height of a point; motion of
-    the whole vehicle in the plane of the road and yaw are not known.
+    alone. Longitudinal and lateral motion is that of the body's pitch and roll at the height of a point, in a cab
+    that of the cab; motion of the whole vehicle in the plane of the road and yaw are not known.
 
     Parameters
     ----------
     where : str or (float, float)
         A seat by name or a point (x, y) of the body [m]; the body's centre of gravity by default. The feet of a
-        person on a seat stand on the body below it.
+        person on a seat stand on the body, or the seat, below it.
     points : mapping of str to float or None
         Points that count, ``"seat"``, ``"back"`` and ``"feet"``, each with its height above the centre of gravity
-        of the body [m], or None without longitudinal and lateral axes; by default all three without.
+        of the body below [m], or None without longitudinal and lateral axes; by default all three without.
     name, maximise
         As of `Measure`; the name is optional.
 
@@ -99,14 +100,20 @@ class TotalValue(AccelerationMeasure, word="total", unit="m/s^2"):
     def _terms(self, vehicle: Vehicle) -> Iterator[Term]:
         for point, height in self.points.items():
             x, y, z = (AXES[f"{point} {axis}"] for axis in "xyz")
-            on_floor = point == "feet" and self.where and isinstance(self.where, str)
-            yield Term(floor_below(vehicle, self.where, self.word) if on_floor else self.response(vehicle), *z)
-            yield from horizontal_terms(vehicle, height, (x, y))
-            turns = ("roll", "pitch") if point == "seat" else ()
-            names = {turn: f"{turn}_acceleration" for turn in turns}
-            yield from (
-                Term(name, *AXES[f"seat {turn}"]) for turn, name in names.items() if name in vehicle.meanings
-            )
+            yield Term(self._below(vehicle) if point == "feet" else self.response(vehicle), *z)
+            yield from horizontal_terms(vehicle, self.where, height, (x, y))
+            if point == "seat":
+                turns = rotations(vehicle, self.where)
+                yield from (Term(name, *AXES[f"seat {turn}"]) for turn, name in turns.items())
+
+    def _below(self, vehicle: Vehicle) -> ResponseName:
+        """Return the acceleration below the feet: of the floor below a seat, or of the place itself."""
+        floor, place = f"{self.where}{_FLOOR}", self.response(vehicle)
+        if place == "body_acceleration" or isinstance(place, tuple):
+            return place
+        if not isinstance(vehicle, AssembledVehicle):  # a plant does not tell seats from bodies
+            checks.one_of("response below the feet", floor, vehicle.meanings)
+        return floor if floor in vehicle.meanings else place
 
     def _rest(self) -> str:
         parts = (f"{p} {'' if h is None else number_text(h)}".strip() for p, h in self.points.items())
@@ -135,8 +142,11 @@ class SEAT(PlacedMeasure, word="SEAT", unit="-"):
 
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError if the vehicle has no such seat."""
-        floor = floor_below(case.vehicle, self.where, self.word)
-        terms = (Term(f"{self.where}_acceleration", *VERTICAL), Term(floor, *VERTICAL))
+        seats = [name.removesuffix(_FLOOR) for name in case.vehicle.meanings if name.endswith(_FLOOR)]
+        if self.where not in seats:
+            known = ", ".join(seats) or "seats, of which the vehicle has none"
+            raise ValueError(f"{self.word} must be of one of {known}, got {checks.shown(self.where)}")
+        terms = tuple(Term(f"{self.where}{part}", *VERTICAL) for part in ("_acceleration", _FLOOR))
 
         def values(designs: Designs) -> Real:
             seat, below = designs.mean_squares(terms).T
@@ -146,19 +156,3 @@ class SEAT(PlacedMeasure, word="SEAT", unit="-"):
             return float(np.sqrt(trip.mean_square(terms[0]) / trip.mean_square(terms[1])))
 
         return CaseMeasure(terms, values=values, in_trip=in_trip)
-
-
-def floor_below(vehicle: Vehicle, seat: object, word: str) -> ResponseName:
-    """Return the acceleration of the floor below a seat; ValueError about a measure if there is no such seat."""
-    assembly = assembled(vehicle).assembly
-    tyres = {tyre.upper for tyre in assembly.tyres}
-    links = {
-        link.name: link.lower for link in assembly.struts if link.upper == link.name and link.name not in tyres
-    }
-    if seat not in links:
-        known = ", ".join(links) or "seats, of which the vehicle has none"
-        raise ValueError(f"{word} must be of one of {known}, got {checks.shown(seat)}")
-    lower = links[str(seat)]
-    if isinstance(lower, tuple):
-        return ("acceleration", *lower) if len(lower) == 2 else f"{seat}_floor_acceleration"
-    return f"{lower}_acceleration"

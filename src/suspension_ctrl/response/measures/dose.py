@@ -3,7 +3,7 @@
 Weighted accelerations are Gaussian: the mean of the fourth power is three times the squared mean square, so that
 the vibration dose value over a time T is ``(3 T)^(1/4) a_w``. The axes count with the factors k of ISO 2631-1,
 7.2.3, and of Directive 2002/44/EC, Annex, part B: 1 vertically, 1.4 horizontally; the largest is the exposure.
-Horizontally the body moves by its rotation alone: at a height h above its centre of gravity by h times the angular
+Horizontally a body moves by its rotation alone: at a height h above its centre of gravity by h times the angular
 acceleration of pitch and of roll. Motion of the whole vehicle in the plane of the road is not known, nor is the
 component of gravity on a tilted seat.
 """
@@ -16,7 +16,8 @@ import numpy as np
 
 from ... import checks
 from ...quantities import Real, quantity, unit
-from ...vehicles.vehicle import Vehicle
+from ...vehicles.assembly import Position, turning
+from ...vehicles.vehicle import AssembledVehicle, Vehicle
 from ..axes import DAY, HORIZONTAL, VERTICAL, Axis
 from ..load_case import LoadCase
 from ..weightings import Weighting
@@ -87,7 +88,7 @@ class AxesMeasure(DoseMeasure):
         """Return the weighted acceleration of each axis that the vehicle has, with its factor k."""
         return (
             Term(self.response(vehicle), *VERTICAL),
-            *horizontal_terms(vehicle, self.height, (HORIZONTAL, HORIZONTAL)),
+            *horizontal_terms(vehicle, self.where, self.height, (HORIZONTAL, HORIZONTAL)),
         )
 
     @classmethod
@@ -103,7 +104,9 @@ class A8(AxesMeasure, word="A8", unit="m/s^2"):
     """Daily exposure A(8): the weighted acceleration of the worst axis, as if it lasted eight hours.
 
     Directive 2002/44/EC has 0.5 m/s^2 as action value and 1.15 m/s^2 as limit value. Axes are weighted by Wk and
-    Wd of ISO 2631-1 and count 1 vertically, 1.4 horizontally.
+    Wd of ISO 2631-1 and count 1 vertically, 1.4 horizontally. Over load cases the squares of the worst axis of
+    each case add up by their shares of the time: never less than the worst of the sums by axis, which the
+    Directive compares.
 
     Parameters
     ----------
@@ -112,8 +115,9 @@ class A8(AxesMeasure, word="A8", unit="m/s^2"):
     duration : float
         Time of exposure in a day, 1 to 1e9 [s]; eight hours by default.
     height : float, optional
-        Height of the seat above the centre of gravity of the body [m], for the horizontal axes: there the
-        accelerations of pitch and roll act, no others are known. Without it the vertical axis counts alone.
+        Height of the seat above the centre of gravity of the body on which it stands [m], for the horizontal axes:
+        there the accelerations of pitch and roll act, no others are known. Without it the vertical axis counts
+        alone.
     name, maximise
         As of `Measure`; the name is optional.
 
@@ -140,8 +144,8 @@ class A8(AxesMeasure, word="A8", unit="m/s^2"):
 class VDV(AxesMeasure, word="VDV", unit="m/s^1.75"):
     """Vibration dose value of stationary vibration: the worst axis, ``(3 T)^(1/4)`` times its r.m.s. value.
 
-    Directive 2002/44/EC has 9.1 m/s^1.75 as action value and 21 m/s^1.75 as limit value. Over load cases the
-    fourth powers add up by their shares of the time.
+    Directive 2002/44/EC has 9.1 m/s^1.75 as action value and 21 m/s^1.75 as limit value. Over load cases
+    fourth powers add up by their shares of the time, of the worst axis of each as of `A8`.
 
     Parameters
     ----------
@@ -207,14 +211,27 @@ class MSDV(DoseMeasure, word="MSDV", unit="m/s^1.5"):
         return CaseMeasure((Term(self.response(case.vehicle), "Wf", self.duration**0.5),))
 
 
-def horizontal_terms(vehicle: Vehicle, height: float | None, axes: tuple[Axis, Axis]) -> list[Term]:
-    """Return longitudinal and lateral acceleration at a height [m] by pitch and roll, if the vehicle has these.
+def horizontal_terms(
+    vehicle: Vehicle, place: str | Position, height: float | None, axes: tuple[Axis, Axis]
+) -> list[Term]:
+    """Return longitudinal and lateral acceleration at a height [m] above a body by its pitch and roll.
 
     The axes have weighting and factor k of both.
     """
-    turns = [f"{name}_acceleration" for name in ("pitch", "roll")]
-    pairs = zip(turns, axes, strict=True) if height else ()
-    return [Term(turn, name, k * abs(height or 0.0)) for turn, (name, k) in pairs if turn in vehicle.meanings]
+    turns, both = rotations(vehicle, place), zip(("pitch", "roll"), axes, strict=True)
+    return [Term(turns[turn], name, k * abs(height)) for turn, (name, k) in both if height and turn in turns]
+
+
+def rotations(vehicle: Vehicle, place: str | Position) -> dict[str, str]:
+    """Return the accelerations in pitch and roll of the body at a place, as far as the vehicle has these.
+
+    The body is that on which a seat stands, of a plant ``body``.
+    """
+    body = "body"
+    if isinstance(vehicle, AssembledVehicle) and isinstance(place, str) and place:
+        body = vehicle.assembly.body_below(vehicle.meanings[f"{place}_acceleration"].where)
+    names = {turn: f"{turning(body, turn)}_acceleration" for turn in ("pitch", "roll")}
+    return {turn: name for turn, name in names.items() if name in vehicle.meanings}
 
 
 def _time_text(seconds: float) -> str:
