@@ -38,6 +38,16 @@ def test_it_prints_and_writes_the_tables(called, tmp_path, history):
     assert a8 == pytest.approx(found["a_w [m/s^2]"]["seat z"] * np.sqrt(0.5), rel=1e-9)
 
 
+def test_columns_of_a_file_without_header_are_named(called, tmp_path, history):
+    text = (tmp_path / "seat.csv").read_text(encoding="utf-8").partition("\n")[2]
+    (tmp_path / "bare.csv").write_text(text, encoding="utf-8")
+    done = called("exposure", "bare.csv", "--columns", "time [s], x [m/s^2], z [g]", "--out", "bare")
+    assert done.returncode == 0, done.stderr
+    assert called("exposure", "seat.csv", "--out", "out").returncode == 0
+    for name in ("exposure", "daily"):
+        pd.testing.assert_frame_equal(*(pd.read_csv(tmp_path / one / f"{name}.csv") for one in ("bare", "out")))
+
+
 @pytest.mark.usefixtures("history")
 @pytest.mark.parametrize("width", [40, 80])
 def test_tables_fit_a_terminal(called, monkeypatch, width):
@@ -68,6 +78,7 @@ BAD = [
         "seat.csv: columns must include 'q', got ['time [s]', 'x [m/s^2]', 'z [g]']",
         2,
     ),
+    (["seat.csv", "--columns", "z [g]"], "seat.csv: columns must be names of 3 columns, got ['z [g]']", 2),
     (["seat.csv", "--duration", "0"], "duration must be finite and > 0 s, got 0.0", 2),
     (["seat.csv", "--duration", "long"], "must be a number with a unit like s, got 'long'", 2),
     (["seat.csv", "--settling", "1h"], "seat x: acceleration must last 1 s at least and not be constant", 2),

@@ -58,6 +58,19 @@ def test_a_step_stands_in_place_of_times(tmp_path):
     assert (list(histories), step) == (["seat x", "seat z"], 0.01)
 
 
+def test_names_of_all_columns_stand_in_place_of_a_header(tmp_path):
+    path = file(tmp_path, "0,0,0", TIME[1:], SIGNAL[1:], TIME[1:])
+    with pytest.raises(
+        ValueError, match=r"history.csv: columns must have names, in a header or given .*, got none$"
+    ):
+        read_accelerations(path)
+    histories, step = read_accelerations(path, columns=["time [s]", "z [g]", "speed"])
+    assert step == pytest.approx(0.005, rel=1e-9)
+    np.testing.assert_allclose(histories["seat z"], 9.80665 * SIGNAL, rtol=1e-8, atol=1e-9)
+    with pytest.raises(ValueError, match=r"history.csv: columns must be names of 3 columns, got \['z \[g\]'\]$"):
+        read_accelerations(path, columns=["z [g]"])
+
+
 def test_times_may_be_rounded_but_no_sample_may_lack(tmp_path):
     time = np.arange(400) / 512
     _, step = read_accelerations(file(tmp_path, "time [s],z [g]", time.round(3), SIGNAL))

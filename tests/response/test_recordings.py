@@ -61,6 +61,11 @@ def test_histories_are_those_written_to_single_precision_or_half_a_step_of_the_i
         np.testing.assert_allclose(found, factor * wanted, rtol=0, atol=factor * 2 * error)
 
 
+def test_names_of_columns_are_refused_for_a_file_that_has_its_own(tmp_path):
+    with pytest.raises(ValueError, match=r"columns must be those of the file itself, got \['z \[g\]'\]$"):
+        read_accelerations(written(tmp_path, rpc(SIGNALS)), columns=["z [g]"])
+
+
 def test_rpc_and_csv_of_the_same_numbers_give_the_same_exposure_and_channels(tmp_path):
     single = {header: signal.astype(np.float32).astype(float) for header, signal in SIGNALS.items()}
     rows = np.column_stack([TIME, *single.values()])

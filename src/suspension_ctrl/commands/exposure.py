@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 def exposure(
     file: o.Histories,
+    columns: o.HistoryColumns = None,
     axes: o.Axes = None,
     step: o.Step = None,
     duration: o.Duration = None,
@@ -35,7 +36,7 @@ def exposure(
     from ..tables import write_csv
     from . import results
 
-    histories, time_step = read_accelerations(file, _axes(axes), step)
+    histories, time_step = read_accelerations(file, _axes(axes), step, columns and o.names(columns))
     found = exposure_by_axis(histories, time_step, **given({"duration": duration, "settling": settling}))
     totals = pd.DataFrame(found.total_values.items(), columns=["point", "a_v [m/s^2]"])
     tables = {

@@ -19,16 +19,21 @@ _UNIT_OF = {"roll": "rad/s^2", "pitch": "rad/s^2", "yaw": "rad/s^2"}
 
 
 def read_accelerations(
-    path: str | PathLike[str], axes: Mapping[str, str] | None = None, time_step: float | None = None
+    path: str | PathLike[str],
+    axes: Mapping[str, str] | None = None,
+    time_step: float | None = None,
+    columns: Sequence[str] | None = None,
 ) -> tuple[dict[str, Real], float]:
     """Return histories (n,) by axis [m/s^2, rad/s^2] and their time step [s].
 
-    `axes` gives axes by the names of columns that are not called like them. A file without times needs the step.
-    ValueError names the file.
+    `axes` gives axes by the names of columns that are not called like them. A file without times needs the step,
+    one without headers the names of all `columns`, with units. ValueError names the file.
     """
     named = {_plain(column): axis_of(axis) for column, axis in (axes or {}).items()}
-    headers, values = read_recording(path, lambda names: _wanted(names, named))
+    headers, values = read_recording(path, lambda names: _wanted(names, named), columns)
     with naming(path):
+        if not headers:
+            raise ValueError("columns must have names, in a header or given for all such as 'z [g]', got none")
         step, histories = time_step, dict[str, Real]()
         for header, column in zip(headers, values.T, strict=True):
             name, unit = _parts(header)

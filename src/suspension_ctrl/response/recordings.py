@@ -24,15 +24,20 @@ _KIND = "an RPC III time history, binary with the least byte first"
 
 
 def read_recording(
-    path: str | PathLike[str], columns: Callable[[Sequence[str]], Sequence[int]] | None = None
+    path: str | PathLike[str],
+    columns: Callable[[Sequence[str]], Sequence[int]] | None = None,
+    names: Sequence[str] | None = None,
 ) -> tuple[list[str], Real]:
     """Return headers (c,) such as ``z [g]`` and values (n, c) of a recording, time included.
 
-    Only the given `columns` are returned, by a function from all headers to indices. A ValueError names the file.
+    Only the given `columns` are returned, by a function from all headers to indices. `names` of all columns take
+    the place of the headers of a CSV file. A ValueError names the file.
     """
     if Path(path).suffix.lower() not in ENDINGS:
-        return read_table(path, columns)
+        return read_table(path, columns, names=names)
     with naming(path):
+        if names is not None:
+            raise ValueError(f"columns must be those of the file itself, got {checks.shown(list(names))}")
         headers, channels = _read_rpc(Path(path))
         wanted = range(len(headers)) if columns is None else columns(headers)
         with np.errstate(invalid="ignore"):  # of numbers that are none, refused below
