@@ -130,27 +130,33 @@ def _names(assembly: Assembly, shapes: Complex) -> list[str]:
     """Return a name of its own for each mode: the motions (m, k) with most of the kinetic energy, all at once."""
     from scipy.optimize import linear_sum_assignment
 
-    labels, energies = zip(*_motions(assembly, shapes), strict=True)
-    energy = np.array(energies).T
+    labels, motions = zip(*motions_of(assembly).items(), strict=True)
+    energy = np.column_stack([energy_along(motion, assembly.inertia, shapes) for motion in motions])
     share = energy / energy.sum(axis=1, keepdims=True)
-    modes, motions = linear_sum_assignment(-share)
-    names = dict(zip(modes.tolist(), (labels[i] for i in motions), strict=True))
+    modes, chosen = linear_sum_assignment(-share)
+    names = dict(zip(modes.tolist(), (labels[i] for i in chosen), strict=True))
     for i in range(len(share)):  # more modes than motions: of an inerter in series
         names.setdefault(i, f"{labels[int(share[i].argmax())]} {i + 1}")
     return [names[i] for i in range(len(share))]
 
 
-def _motions(assembly: Assembly, shapes: Complex) -> Iterator[tuple[str, Real]]:
-    """Yield the name of each motion and its energy (k,) in modes: two wheels of an axle hop or tramp."""
+def motions_of(assembly: Assembly) -> dict[str, Real]:
+    """Return motions (m,) of masses and inertias by name; two wheels of an axle hop in phase and tramp opposed."""
+    found: dict[str, Real] = {}
     at, inertia = {name: i for i, name in enumerate(assembly.movements)}, assembly.inertia
+    unit = np.eye(len(at))
     for name, i in at.items():
         other = at.get(name.replace("_left_wheel", "_right_wheel"), i)
-        energy = inertia[i] * np.abs(shapes[i]) ** 2
         if name.endswith("_left_wheel") and other != i:
-            mass, axle = (inertia[i] + inertia[other]) / 4, name.removesuffix("_left_wheel").replace("_", " ")
-            yield f"{axle} wheel hop", mass * np.abs(shapes[i] + shapes[other]) ** 2
-            yield f"{axle} wheel tramp", mass * np.abs(shapes[i] - shapes[other]) ** 2
-        elif not (name.endswith("_right_wheel") and name.replace("_right_wheel", "_left_wheel") in at):
+            axle = name.removesuffix("_left_wheel").replace("_", " ")
+            found[f"{axle} wheel hop"], found[f"{axle} wheel tramp"] = unit[i] + unit[other], unit[i] - unit[other]
+        elif inertia[i] and not (name.endswith("_right_wheel") and name.replace("_right_", "_left_") in at):
             turned = {turning(name, motion) for motion in ("pitch", "roll")} & at.keys()
             plain = "heave" if name == "body" else f"{name} heave" if turned else name
-            yield (f"{name} hop" if name.endswith("wheel") else plain).replace("_", " "), energy
+            found[(f"{name} hop" if name.endswith("wheel") else plain).replace("_", " ")] = unit[i]
+    return found
+
+
+def energy_along(motion: Real, inertia: Real, shapes: Real | Complex) -> Real:
+    """Return twice the kinetic energy (..., k) of shapes (..., m, k) in a motion (m,) at a rate of 1 rad/s."""
+    return np.asarray(np.abs((motion * inertia) @ shapes) ** 2 / (motion**2 @ inertia))

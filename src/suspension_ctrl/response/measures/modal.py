@@ -3,7 +3,6 @@
 Of all modes the one counts that has the largest share of its kinetic energy in the motion.
 """
 
-import re
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,24 +12,26 @@ from ... import checks
 from ...quantities import Real
 from ...vehicles.assembly import Assembly
 from ...vehicles.handling import Mechanics, weighted_sum
+from ...vehicles.modes import energy_along, motions_of
 from ...vehicles.vehicle import assembled
 from ..load_case import LoadCase
 from ..weightings import Weighting
 from .measure import Measure
 from .terms import CaseMeasure
 
-_SIDE = re.compile("_(left|right)_wheel$")
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ModeFrequency(Measure, word="frequency", unit="Hz"):
     """Natural frequency of a mode without dampers, from stiffnesses and masses.
 
+    Of all modes the one counts that has the largest share of its kinetic energy in the motion. Two motions that
+    mix in it may have the same mode; the table of `Vehicle.modes` names each mode once.
+
     Parameters
     ----------
     mode : str
-        Its motion: ``"heave"``, ``"pitch"``, ``"roll"``, ``"front wheel hop"`` (in phase) and ``"tramp"``, or a
-        seat by its name.
+        Its motion as in the table of `Vehicle.modes`: ``"heave"``, ``"pitch"``, ``"roll"``, ``"front wheel hop"``
+        (in phase) and ``"front wheel tramp"``, a seat by its name, of further bodies ``"cab heave"``.
     name, maximise
         As of `Measure`; the name is optional.
 
@@ -74,12 +75,9 @@ class ModeFrequency(Measure, word="frequency", unit="Hz"):
 
     def _share(self, assembly: Assembly, mass: Real, shapes: Real) -> Real:
         """Return the share (p, k) of the motion in the kinetic energy of shapes (p, n, k)."""
-        motion = motions_of(assembly)[self.mode]
-        inertia = np.einsum("i,pij,j->p", motion, mass, motion)
-        along = np.abs(np.einsum("i,pij,pjk->pk", motion, mass, shapes)) ** 2
-        return np.asarray(
-            along / inertia[:, None] / np.einsum("pik,pij,pjk->pk", shapes.conj(), mass, shapes).real
-        )
+        moved = assembly.displacements @ shapes
+        along = energy_along(motions_of(assembly)[self.mode], assembly.inertia, moved)
+        return np.asarray(along / np.einsum("pik,pij,pjk->pk", shapes.conj(), mass, shapes).real)
 
     def _rest(self) -> str:
         return self.mode
@@ -121,19 +119,3 @@ def matrices_of(statics: Mechanics, coefficients: Real) -> tuple[Real, Real, Rea
     mass = assembly.mass_matrix + weighted_sum(coefficients, inertia)
     damping = statics.damping + weighted_sum(coefficients, statics.by_damping)
     return mass, damping, statics.stiffness_of(coefficients)
-
-
-def motions_of(assembly: Assembly) -> dict[str, Real]:
-    """Return motions (n,) of the coordinates by name: of wheels of an axle in phase and opposed."""
-    found: dict[str, Real] = {}
-    wheels = {str(one.upper) for one in assembly.tyres}
-    for i, name in enumerate(assembly.coordinates):
-        unit = np.eye(len(assembly.coordinates))[i]
-        if name not in wheels:
-            found["heave" if name == "body" else name.replace("_", " ")] = unit
-            continue
-        axle = f"{_SIDE.sub('_wheel', name)} hop".replace("_", " ")
-        if axle in found:
-            found[axle.replace("hop", "tramp")] = found[axle] - unit
-        found[axle] = found.get(axle, 0.0) + unit
-    return found
