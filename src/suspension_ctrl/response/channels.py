@@ -14,8 +14,9 @@ import numpy as np
 from .. import checks
 from ..documents import naming
 from ..quantities import Real, quantity, signal_unit
+from ..tables.headers import name_and_unit
 from ..vehicles.assembly import ResponseName, label
-from .recordings import check_ascending, even_step, parts_of, read_recording
+from .recordings import check_ascending, even_step, read_recording
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -54,13 +55,13 @@ def channels_of(source: Source, names: Mapping[str, ResponseName] | None) -> Cha
 
 def _needed(headers: Sequence[str], names: Mapping[str, ResponseName] | None) -> list[int]:
     """Return the indices of the axis and of the responses."""
-    return [i for i, header in enumerate(headers) if i == 0 or names is None or parts_of(header)[0] in names]
+    return [i for i, header in enumerate(headers) if i == 0 or names is None or name_and_unit(header)[0] in names]
 
 
 def _channels(headers: list[str], values: Real, names: Mapping[str, ResponseName] | None) -> Channels:
-    texts = [parts_of(header) for header in headers]
+    texts = [name_and_unit(header) for header in headers]
     for header, (name, unit) in zip(headers, texts, strict=True):
-        if not unit and (names is None or name in names):
+        if not (name and unit) and (names is None or name in names):
             raise ValueError(f"columns must be like 'body_acceleration [m/s^2]', got {checks.shown(header)}")
     if not texts or texts[0][0] not in _AXES or not texts[0][1] or len(values) < 2:
         got = checks.shown(headers[0]) if headers else "no names"

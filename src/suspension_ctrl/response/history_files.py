@@ -10,9 +10,10 @@ from os import PathLike
 from .. import checks
 from ..documents import naming
 from ..quantities import Real, quantity
+from ..tables.headers import name_and_unit
 from .axes import AXES
 from .human_exposure import axis_of
-from .recordings import even_step, parts_of, read_recording
+from .recordings import even_step, read_recording
 
 TIME = ("time", "t")
 _UNIT_OF = {"roll": "rad/s^2", "pitch": "rad/s^2", "yaw": "rad/s^2"}
@@ -46,7 +47,8 @@ def read_accelerations(
             axis = named.get(name) or axis_of(name)
             if axis in histories:
                 raise ValueError(f"columns must have each axis once, got {axis} twice")
-            histories[axis] = column * _factor(header, unit, _UNIT_OF.get(axis.split()[1], "m/s^2"))
+            column *= _factor(header, unit, _UNIT_OF.get(axis.split()[1], "m/s^2"))  # in place: files are large
+            histories[axis] = column
         if step is None:
             raise ValueError(
                 "columns must include a time such as 'time [s]', or time_step must be given, got none"
@@ -77,7 +79,7 @@ def _plain(name: str) -> str:
 
 def _parts(header: str) -> tuple[str, str]:
     """Return plain name and unit of a header."""
-    name, unit = parts_of(header)
+    name, unit = name_and_unit(header)
     return _plain(name), unit
 
 

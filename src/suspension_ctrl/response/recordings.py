@@ -3,7 +3,6 @@
 Headers have a unit in square or round brackets, ``z [g]``, ``speed (m/s)``.
 """
 
-import re
 import warnings
 from collections.abc import Callable, Sequence
 from os import PathLike
@@ -18,7 +17,6 @@ from ..tables import MEGABYTES, read_table
 from ..tables.layouts import LARGEST
 
 ENDINGS = (".rpc", ".rsp", ".tim")
-_HEADER = re.compile(r"\s*([^\[\](){}]*?)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\))?\s*")
 _UNEVEN = 0.4  # of a step: times may be rounded, no sample may lack
 _KIND = "an RPC III time history, binary with the least byte first"
 
@@ -40,22 +38,13 @@ def read_recording(
             raise ValueError(f"columns must be those of the file itself, got {checks.shown(list(names))}")
         headers, channels = _read_rpc(Path(path))
         wanted = range(len(headers)) if columns is None else columns(headers)
-        with np.errstate(invalid="ignore"):  # of numbers that are none, refused below
+        with np.errstate(invalid="ignore"):  # NaN, refused below
             values = np.stack([channels[i] for i in wanted], axis=1, dtype=float)
         if len(values) < 2:
             raise ValueError(f"samples must be 2 or more, got {len(values)}")
-        if not (np.abs(values) <= LARGEST).all():
+        if not (values.min() >= -LARGEST and values.max() <= LARGEST):  # no array of magnitudes: memory
             raise ValueError(f"samples must be numbers up to {LARGEST:g}, got others")
     return [headers[i] for i in wanted], values
-
-
-def parts_of(header: str) -> tuple[str, str]:
-    """Return name and unit of a header, no unit where there is none."""
-    found = _HEADER.fullmatch(header)
-    if not found:
-        return header.strip(), ""
-    unit = (found[2] or found[3] or "").strip()
-    return found[1], unit.replace("²", "^2").replace("**", "^")
 
 
 def check_ascending(name: str, values: Real, unit: str) -> None:

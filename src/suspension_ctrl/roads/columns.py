@@ -10,14 +10,13 @@ from typing import NamedTuple
 
 from .. import checks
 from ..quantities import Real, quantity
+from ..tables.headers import name_and_unit
 
 DISTANCE, HEIGHT, LEFT, RIGHT = "distance [m]", "height [m]", "left [m]", "right [m]"
 TRACK_COLUMN = "height at y = {} m [m]"
 TRACK_WIDTH = 1.5
 """Distance of left and right if none is given [m]."""
 
-_BRACKETED = re.compile(r"(.*?)\s*[\[(]\s*([^\[\]()]*?)\s*[\])]\s*")
-_TRAILING = re.compile(r"(.*?)(?:\s*,\s*|\s+in\s+|[\s_]+)([A-Za-z]+)\s*")
 _PLACE = re.compile(r"height at y = (-?\d+(?:\.\d+)?(?:e-?\d+)?) m", re.ASCII)
 UNITS = {  # of lengths, as people write them
     **dict.fromkeys(("m", "metre", "metres", "meter", "meters"), "m"),
@@ -48,8 +47,10 @@ def column(header: str) -> Column | None:
     """Return what a header says, None if it belongs to no profile."""
     place = _PLACE.match(header.strip())
     text = f"height{header.strip()[place.end() :]}" if place else header
-    match = _BRACKETED.fullmatch(text) or _TRAILING.fullmatch(text)
-    name, unit = match.groups() if match and (match.re is _BRACKETED or match[2].lower() in UNITS) else (text, "")
+    name, unit = name_and_unit(text)
+    *words, last = re.split(r"[\s,_]+", name)
+    if not unit and words and last.lower() in UNITS:  # as in "elevation, mm"
+        name, unit = " ".join(words), last
     known = UNITS.get(unit.lower())
     if unit and not known:
         return None

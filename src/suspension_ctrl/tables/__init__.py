@@ -17,6 +17,7 @@ import numpy as np
 from .. import checks, escaping
 from ..documents import naming
 from ..quantities import Real, quantity
+from .headers import name_and_unit
 from .layouts import HEAD, Layout
 
 if TYPE_CHECKING:
@@ -71,16 +72,16 @@ def read_columns(path: str | PathLike[str], units: Mapping[str, str], most: int)
     with naming(path):
         if len(values) > most:
             raise ValueError(f"rows of numbers must be {most} or less, got {len(values)}")
-        places = {text.partition("[")[0].strip(): i for i, text in enumerate(names)}
+        found = {name: (i, unit) for i, (name, unit) in enumerate(map(name_and_unit, names))}
         columns: dict[str, Real] = {}
         for name, unit in units.items():
-            header = names[places[name]] if name in places else ""
-            given = re.fullmatch(r"[^[]+\[\s*([^]\s][^]]*)\]", header)
-            if not given:
+            i, given = found.get(name, (None, ""))
+            if i is None or not given:
                 needed = f"with its unit in the header, as in '{name} [{unit}]'"
-                raise ValueError(f"columns must include {name} {needed}, got {checks.shown(header or names)}")
-            numbers = values[:, places[name]].tolist()
-            columns[name] = np.array([quantity(name, f"{number!r} {given[1]}", unit) for number in numbers])
+                got = checks.shown(names if i is None else names[i])
+                raise ValueError(f"columns must include {name} {needed}, got {got}")
+            numbers = values[:, i].tolist()
+            columns[name] = np.array([quantity(name, f"{number!r} {given}", unit) for number in numbers])
     return columns
 
 
