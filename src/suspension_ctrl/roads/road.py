@@ -24,7 +24,7 @@ class Road(Checked, ABC):
     coherence : Coherence
         Model of the coherence of parallel tracks.
     contact_length : float
-        Length over which a tyre averages the elevation, 0 for contact in a point [m]: a fixed footprint (G. M.
+        Length over which a tyre averages the elevation, 0 for contact in a point [m]: a fixed footprint (K. M.
         Captain, A. B. Boghani and D. N. Wormley, "Analytical tire models for dynamic vehicle simulation", Vehicle
         System Dynamics 8, 1979). It multiplies the spectrum by sinc^2 of wavenumber times length.
     """
