@@ -24,6 +24,7 @@ from suspension_ctrl.tables import write_text
 
 from . import disks, fuzz, kills, names, processes, spoilt
 from .counts import Counts
+from .readers import readers
 
 PAGE, MARK = "reliability.md", "<!-- soak -->\n"
 COLUMNS = ("tried", "lost", "repeated", "differing", "unnamed", "left")
@@ -47,7 +48,7 @@ def rows(folder: Path, *, quick: bool) -> Iterator[Counts]:
 def fuzzed(files: int) -> Counts:
     """Hand fuzzed files to every reader; `python -m soak.fuzz 10000` says which."""
     counts = Counts(f"fuzzed files, {files:,} of each reader")
-    for name, reader in fuzz.readers().items():
+    for name, reader in readers().items():
         outcome = fuzz.fuzz(reader, files)
         counts.tried += outcome.files
         counts.unnamed += len(outcome.failures)

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from soak import fuzz
+from soak.readers import Reader, readers
 
-READERS = fuzz.readers()
+READERS = readers()
 
 
 @pytest.mark.parametrize("name", READERS)
@@ -27,7 +28,7 @@ def test_another_error_a_second_line_and_a_long_time_are_failures(monkeypatch):
                 raise ValueError("one line")
 
     rng = np.random.default_rng(0)
-    outcome = fuzz.fuzz(fuzz.Reader(reads, ".csv", (b"x",)), 100)
+    outcome = fuzz.fuzz(Reader(reads, ".csv", (b"x",)), 100)
     assert {text.partition(": ")[2] for text in outcome.failures} == {"KeyError('x')", r"'two\nlines'"}
     assert outcome.read + outcome.refused + sum("KeyError" in text for text in outcome.failures) == 100
     monkeypatch.setattr(fuzz, "SECONDS", -1.0)
