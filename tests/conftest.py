@@ -5,7 +5,7 @@ import signal
 import subprocess
 import sys
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
@@ -65,3 +65,19 @@ def called(monkeypatch, capsys, tmp_path) -> Script:
         return subprocess.CompletedProcess(command, ended.value.code or 0, *capsys.readouterr())
 
     return run
+
+
+@pytest.fixture
+def refused(called, tmp_path) -> Callable[..., None]:
+    """Check that a command refuses its arguments in one line on stderr, and writes nothing."""
+
+    def check(name: str, arguments: Sequence[object], message: str, status: int) -> None:
+        before = set(tmp_path.iterdir())
+        done = called(name, *arguments)
+        assert (done.returncode, done.stdout) == (status, "")
+        assert done.stderr.startswith("error: ")
+        assert done.stderr.count("\n") == 1
+        assert message in done.stderr
+        assert set(tmp_path.iterdir()) == before
+
+    return check

@@ -221,7 +221,7 @@ CASES = [(name, *one) for name, of in OF.items() for one in BAD + of]
 
 
 @pytest.mark.parametrize(("name", "arguments", "message", "status"), CASES)
-def test_bad_input_is_one_line(called, tmp_path, name, arguments, message, status):
+def test_bad_input_is_one_line(refused, tmp_path, name, arguments, message, status):
     """Status 2; of files that cannot be read, 1."""
     if arguments == ["--out", "/proc/results"] and not sys.platform.startswith("linux"):
         pytest.skip("/proc is Linux's")
@@ -235,14 +235,7 @@ def test_bad_input_is_one_line(called, tmp_path, name, arguments, message, statu
     for file, text in texts.items():
         (tmp_path / file).write_text(text, encoding="utf-8")
     (tmp_path / "binary.csv").write_bytes(bytes(range(256)))
-    before = set(tmp_path.iterdir())
-    done = called(name, *arguments)
-    assert done.returncode == status
-    assert done.stdout == ""
-    assert done.stderr.startswith("error: ")
-    assert done.stderr.count("\n") == 1
-    assert message in done.stderr
-    assert set(tmp_path.iterdir()) == before
+    refused(name, arguments, message, status)
 
 
 def test_every_mistake_of_a_file_is_a_line(called, tmp_path):

@@ -80,16 +80,10 @@ def test_what_is_assumed_is_a_warning_of_a_line(script, tmp_path):
         ([], "Missing argument 'FILE'.", 2),
     ],
 )  # fmt: skip
-def test_bad_input_is_one_line(called, tmp_path, arguments, message, status):
+def test_bad_input_is_one_line(refused, tmp_path, arguments, message, status):
     save_profile(tmp_path / "p.csv", PROFILE)
     (tmp_path / "coarse.csv").write_text("x [m],z [m]\n" + "".join(f"{i},{i % 2}\n" for i in range(300)))
-    before = set(tmp_path.iterdir())
-    done = called("road", *arguments)
-    assert (done.returncode, done.stdout) == (status, "")
-    assert done.stderr.startswith("error: ")
-    assert done.stderr.count("\n") == 1
-    assert message in done.stderr
-    assert set(tmp_path.iterdir()) == before
+    refused("road", arguments, message, status)
 
 
 def test_the_script_is_the_command(script, tmp_path):

@@ -128,7 +128,9 @@ def test_rejects_profiles_that_do_not_carry_an_index(profile, message):
         international_roughness_index(profile)
 
 
-@pytest.mark.parametrize(("step", "intervals"), [(0.1, 3), (0.02, 13), (0.05, 5), (0.25, 1), (0.17, 1)])
+@pytest.mark.parametrize(
+    ("step", "intervals"), [(0.1, 3), (0.02, 13), (0.05, 5), (1 / 6, 2), (0.17, 1), (0.25, 1)]
+)
 def test_the_base_length_is_rounded_half_up(step, intervals):
     """As in Sayers' program: 2.5 steps of 0.1 m are 3. A short wave is averaged over so many steps."""
     n = 0.8
@@ -150,8 +152,8 @@ def by_sayers(height, step: float, average: bool = True) -> np.ndarray:
     )  # fmt: skip
     transition = expm(a * step / (80 / 3.6))
     partial = np.linalg.solve(a, (transition - np.eye(4)) @ [0, 0, 0, k_tyre / mu])
-    base = {0.02: 13, 0.1: 3, 0.25: 1, 0.3048: 1}[step] if average else 1
-    lead = {0.02: 550, 0.1: 110, 0.25: 44, 0.3048: 36}[step]
+    base = {0.02: 13, 0.1: 3, 0.125: 2, 0.25: 1, 0.3048: 1}[step] if average else 1
+    lead = {0.02: 550, 0.1: 110, 0.125: 88, 0.25: 44, 0.3048: 36}[step]
     steady = (height[lead] - height[0]) / (lead * step)
     state, found = np.array([steady, 0, steady, 0]), []
     for i in range(len(height) - base):
@@ -161,7 +163,7 @@ def by_sayers(height, step: float, average: bool = True) -> np.ndarray:
 
 
 @pytest.mark.parametrize("average", [True, False])
-@pytest.mark.parametrize("step", [0.02, 0.1, 0.25, 0.3048])
+@pytest.mark.parametrize("step", [0.02, 0.1, 0.125, 0.25, 0.3048])
 def test_index_is_that_of_sayers_rules(step, average):
     profile = Iso8608Road("C").profile(1500 * step, step, 1)
     by_rules = by_sayers(profile.height[:, 0], step, average)
