@@ -37,6 +37,14 @@ def test_total_values_are_root_sums_of_squares(person):
     assert person.total_values["overall"] == pytest.approx(np.sqrt(sum(squares.values())), rel=1e-6)
 
 
+def test_a_hand_stands_beside_the_points_of_the_body():
+    """It has no part in the overall value, and one point of the body has none."""
+    step, one = 0.0005, np.sin(2 * np.pi * 8.0 * 0.0005 * np.arange(4000))  # as fine as Wh needs
+    assert set(exposure_by_axis({"z": one, "hand x": 9 * one}, step).total_values) == {"seat", "hand"}
+    found = exposure_by_axis({"z": one, "hand x": 9 * one, "feet z": 2 * one}, step).total_values
+    assert found["overall"] == pytest.approx(np.hypot(found["seat"], found["feet"]), rel=1e-12)
+
+
 def test_daily_exposure_is_that_of_each_axis(person):
     """A(8) over eight hours is k a_w; VDV of a sine is a (3 T/8)^(1/4); We, backrest and feet have none."""
     daily = person.daily().set_index("measure", append=True)

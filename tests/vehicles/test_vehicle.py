@@ -8,8 +8,19 @@ from functools import cached_property
 import numpy as np
 import pytest
 
-from garage import BENDING, DAMPED_HALF, DRIVER, FULL, HALF, QUARTER, VEHICLES, from_roads, struts_of
-from suspension_ctrl import Payload, Plant, QuarterCar, RollGeometry, load_vehicle
+from garage import (
+    BENDING,
+    DAMPED_HALF,
+    DAMPED_QUARTER,
+    DRIVER,
+    FULL,
+    HALF,
+    QUARTER,
+    VEHICLES,
+    from_roads,
+    struts_of,
+)
+from suspension_ctrl import Payload, Plant, QuarterCar, RollGeometry, Seat, load_vehicle
 from suspension_ctrl.quantities import signal_unit
 from suspension_ctrl.vehicles.feedback import gains_by_order
 from suspension_ctrl.vehicles.vehicle import AssembledVehicle
@@ -251,6 +262,15 @@ def test_a_jerk_needs_struts_and_no_road_that_acts_on_the_acceleration():
     plant = Plant(system)  # of a system, the wheel is any response
     with pytest.raises(ValueError, match=r"wheel_jerk.*wheel_acceleration, got road"):
         plant.closed((22e3, 1500.0), responses=["wheel_jerk"])
+
+
+def test_a_mass_on_a_wheel_has_a_jerk_but_its_floor_has_none():
+    """The road acts on the acceleration of a wheel with a damped tyre, and so on that of the floor there."""
+    absorber = Seat(mass=5.0, spring=1e4, damper=100.0, name="absorber", stands_on="wheel")
+    names = set(absorber.on(DAMPED_QUARTER).meanings)
+    assert {"absorber_jerk", "absorber_floor_acceleration"} <= names
+    assert "absorber_floor_jerk" not in names
+    assert "absorber_floor_jerk" in replace(absorber, stands_on="body").on(DAMPED_QUARTER).meanings
 
 
 def test_points_and_jerks_stand_beside_each_other():

@@ -180,9 +180,9 @@ class VDV(AxesMeasure, word="VDV", unit="m/s^1.75"):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MSDV(DoseMeasure, word="MSDV", unit="m/s^1.5"):
-    """Motion sickness dose value of vertical motion, ``a_w T^(1/2)`` with Wf (ISO 2631-1, 9.1).
+    """Motion sickness dose value of vertical motion, ``a_w T^(1/2)`` with Wf (ISO 2631-1, annex D).
 
-    A third of it is about the percentage of people who may vomit (annex D). The band of the ride must reach down
+    A third of it is about the percentage of people who may vomit (there). The band of the ride must reach down
     to 0.1 Hz.
 
     Parameters
