@@ -1,6 +1,7 @@
 """Modes against printed frequencies, closed forms and python-control, and what they are called."""
 
 from dataclasses import replace
+from itertools import combinations
 
 import control
 import numpy as np
@@ -99,6 +100,31 @@ def test_damped_frequencies_and_ratios_are_those_of_python_control(mass, axle, s
     np.testing.assert_allclose(np.sort(swinging[RATIO]), np.sort(ratio[upper]), rtol=1e-7)
     assert (table[RATIO][table[DAMPED] == 0] >= 1).all()
     assert len(table) == len(half.assembly.coordinates)
+
+
+@pytest.mark.parametrize(
+    ("front", "rear"),
+    [((51.9e3, 7319.0), (19.3e3, 10159.0)), ((42.6e3, 9552.0), (15.5e3, 9727.0)), ((1e4, 1e4), (1e4, 2e4))],
+)
+def test_real_poles_of_two_modes_that_met_are_pairs_again(front, rear):
+    """Dampers of several times the usual size: pairs of conjugates, and some pairing of all real poles."""
+    half = HalfCar(
+        body_mass=324.0, pitch_inertia=1199.0, front_wheel_mass=38.4, rear_wheel_mass=22.5,
+        front_tyre_stiffness=2e5, rear_tyre_stiffness=228e3, cg_to_front=1.2, cg_to_rear=1.5,
+    )  # fmt: skip
+    struts = {"front": front, "rear": rear}
+    table, poles = half.modes(struts), half.closed(struts).poles()
+    swinging, upper = table[DAMPED] > 0, poles[poles.imag > 0]
+    np.testing.assert_allclose(2 * np.pi * np.sort(table[DAMPED][swinging]), np.sort(upper.imag), rtol=1e-7)
+    np.testing.assert_allclose(np.sort(table[RATIO][swinging]), np.sort(-upper.real / abs(upper)), rtol=1e-7)
+    found, real = np.sort(table[RATIO][~swinging]), -poles.real[poles.imag == 0]
+    pairings = [
+        np.sort([(real[list(two)].sum()) / 2 / np.prod(real[list(two)]) ** 0.5 for two in pairs])
+        for pairs in combinations(combinations(range(real.size), 2), real.size // 2)
+        if len({i for two in pairs for i in two}) == real.size
+    ]
+    assert real.size >= 4
+    assert any(np.allclose(found, one, rtol=1e-7) for one in pairings)
 
 
 def test_modes_of_proportional_damping_keep_their_frequencies():

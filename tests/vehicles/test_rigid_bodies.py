@@ -460,7 +460,24 @@ def test_travel_of_all_struts_counts_tandems_and_leaves_out_cabs_and_seats():
     assert with_seat.wheel_struts == tuple(name for name in cab.struts if not name.startswith("cab"))
 
 
-def test_travel_of_a_stiff_tandem_is_the_largest_if_its_spring_is_soft():
+def test_a_body_on_its_tyres_is_sprung_and_a_strut_on_a_road_is_that_of_a_wheel():
+    """A tractor without springs, a cab on a mount, and a foot on its strut."""
+    tractor = RigidBodies(
+        bodies=[RigidBody(mass=3e3, pitch_inertia=3e3), RigidBody(name="cab", mass=300.0)],
+        wheels=[
+            Wheel(name="rear", position=(-1.0, 0.0), carrier="body", tyre_stiffness=4e5),
+            Wheel(name="foot", position=(1.5, 0.0)),
+        ],
+        suspensions=[
+            Suspension(name="mount", lower="body", upper="cab"),
+            Suspension(name="spring", lower="foot_road", position=(1.5, 0.0)),
+        ],
+    )
+    assert tractor.wheel_struts == ("spring",)
+    assert tractor.assembly.sprung_mass == 3300.0
+
+
+def test_travel_of_a_soft_tridem_is_the_largest():
     file = sc.load_vehicle("cantero_2022_truck")
     soft = {**file.setting, "tridem.spring": 2e5, "tridem.damper": 1e3}
     table = sc.ride(file.vehicle, soft, ROAD, 20.0, band=(0.1, 20.0), measures=["SWS"])["value"]

@@ -43,6 +43,7 @@ def test_a_payload_lowers_the_ride_height():
     places = FULL.contact_points
     np.testing.assert_allclose(loads.to_numpy() @ places, 100.0 * GRAVITY * np.array([0.2, 0.1]), rtol=1e-9)
     assert change["body_displacement"] < 0
+    assert change["roll_displacement"] < 0 < change["pitch_displacement"]  # to the left and forward: down there
     assert after.index.tolist() == before.index.tolist()
 
 
