@@ -86,6 +86,11 @@ from .vehicles.dampers import DigressiveDamper as DigressiveDamper
 from .vehicles.dampers import Friction as Friction
 from .vehicles.dampers import PowerDamper as PowerDamper
 from .vehicles.dampers import TableDamper as TableDamper
+from .vehicles.elements import Damper as Damper
+from .vehicles.elements import Inerter as Inerter
+from .vehicles.elements import MeasuredStiffness as MeasuredStiffness
+from .vehicles.elements import Rubber as Rubber
+from .vehicles.elements import Spring as Spring
 from .vehicles.figures import damper_figure as damper_figure
 from .vehicles.files import VehicleFile as VehicleFile
 from .vehicles.files import load_vehicle as load_vehicle
@@ -101,11 +106,6 @@ from .vehicles.rigid_bodies import RigidBodies as RigidBodies
 from .vehicles.stops import BumpStop as BumpStop
 from .vehicles.stops import ReboundStop as ReboundStop
 from .vehicles.stops import TableSpring as TableSpring
-from .vehicles.struts import Damper as Damper
-from .vehicles.struts import Inerter as Inerter
-from .vehicles.struts import MeasuredStiffness as MeasuredStiffness
-from .vehicles.struts import Rubber as Rubber
-from .vehicles.struts import Spring as Spring
 from .vehicles.struts import parallel as parallel
 from .vehicles.struts import series as series
 from .vehicles.system_files import load_system as load_system

@@ -10,8 +10,9 @@ import pytest
 from garage import BENDING, FULL, HALF, from_roads
 from suspension_ctrl.quantities import Record
 from suspension_ctrl.vehicles.assembly import Assembly, Link, Response, joined, label
+from suspension_ctrl.vehicles.elements import Damper, Spring
 from suspension_ctrl.vehicles.networks import placed
-from suspension_ctrl.vehicles.struts import Damper, Spring, parallel
+from suspension_ctrl.vehicles.struts import parallel
 from suspension_ctrl.vehicles.vehicle import AssembledVehicle, anti_roll_bar
 
 STRUT = parallel(Spring(), Damper())

@@ -13,8 +13,9 @@ from suspension_ctrl.quantities import Record
 from suspension_ctrl.response.peaks import peaks
 from suspension_ctrl.vehicles.assembly import Assembly, Link, Response
 from suspension_ctrl.vehicles.dampers import BilinearDamper
+from suspension_ctrl.vehicles.elements import Damper, Inerter, Spring
 from suspension_ctrl.vehicles.networks import placed
-from suspension_ctrl.vehicles.struts import Damper, Inerter, Spring, Strut, parallel
+from suspension_ctrl.vehicles.struts import Strut, parallel
 from suspension_ctrl.vehicles.vehicle import AssembledVehicle
 
 STRUT = parallel(Spring(), Damper())

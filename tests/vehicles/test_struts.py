@@ -108,10 +108,6 @@ def test_axles_and_seats_have_struts_of_their_own():
         (lambda: sc.parallel(sc.Spring()), "parallel must be of two elements or more"),
         (lambda: sc.series(sc.Spring(), 3.0), "series must be of two elements or more"),
         (lambda: sc.parallel(sc.Spring(), sc.Spring()), "names of their own, got spring twice"),
-        (lambda: sc.Spring("two words"), "name must be of letters"),
-        (lambda: sc.Damper(value=-1.0), "damper must be finite and > 0 N s/m, got -1.0"),
-        (lambda: sc.Spring(installation_ratio=0.0), "installation_ratio must be finite and > 0, got 0.0"),
-        (lambda: sc.Rubber(storage=-1.0), "storage must be finite and > 0 N/m, got -1.0"),
         (lambda: sc.Seat(mass=75.0, spring=1e4), "damper must be finite and > 0 N s/m, got None"),
     ],
 )

@@ -10,9 +10,10 @@ import numpy as np
 from ..compiled import compiled
 from ..quantities import Bool, FrozenMapping, Real, Record
 from ..vehicles.assembly import Assembly, Network, StrutCoefficient
+from ..vehicles.elements import Damper, Spring
 from ..vehicles.force_laws import ForceLaw
 from ..vehicles.networks import has_force_laws
-from ..vehicles.struts import Damper, Parallel, Spring, Strut
+from ..vehicles.struts import Parallel, Strut
 from ..vehicles.vehicle import AssembledVehicle, Setting, Vehicle, assembled
 from . import any_struts, one_port
 from .bands import band_of

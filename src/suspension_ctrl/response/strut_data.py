@@ -9,8 +9,8 @@ from scipy.linalg import block_diag
 
 from ..quantities import Bool, Complex, Integer, Real
 from ..vehicles.assembly import GRAVITY, Network, ResponseName
+from ..vehicles.elements import MeasuredStiffness
 from ..vehicles.networks import LAW, MEASURED, PARALLEL, SERIES, Program, elements_of
-from ..vehicles.struts import MeasuredStiffness
 from ..vehicles.varied import Varied
 from ..vehicles.vehicle import AssembledVehicle, Vehicle
 from .any_struts import AnyStruts

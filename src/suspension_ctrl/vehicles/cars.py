@@ -7,10 +7,11 @@ from typing import Any
 
 from ..quantities import Checked, unit
 from .assembly import Assembly, Link, Position, Response, StrutCoefficient
+from .elements import Damper, Spring
 from .feedback import System
 from .networks import placed
 from .strut_files import STRUT
-from .struts import Damper, Spring, Strut, parallel
+from .struts import Strut, parallel
 from .vehicle import AssembledVehicle, anti_roll_bar
 
 SPRING_AND_DAMPER = parallel(Spring(), Damper())

@@ -10,9 +10,10 @@ import numpy as np
 from .. import checks
 from ..quantities import Checked, FrozenMapping, Record, unit
 from .assembly import Assembly, Link, Position, Response, check_strut_names, point_of
+from .elements import Damper, Spring
 from .networks import placed
 from .strut_files import STRUT
-from .struts import Damper, Spring, Strut, parallel
+from .struts import Strut, parallel
 from .vehicle import AssembledVehicle, Vehicle, assembled
 
 

@@ -12,20 +12,10 @@ import numpy as np
 from ..compiled import compilable
 from ..quantities import Bool, Integer, Real
 from .assembly import Network, StrutCoefficient
+from .elements import Damper, Inerter, LinearElement, MeasuredStiffness, Rubber, Spring
 from .force_laws import Curve, ForceLaw
 from .stops import BumpStop
-from .struts import (
-    Damper,
-    Element,
-    Inerter,
-    LinearElement,
-    MeasuredStiffness,
-    Parallel,
-    Rubber,
-    Series,
-    Spring,
-    Strut,
-)
+from .struts import Element, Parallel, Series, Strut
 
 SPRING, DAMPER, INERTER, RUBBER, MEASURED, LAW, PARALLEL, SERIES = range(8)
 """Kinds of nodes of a program."""

@@ -15,11 +15,12 @@ from ..documents import naming
 from ..quantities import FrozenMapping, Record, unit
 from ..tables import read_table
 from .assembly import Position, Response, ResponseName, StrutCoefficient, check_strut_names, joined, label
+from .elements import Damper, Spring
 from .feedback import System, around, gains_by_order, numbers_of, selected, system_of, with_copies, with_rates
 from .networks import placed
 from .plant_tables import frequency_responses
 from .signals import Names, renamed
-from .struts import Damper, Spring, parallel
+from .struts import parallel
 from .vehicle import Setting, Vehicle, coefficients_by_name
 
 _LEAST = 4  # lines of a cubic spline

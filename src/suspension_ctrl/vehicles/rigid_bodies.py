@@ -35,8 +35,9 @@ from .body_parts import (
     Suspension,
     Wheel,
 )
+from .elements import Damper, Spring
 from .networks import placed
-from .struts import Damper, Spring, Strut, parallel
+from .struts import Strut, parallel
 from .vehicle import AssembledVehicle, anti_roll_bar
 
 GROUND = "ground"

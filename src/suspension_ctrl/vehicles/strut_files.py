@@ -16,11 +16,12 @@ from ..schema.reading import kind_of, read
 from ..schema.writing import content
 from ..tables import read_columns
 from .dampers import BilinearDamper, DigressiveDamper, Friction, PowerDamper, TableDamper
+from .elements import Damper, Inerter, LinearElement, MeasuredStiffness, Rubber, Spring
 from .layouts import layout_of, names, strut_of
 from .property_files import KINDS as PROPERTIES
 from .property_files import Mounting, ending, property_columns
 from .stops import BumpStop, ReboundStop, TableSpring
-from .struts import ROWS, Damper, Element, Inerter, LinearElement, MeasuredStiffness, Rubber, Spring, Strut
+from .struts import ROWS, Element, Strut
 
 KINDS: dict[str, type[Element]] = {
     "spring": Spring, "damper": Damper, "inerter": Inerter, "rubber": Rubber, "bump-stop": BumpStop,

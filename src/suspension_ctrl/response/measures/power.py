@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...quantities import Real
+from ...vehicles.elements import Damper, Inerter, Spring
 from ...vehicles.force_laws import ForceLaw
-from ...vehicles.struts import Damper, Inerter, Parallel, Series, Spring, Strut
+from ...vehicles.struts import Parallel, Series, Strut
 from ...vehicles.vehicle import Vehicle
 from ..load_case import LoadCase
 from ..weightings import Weighting

@@ -12,8 +12,8 @@ import numpy as np
 from ...compiled import compiled
 from ...quantities import Bool, Integer, Real
 from ...vehicles.assembly import Network
+from ...vehicles.elements import MeasuredStiffness, Rubber
 from ...vehicles.networks import DAMPER, INERTER, LAW, PARALLEL, SERIES, SPRING, Program, elements_of
-from ...vehicles.struts import MeasuredStiffness, Rubber
 from .curves import fill_law
 
 _NONE = -1
