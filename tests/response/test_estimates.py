@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from scipy import stats
 
 from suspension_ctrl.response.estimates import Estimate, intervals, mean_squares, third_octaves, welch
 
@@ -69,3 +70,27 @@ def test_spectra_that_are_given_have_no_interval():
 def test_histories_too_short_or_coarse(count, edges, segment, message):
     with pytest.raises(ValueError, match="^" + re.escape(message)):
         welch(np.zeros((count, 1)), STEP, np.array(edges), segment)
+
+
+def test_periodograms_of_segments_that_overlap_count_less_than_independent_ones():
+    """The variance of the spectrum of white noise is its square over `averages`: of 60 000 values to 2 %, where
+    the overlap makes 5 %."""
+    estimate = welch(np.random.default_rng(4).standard_normal((1600, 600)), STEP, np.array([1.0, 20.0]), 2.0)
+    inner = estimate.psd[1:-1]
+    variance = inner.var(axis=1).mean() / inner.mean() ** 2
+    assert variance * estimate.averages == pytest.approx(1.0, rel=0.02)
+
+
+def test_a_flat_band_has_two_degrees_of_freedom_for_each_hertz_and_second():
+    """The interval is that of 2 T B on average, over 50 histories to 1 % where the mean of S^2 makes 3 %."""
+    noise = np.random.default_rng(3).standard_normal((20_000, 50))
+    low, high = intervals(welch(noise, STEP, np.array([1.0, 20.0]), 25.0), np.array([1.0, 20.0]))
+    free = 2 * 200.0 * 19.0
+    expected = free / stats.chi2.ppf(0.025, free) - free / stats.chi2.ppf(0.975, free)
+    assert (high - low).mean() == pytest.approx(expected, rel=0.01)
+
+
+def test_a_band_within_a_line_has_the_degrees_of_freedom_of_one_line():
+    f = np.arange(1.0, 30.0)
+    found = intervals(Estimate(f, np.ones((29, 1)), 10.0, 8.0), np.array([2.0, 2.1]))[:, 0, 0]
+    np.testing.assert_allclose(found, 16 / stats.chi2.ppf([0.975, 0.025], 16), rtol=1e-12)

@@ -93,6 +93,16 @@ def test_searches_vary_frequencies_and_masses_together():
     assert problem.units["ride_frequency"] == "Hz"
 
 
+def test_a_wheel_of_another_mass_hops_at_the_same_frequency():
+    """To 1e-10 as above: the tyre is M_w (2 pi f)^2 less the spring."""
+    bounds = {"wheel_hop_frequency": (10.5, 12.0), "wheel_mass": (30.0, 50.0)}
+    struts = {"spring": 2e4, "damper": 1500.0}
+    problem = RideProblem(QUARTER, ROAD, speed=20.0, bounds=bounds, struts=struts)
+    car = replace(QUARTER, wheel_mass=35.0, tyre_stiffness=35.0 * (2 * pi * 11.0) ** 2 - 2e4)
+    expected = RideProblem(car, ROAD, speed=20.0, bounds={"spring": (1e4, 4e4)}, struts={"damper": 1500.0})
+    np.testing.assert_allclose(problem.evaluate([[11.0, 35.0]]), expected.evaluate([[2e4]]), rtol=1e-10)
+
+
 def test_frequencies_are_those_of_the_first_load_case():
     """A laden car keeps the springs of the empty one."""
     laden = Payload(mass=100.0).on(HALF)
