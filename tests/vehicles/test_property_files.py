@@ -146,7 +146,7 @@ file = "f.bum"
 rates = st.lists(st.integers(1, 10**6), min_size=2, max_size=20, unique=True).map(sorted)
 
 
-@given(rates, st.lists(st.floats(0.0, 1e3), min_size=40, max_size=40), st.floats(1e-9, 1e-3))
+@given(rates, st.lists(st.floats(0.0, 1e3), min_size=41, max_size=41), st.floats(1e-9, 1e-3))
 def test_what_is_written_is_read_back(tmp_path_factory, steps, rises, size):
     folder = tmp_path_factory.getbasetemp()
     x = np.concatenate([-np.array(steps)[::-1], [0], steps]) * size

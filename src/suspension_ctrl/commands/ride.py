@@ -37,7 +37,7 @@ def ride(
     certify: o.Certify = None,
     out: o.Out = None,
 ) -> None:
-    """Print the ride, the modes, the springs and the wheel loads of one vehicle.
+    """Print the ride, modes, springs and wheel loads of one vehicle.
 
     The vehicle is from a file, with its own struts, or a quarter car with given masses, tyre, spring and
     damper; of a plant the ride alone. Writes ride.csv, modes.csv, springs.csv, static.csv, of force laws laws.csv,

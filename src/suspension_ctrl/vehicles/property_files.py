@@ -177,4 +177,4 @@ def save_property(
 
 def _in_mm(metres: float) -> str:
     """Return a number in mm with all its digits."""
-    return f"{Decimal(repr(metres)).scaleb(3):f}"
+    return str(Decimal(repr(metres)).scaleb(3))
