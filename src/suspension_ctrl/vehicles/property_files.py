@@ -176,5 +176,6 @@ def save_property(
 
 
 def _in_mm(metres: float) -> str:
-    """Return a number in mm with all its digits."""
-    return str(Decimal(repr(metres)).scaleb(3))
+    """Return a number in mm with all its digits; with an exponent where there were many zeros."""
+    number = Decimal(repr(metres)).scaleb(3)
+    return f"{number:f}" if 1e-6 <= abs(metres) < 1e6 or not metres else str(number)
