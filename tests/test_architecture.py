@@ -39,7 +39,7 @@ PUBLIC = {
     "linearised", "response_psds", "ride", "simulate",
     "UnitSlipWarning", "weighted_rms", "weighting",
     "FailureWarning", "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run",
-    "Sampling", "minimise", "non_dominated", "Study",
+    "Sampling", "minimise", "non_dominated", "Study", "as_pymoo", "as_scipy",
 }  # fmt: skip
 
 COMMANDS = {"commands/exposure.py", "commands/ride.py", "commands/weighting.py"}

@@ -75,8 +75,10 @@ from .search.indicators import non_dominated as non_dominated
 from .search.moead_dra import MoeadDra as MoeadDra
 from .search.nsga2 import Nsga2 as Nsga2
 from .search.problem import Problem as Problem
+from .search.pymoo_adapter import as_pymoo as as_pymoo
 from .search.run import Run as Run
 from .search.sampling import Sampling as Sampling
+from .search.scipy_adapter import as_scipy as as_scipy
 from .study.study import Study as Study
 from .vehicles.cars import FullCar as FullCar
 from .vehicles.cars import HalfCar as HalfCar

@@ -155,6 +155,12 @@ def of_kind(name: str, value: object, *kinds: type) -> None:
         raise ValueError(f"{name} must be a {' or '.join(kind.__name__ for kind in kinds)}, got {shown(value)}")
 
 
+def with_method(name: str, value: object, method: str) -> None:
+    """Raise ValueError unless `value` is an object, no class, with a `method`."""
+    if isinstance(value, type) or not callable(getattr(value, method, None)):
+        raise ValueError(f"{name} must be an object with a method {method}, got {shown(value)}")
+
+
 def path_of(name: str, value: object) -> Path:
     """Return the path; ValueError unless `value` is a text or path-like."""
     if not isinstance(value, str | PathLike) or isinstance(fspath(value), bytes):

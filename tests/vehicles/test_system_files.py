@@ -70,7 +70,7 @@ def test_a_closed_vehicle_is_written_too(tmp_path, ending):
 @pytest.mark.parametrize(
     ("path", "system", "message"),
     [
-        ("car.xls", QUARTER.plant(), "ending of the file must be one of .mat, .npz, .a, .csv, got '.xls'"),
+        ("car.xls", QUARTER.plant(), "ending of the file must be one of .mat, .m, .npz, .a, .csv, got '.xls'"),
         ("car.mat", 3, "system must be a control.StateSpace or FrequencyResponseData, got int"),
         ("car.csv", QUARTER.plant(), "frequency must be given for a table of a control.StateSpace, got none"),
         ("car.npz", control.frd([[[1.0, 1.0]]], [1.0, 2.0]),

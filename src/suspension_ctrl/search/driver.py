@@ -253,9 +253,8 @@ def _infeasible(constraints: Sequence[object], run: Run) -> str:
 
 def _check_parts(problem: Minimisable, optimiser: Optimiser, callback: object) -> None:
     """Raise ValueError unless these can be a problem, an optimiser and a callback."""
-    for name, value, needed in (("problem", problem, "evaluate"), ("optimiser", optimiser, "search")):
-        if isinstance(value, type) or not callable(getattr(value, needed, None)):
-            raise ValueError(f"{name} must be an object with a method {needed}, got {checks.shown(value)}")
+    checks.with_method("problem", problem, "evaluate")
+    checks.with_method("optimiser", optimiser, "search")
     if not (callback is None or callable(callback)):
         raise ValueError(f"callback must be callable, got {checks.shown(callback)}")
 

@@ -1,7 +1,8 @@
 """State space models in MATLAB files of versions 4 to 7.
 
-The variables are A, B, C and D, and perhaps ``InputName``, ``OutputName`` and ``StateName`` as in MATLAB's models;
-or ``ABCD``, ``nx`` and ``xuyName`` as Dymola writes them (dslin.mat, Modelica_LinearSystems2).
+The variables are A, B, C and D, and perhaps ``InputName``, ``OutputName`` and ``StateName`` as in MATLAB's models,
+and their units ``InputUnit`` and so on in files of this library; or ``ABCD``, ``nx`` and ``xuyName`` as Dymola
+writes them (dslin.mat, Modelica_LinearSystems2).
 """
 
 from collections.abc import Mapping
@@ -17,8 +18,9 @@ from ..tables import write_bytes
 from .feedback import System
 from .mat_variables import variables
 from .matrices import LETTERS, MEGABYTES, labels_of, matrices_of, state_space
+from .signals import SIGNALS, units_of
 
-_NAMES = {"inputs": "InputName", "outputs": "OutputName", "states": "StateName"}
+_NAMES = {kind: f"{signal}Name" for kind, signal in SIGNALS.items()}
 _DYMOLA = {"ABCD", "nx"}
 _READ = {*LETTERS, *LETTERS.lower(), *("E", "Ts", "dt", "xuyName"), *_DYMOLA, *_NAMES.values()}
 
@@ -52,12 +54,13 @@ def _parts(values: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, list[st
 
 
 def write_mat(path: Path, system: System) -> None:
-    """Write a MATLAB file, with the names of the signals."""
+    """Write a MATLAB file, with the names and units of the signals."""
     from scipy import io
 
     content: Any = BytesIO()
     variables = dict[str, Any](zip(LETTERS, matrices_of(system), strict=True))
     for kind, names in labels_of(system).items():
-        variables[_NAMES[kind]] = np.array(names, dtype=object)[:, None]
+        for what, texts in (("Name", names), ("Unit", units_of(system)[kind])):
+            variables[SIGNALS[kind] + what] = np.array(texts, dtype=object)[:, None]
     io.savemat(content, variables)
     write_bytes(path, content.getvalue())

@@ -18,7 +18,13 @@ from .plant_tables import input_unit
 Names = Sequence[str] | Mapping[str, str]
 """Names of signals in their order, ``""`` for one without use, or by the model's own names."""
 
+SIGNALS = {"inputs": "Input", "outputs": "Output", "states": "State"}
+"""What MATLAB calls the signals of a system, as in ``InputName`` and ``InputUnit``."""
+
 _SIGNAL = re.compile(r"\s*(-?)\s*([A-Za-z]\w{0,99})\s*(?:\[([^\[\]]{0,40})\])?\s*", re.ASCII)
+
+
+_MODAL = "bending_"  # coordinates of modal mass 1, without a unit of length
 
 
 class Signal(NamedTuple):
@@ -32,6 +38,15 @@ class Signal(NamedTuple):
 def own_label(name: str) -> str:
     """Return the name of a signal in another program as a signal of python-control, without dots."""
     return name.strip().replace(".", "_")
+
+
+def units_of(system: System) -> dict[str, list[str]]:
+    """Return the units of inputs, outputs and states, ``""`` where they are unknown."""
+    return {
+        "inputs": [input_unit(name) for name in system.input_labels],
+        "outputs": [signal_unit(name) for name in system.output_labels],
+        "states": ["" if name.startswith(_MODAL) else signal_unit(name) for name in system.state_labels],
+    }
 
 
 def renamed(system: System, inputs: Names | None, outputs: Names | None) -> System:

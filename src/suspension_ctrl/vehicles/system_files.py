@@ -13,6 +13,7 @@ from ..documents import naming
 from ..tables import write_csv
 from .feedback import System, system_of
 from .matlab_files import read_mat, write_mat
+from .matlab_scripts import write_script
 from .matrices import read_npy, read_npz, read_texts, write_npz, write_texts
 from .plant_tables import read_responses, response_table
 from .uff_files import read_uff
@@ -21,7 +22,9 @@ _READERS: dict[str, Callable[[Path], System]] = {
     ".mat": read_mat, ".npz": read_npz, ".npy": read_npy, ".a": read_texts, ".b": read_texts, ".c": read_texts,
     ".d": read_texts, ".csv": read_responses, ".uff": read_uff, ".unv": read_uff,
 }  # fmt: skip
-_WRITERS: dict[str, Callable[[Path, System], None]] = {".mat": write_mat, ".npz": write_npz, ".a": write_texts}
+_WRITERS: dict[str, Callable[[Path, System], None]] = {
+    ".mat": write_mat, ".m": write_script, ".npz": write_npz, ".a": write_texts,
+}  # fmt: skip
 
 
 def load_system(path: str | PathLike[str]) -> System:
@@ -69,7 +72,8 @@ def save_system(path: str | PathLike[str], system: System, frequency: ArrayLike 
     Parameters
     ----------
     path : str or path-like
-        With the ending ``.mat`` of MATLAB; ``.a``, beside which ``.b``, ``.c`` and ``.d`` are written, without
+        With the ending ``.mat`` of MATLAB; ``.m``, a script that MATLAB and Octave run without a toolbox, which
+        `load_system` does not read; ``.a``, beside which ``.b``, ``.c`` and ``.d`` are written, without
         names; ``.npz`` of NumPy; ``.csv`` for a table of frequency responses.
     system : control.StateSpace or control.FrequencyResponseData
         ``vehicle.plant()`` or ``vehicle.closed(...)``.
@@ -79,7 +83,8 @@ def save_system(path: str | PathLike[str], system: System, frequency: ArrayLike 
     Raises
     ------
     ValueError
-        If the ending is another one, a frequency response is to be written as matrices, or lines are missing.
+        If the ending is another one, a frequency response is to be written as matrices, lines are missing, or
+        MATLAB can run no script of this name.
 
     Examples
     --------
