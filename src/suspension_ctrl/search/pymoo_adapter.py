@@ -1,6 +1,6 @@
 """Problems for pymoo: its algorithms on the measures of this library."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -54,7 +54,7 @@ def as_pymoo(problem: Minimisable) -> Any:
     with checks.installed("pymoo"):
         from pymoo.core.problem import Problem
 
-    class Adapted(Problem):
+    class Adapted(Problem):  # type: ignore[misc]  # pymoo has no types
         """The problem of pymoo; it is pickled as the problem of which it was made."""
 
         def __init__(self) -> None:
@@ -74,7 +74,13 @@ def as_pymoo(problem: Minimisable) -> Any:
 def _ends(problem: Minimisable) -> dict[str, tuple[float, float]]:
     """Return the least and the greatest value of each variable by name."""
     bounds = zip(problem.variables, problem.lower, problem.upper, strict=True)
-    return {name: checks.kind_ends(problem.kinds.get(name, ""), low, high) for name, low, high in bounds}
+    return {name: checks.kind_ends(_kind(problem, name), low, high) for name, low, high in bounds}
+
+
+def _kind(problem: Minimisable, name: str) -> str | tuple[float, ...]:
+    """Return the kind of a variable, "" of a real one."""
+    given = problem.kinds.get(name, "")
+    return given if isinstance(given, str) else tuple(given)
 
 
 def _variables(problem: Minimisable) -> dict[str, Any]:
@@ -82,10 +88,10 @@ def _variables(problem: Minimisable) -> dict[str, Any]:
     if all(kind in ("log", "fixed") for kind in problem.kinds.values()):
         return {"n_var": len(problem.variables), "xl": np.array(problem.lower), "xu": np.array(problem.upper)}
     moving = {name: ends for name, ends in _ends(problem).items() if ends[0] < ends[1]}
-    return {"vars": {name: _variable(problem.kinds.get(name, ""), ends) for name, ends in moving.items()}}
+    return {"vars": {name: _variable(_kind(problem, name), ends) for name, ends in moving.items()}}
 
 
-def _variable(kind: str | Sequence[float], ends: tuple[float, float]) -> Any:
+def _variable(kind: str | tuple[float, ...], ends: tuple[float, float]) -> Any:
     """Return pymoo's variable of a kind."""
     from pymoo.core.variable import Choice, Integer, Real
 
