@@ -66,8 +66,8 @@ def main(
     with nullcontext() if jobs is None else clusters.local_cluster(jobs) as client:
         store: dict[str, Any] = {}
         made = terminal.progress(one.carry_out(store, client), len(one.runs()))
-        errors = {run.name: error for run, error in made if error}
-    table = one.table(store, errors).drop(columns="seconds")
+        failures = {run.name: failure for run, failure in made if failure}
+    table = one.table(store, failures).drop(columns="seconds")
     final = table[table.set == study.POPULATION]
     files.write_csv(folder / "runs.csv", table)
     medians = final.pivot_table("relative_hypervolume", "problem", "algorithm", "median", sort=False)
@@ -76,8 +76,8 @@ def main(
     files.write_table(folder / "differences", compared)
     terminal.show("Hypervolume / reference, medians", medians.reset_index(), dict.fromkeys(ALGORITHMS, 4))
     print(folder)
-    if errors:
-        terminal.complain(f"{len(errors)} runs raised: see the column error of {folder / 'runs.csv'}")
+    if failures:
+        terminal.complain(f"{len(failures)} runs raised: see the column error of {folder / 'runs.csv'}")
         raise typer.Exit(1)
 
 

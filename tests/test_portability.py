@@ -41,7 +41,7 @@ problem = Problem(
 )
 study = Study(problems={"p": problem}, algorithms={"nsga2": Nsga2(population=20)}, seeds=[1], budgets=[40])
 store = FolderStore(Path("store"), {"plan": 1})
-assert [error for _, error in study.carry_out(store)] == [""]
+assert [failure for _, failure in study.carry_out(store)] == [None]
 assert len(study.table(store)) == 3
 """
 

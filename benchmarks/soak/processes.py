@@ -43,7 +43,8 @@ def deadly_runs(runs: int = 4) -> Counts:
         references=dict.fromkeys(problems, front),
     )  # fmt: skip
     with local_cluster(2) as client:
-        errors = {run.name: error for run, error in study.carry_out({}, client)}
+        made = study.carry_out({}, client)
+        errors = {run.name: failure.error if failure else "" for run, failure in made}
     for name, error in errors.items():
         right = {"deadly": "KilledWorker: ", "good": "", "unpicklable": "TypeError: "}[name.split("_")[0]]
         counts.judge(f"{name}: {error}", lost=bool(error) != bool(right), unnamed=not error.startswith(right))

@@ -355,8 +355,8 @@ def test_points_of_the_body_and_other_outputs():
         ({"profile": ROAD.profile(2.5, STEP, 1)}, "profile must be longer by a step than the wheelbase of 2.7 m"),
         ({"profile": ROAD}, "profile must be a Profile or an event"),
         (
-            {"profile": ROAD.profile(64.0, STEP, 1, (0.75, -0.75))},
-            r"profile must have tracks at y = 0 m, as by road.profile\(..., tracks=\(0,\)\), got tracks at ",
+            {"profile": ROAD.profile(64.0, STEP, 1, (0.75, 0.5))},
+            r"profile must reach across to y = 0 m, as by road.profile\(..., tracks=\(0,\)\), got tracks at ",
         ),
         (
             {"contact_points": [[0.0, 0.0]]},
@@ -410,10 +410,33 @@ def test_a_coarse_profile_is_refined_by_straight_interpolation(periodic):
 
 
 def test_a_road_under_other_wheels_says_how_to_give_tracks():
-    message = r"^profile must have tracks at y = 0.75, -0.75, 0.73, -0.73 m, as by "
+    message = r"^profile must reach across to y = 0.75, -0.75, 0.73, -0.73 m, as by "
     with pytest.raises(ValueError, match=message) as caught:
         simulate(FULL, STRUTS, ROAD.profile(64.0, STEP, 1), SPEED)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("tracks", [(0.75, -0.75), (1.0, -1.0), (-0.8, 0.9, 0.4)])
+def test_a_banked_road_rolls_a_car_of_two_track_widths_without_deflection(tracks):
+    """It rolls with the road, also where that is rough; nearest tracks would twist it by some mm and 200 N."""
+    profile = ROAD.profile(64.0, STEP, 1, tracks)
+    banked = replace(profile, height=np.tile(0.05 * np.array(tracks), (len(profile.distance), 1)))
+    rest = simulate(FULL, STRUTS | BAR, banked, SPEED)
+    np.testing.assert_allclose(values(rest), 0, atol=1e-6)
+    rough = replace(profile, height=profile.height + banked.height)
+    found, expected = (values(simulate(FULL, STRUTS | BAR, one, SPEED)) for one in (rough, profile))
+    assert (np.abs(found - expected).max(axis=0) <= 1e-11 * np.abs(expected).max(axis=0)).all()
+
+
+@pytest.mark.parametrize("speed", [SPEED, [(0.0, 10.0), (2.0, 20.0)]], ids=["steady", "faster"])
+def test_a_road_that_twists_is_met_between_its_tracks(speed):
+    """Roll and height of a random road change along it: two tracks give what its values under the wheels give."""
+    wide = ROAD.profile(64.0, STEP, 2, (0.9, -0.9))
+    height, roll = wide.height.mean(axis=1), -np.diff(wide.height, axis=1)[:, 0] / 1.8
+    own = tracks_of(FULL)
+    under = Profile(wide.distance, height[:, None] + roll[:, None] * np.array(own), own)
+    found, expected = (values(simulate(FULL, STRUTS | BAR, one, speed)) for one in (wide, under))
+    assert (np.abs(found - expected).max(axis=0) <= 1e-11 * np.abs(expected).max(axis=0)).all()
 
 
 def test_a_measured_road_of_two_tracks_is_given_to_every_track_of_a_truck():

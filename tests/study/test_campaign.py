@@ -47,7 +47,7 @@ def main(folder: Path, pause: float):
         references={{"p": ReferenceFront.of(np.stack([line, 1 - line], axis=1))}},
     )
     store = FolderStore(folder / "store", {{"plan": 1}})
-    for run, error in study.carry_out(store):
+    for run, _ in study.carry_out(store):
         os.write(log, f"<{{run.name}}>".encode())
     study.table(store).drop(columns="seconds").to_csv(folder / "table.csv", index=False)
 

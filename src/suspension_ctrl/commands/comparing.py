@@ -118,4 +118,4 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
     if results := findings(campaign.comparison, table, clock, target):
         quality.write(request, results, judged)
         quality.say(results, target)
-    return int(table.error.ne("").sum())
+    return int((table.error.ne("") & table.budget.isna()).sum())

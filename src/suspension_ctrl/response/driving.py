@@ -74,9 +74,10 @@ def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
     setting : mapping or (float, float)
         Of a vehicle the coefficients of its struts, as for ``vehicle.closed``.
     profile : Profile or Event
-        The road, with a track under every wheel. With less than four points in a wave of the model's fastest mode
-        at this speed it is refined by straight interpolation. Or an event such as `SpeedBump`, from the moment
-        when the foremost wheel meets it until the vehicle has settled; of steady waves one period.
+        The road, as wide as the vehicle, linear across between its tracks. With less than four points in a wave
+        of the model's fastest mode at this speed it is refined by straight interpolation. Or an event such as
+        `SpeedBump`, from the moment when the foremost wheel meets it until the vehicle has settled; of steady
+        waves one period.
     speed : float or (s, 2) array_like
         Vehicle speed V [m/s]; not of a test rig. Or rows of time [s], from 0 on, and speed, straight between them
         and constant after the last: ``[(0, 5), (6, 15)]``.
@@ -123,8 +124,8 @@ def simulate(closed: Any, *arguments: Any, **options: Any) -> "pd.DataFrame":
     Raises
     ------
     ValueError
-        If there are not as many contact points as roads, or the profile lacks a track under one or is too short
-        for the wheelbase.
+        If there are not as many contact points as roads, or the profile does not reach across to one or is too
+        short for the wheelbase.
 
     Examples
     --------

@@ -143,5 +143,7 @@ class SearchProblem:
 
     def record(self) -> tuple[Real, Real]:
         """Return the designs (k, d) and values (k, m + c) of the record, NaN of failures."""
-        designs, values = map(np.concatenate, zip(*self._record or [], strict=True))
+        values_each = len(self.objectives) + len(self.constraints)
+        none = self.decode(np.empty((0, self.lower.size))), np.empty((0, values_each))
+        designs, values = map(np.concatenate, zip(none, *self._record or [], strict=True))
         return designs, without_worst(values)

@@ -53,7 +53,12 @@ def outcome(function: Callable[..., T], arguments: tuple[Any, ...]) -> tuple[T |
     try:
         return function(*arguments), ""
     except (Exception, SystemExit) as error:  # an evaluation may raise anything; the other runs continue
-        return None, " ".join(f"{type(error).__name__}: {error}".split())
+        return None, in_one_line(error)
+
+
+def in_one_line(error: BaseException) -> str:
+    """Return type and message of an error."""
+    return " ".join(f"{type(error).__name__}: {error}".split())
 
 
 def _unpickled(content: bytes) -> tuple[Any, str]:

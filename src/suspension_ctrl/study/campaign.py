@@ -66,7 +66,7 @@ class Campaign:
         for population, study in self.comparison.studies(front).items():
             missing = sum(run.name not in store for run in study.runs())
             runs = self.watch(study.carry_out(store, client), missing, f"quality, N = {population}")
-            parts.append(study.table(store, {run.name: error for run, error in runs if error}))
+            parts.append(study.table(store, {run.name: failure for run, failure in runs if failure}))
         return pd.concat(parts, ignore_index=True).drop(columns="problem"), store
 
     def _store(self, name: str, *also: str, **plan: Any) -> FolderStore:

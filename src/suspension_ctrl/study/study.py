@@ -14,9 +14,9 @@ from ..quantities import FrozenMapping, Record
 from ..search.indicators import ReferenceFront, best_of, evenly_spread
 from ..search.problem import Minimisable
 from ..search.run import Optimiser
-from ..search.trace import Trace, trace
+from ..search.trace import Trace, trace_so_far
 from ..tables import file_name
-from .calls import outcome, outcomes
+from .calls import in_one_line, outcome, outcomes
 from .reference import best_known
 from .store import VIOLATION, StoredRun
 
@@ -48,6 +48,13 @@ class PlannedRun(NamedTuple):
     key: dict[str, Any]  # columns that identify it in a table, such as algorithm and population
 
 
+class Failure(NamedTuple):
+    """A run that raised an exception."""
+
+    error: str  # in one line
+    course: pd.DataFrame = pd.DataFrame()  # a row per set and budget reached before
+
+
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Study(Record):
     """Searches by several algorithms, on several problems, from several seeds, judged at several budgets.
@@ -63,7 +70,8 @@ class Study(Record):
     budgets : sequence of int
         Evaluations at which a run is judged: its state after the last iteration within the budget.
     references : mapping of str to ReferenceFront, optional
-        By name of a problem. The default is the front of all runs from the first seed, which are repeated for it.
+        By name of a problem. The default is the front of all runs from the first seed, which are repeated for it;
+        a run that raises an exception contributes what it found before.
 
     Raises
     ------
@@ -130,13 +138,13 @@ class Study(Record):
     def run(self, client: "Client | None" = None) -> pd.DataFrame:
         """Make all runs, on the workers of a Dask client if given, and return their `table`."""
         store: dict[str, StoredRun] = {}
-        errors = {run.name: error for run, error in self.carry_out(store, client) if error}
-        return self.table(store, errors)
+        failures = {run.name: failure for run, failure in self.carry_out(store, client) if failure}
+        return self.table(store, failures)
 
     def carry_out(
         self, store: MutableMapping[str, StoredRun], client: "Client | None" = None
-    ) -> Iterator[tuple[PlannedRun, str]]:
-        """Make the runs that are not in `store`, store each one at its end, and yield it with its error or ``""``.
+    ) -> Iterator[tuple[PlannedRun, Failure | None]]:
+        """Make the runs that are not in `store`, store each one at its end, and yield it with its failure or None.
 
         With a client, runs are yielded in the order of their ends; the results are the same.
         """
@@ -152,24 +160,31 @@ class Study(Record):
             problem = run.key["problem"]
             reference, error = references[problem]
             if reference is None:
-                yield run, error
+                yield run, Failure(error)
             else:
                 work[run.name] = (self.problems[problem], run.optimiser, self.budgets, run.seed, reference)
-        for name, finished, error in outcomes(judged_run, work, client):
+        for name, judged, error in outcomes(judged_run, work, client):
+            finished, failure = judged or (None, Failure(error))
             if finished is not None:
                 store[name] = finished
-            yield missing[name], error
+            yield missing[name], failure
 
     def reference(self, problem: str) -> ReferenceFront:
         """Return the reference front of a problem: the given one, or that of the runs from the first seed."""
         if problem in self.references:
             return self.references[problem]
         most, seed = max(self.budgets), self.seeds[0]
-        traces = [trace(self.problems[problem], each, [most], seed) for each in self.algorithms.values()]
-        return best_known([one.objectives[one.feasible] for one in traces])
+        traces = [trace_so_far(self.problems[problem], each, [most], seed) for each in self.algorithms.values()]
+        for seen, error in traces:
+            if error is not None and not len(seen.designs):
+                raise error
+        return best_known([seen.objectives[seen.feasible] for seen, _ in traces])
 
-    def table(self, store: Mapping[str, StoredRun], errors: Mapping[str, str] | None = None) -> pd.DataFrame:
-        """Return a row per run, budget and set; a run that raised an exception has one row with its error.
+    def table(self, store: Mapping[str, StoredRun], failures: Mapping[str, Failure] | None = None) -> pd.DataFrame:
+        """Return a row per run, budget and set.
+
+        A run that raised an exception has the rows of the budgets before it and one without a budget, each with
+        its error.
 
         Columns: problem, algorithm, population, seed, budget, evaluations, set (`POPULATION`, `ARCHIVE` or
         `CUT_ARCHIVE`), members of the set, relative_hypervolume, igd_plus, epsilon, spread, seconds (of the whole
@@ -179,8 +194,10 @@ class Study(Record):
         for run in self.runs():
             if run.name in store:
                 parts.append(store[run.name].course.assign(**run.key, error=""))
-            elif errors and run.name in errors:
-                parts.append(pd.DataFrame([{**run.key, "error": errors[run.name]}]))
+            elif failures and run.name in failures:
+                error, course = failures[run.name]
+                rows = pd.DataFrame([*course.to_dict("records"), {}])
+                parts.append(rows.assign(**run.key, error=error))
         columns = ["problem", "algorithm", "population", "seed", "budget", "evaluations", "set", "members"]
         return pd.concat(parts, ignore_index=True).reindex(columns=[*columns, *INDICATORS, "seconds", "error"])
 
@@ -195,18 +212,21 @@ class Study(Record):
 
 def judged_run(
     problem: Minimisable, optimiser: Optimiser, budgets: Sequence[int], seed: int, reference: ReferenceFront
-) -> StoredRun:
-    """Return the tables of one run, judged at each budget."""
+) -> tuple[StoredRun | None, Failure | None]:
+    """Return the tables of one run, judged at each budget, or its failure."""
     start = perf_counter()
-    traced = trace(problem, optimiser, budgets, seed)
+    traced, error = trace_so_far(problem, optimiser, budgets, seed)
     seconds = perf_counter() - start
-    judged = (_judged(traced, budget, optimiser.population, reference) for budget in sorted(set(budgets)))
+    judged = (_judged(traced, budget, optimiser.population, reference) for budget in sorted(traced.states))
+    course = pd.DataFrame(chain.from_iterable(judged)).assign(seconds=seconds)
+    if error is not None:
+        return None, Failure(in_one_line(error), course)
     last = traced.states[max(budgets)]
     kept = evenly_spread(last.objectives, optimiser.population)
     final = pd.DataFrame(last.objectives[kept], columns=list(problem.objectives))
     if problem.constraints:
         final[VIOLATION] = last.violation[kept]
-    return StoredRun(pd.DataFrame(chain.from_iterable(judged)).assign(seconds=seconds), final)
+    return StoredRun(course, final), None
 
 
 def _judged(traced: Trace, budget: int, population: int, reference: ReferenceFront) -> Iterator[dict[str, Any]]:

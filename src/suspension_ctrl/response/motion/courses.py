@@ -46,7 +46,7 @@ class Passage(NamedTuple):
         if len(speed) == 1:  # rows at the points of the profile
             steps = int(length) * max(1, int(np.ceil(step / speed[0, 1] / _APART * (1 - 1e-9))))
         rows = duration / steps * np.arange(steps + 1, dtype=float)
-        heights = profile.height[:, tracks_of(profile, contacts)]
+        heights = heights_under(profile, contacts)
         course = _over_heights(heights, step, ahead, speed, duration, periodic)
         time = rows[:-1] if periodic else rows
         return cls(course, time, profile.distance[0] - start + distance_at(speed, time), periodic)
@@ -163,11 +163,13 @@ def _places(speed: Real) -> Real:
     return np.concatenate([[0.0], np.cumsum(steps)])
 
 
-def tracks_of(profile: Profile, contacts: Real) -> Integer:
-    """Return the index (r,) of the track under each contact point (r, 2) [m]; ValueError naming all that lack."""
-    apart = np.abs(np.array(profile.tracks) - contacts[:, 1:])
-    if (apart.min(axis=1) > _SAME_TRACK).any():
-        places = ", ".join(f"{y:g}" for y in dict.fromkeys(contacts[:, 1].tolist()))
-        needed = f"tracks at y = {places} m, as by road.profile(..., tracks=({places},))"
-        raise ValueError(f"profile must have {needed}, got tracks at {list(profile.tracks)} m")
-    return np.asarray(apart.argmin(axis=1))
+def heights_under(profile: Profile, contacts: Real) -> Real:
+    """Return the heights (n, r) under contact points (r, 2) [m], linear across between tracks."""
+    tracks, first = np.unique(profile.tracks, return_index=True)
+    across = contacts[:, 1]
+    if across.min() < tracks[0] - _SAME_TRACK or across.max() > tracks[-1] + _SAME_TRACK:
+        places = ", ".join(f"{y:g}" for y in dict.fromkeys(across.tolist()))
+        needed = f"across to y = {places} m, as by road.profile(..., tracks=({places},))"
+        raise ValueError(f"profile must reach {needed}, got tracks at {list(profile.tracks)} m")
+    shares = np.array([np.interp(across, tracks, one) for one in np.eye(len(tracks))])
+    return np.asarray(profile.height[:, first] @ shares)

@@ -8,7 +8,7 @@ import numpy as np
 from ...quantities import Complex, Real
 from ...roads.events import Event
 from ...roads.profiles import Profile
-from .courses import tracks_of
+from .courses import heights_under
 from .equations import roads_of
 
 _STEPS = 200  # in the shortest wave of an event or mode: straight pieces then attenuate it by 8e-5
@@ -45,7 +45,7 @@ class Wheels(NamedTuple):
 
     @classmethod
     def on(cls, profile: Profile, contacts: Real, periodic: bool) -> "Wheels":
-        """Place the wheels on a profile; ValueError if it is too short or lacks a track."""
+        """Place the wheels on a profile; ValueError if it is too short or too narrow."""
         x, step, n = contacts[:, 0], profile.step, profile.distance.size
         if (base := float(np.ptp(x))) > step * (n - 2):
             got = f"{step * (n - 1):g} m"
@@ -55,7 +55,7 @@ class Wheels(NamedTuple):
         times = np.arange(n if periodic else n - int(np.ceil(ahead.max())))
         index = times[:, None, None] + first[:, None] + np.arange(-1, 3)
         index = index % n if periodic else np.clip(index, 0, n - 1)
-        heights = profile.height[index, tracks_of(profile, contacts)[:, None]]
+        heights = heights_under(profile, contacts)[index, np.arange(len(contacts))[:, None]]
         return cls(heights, ahead - first, float(profile.distance[0] - (0.0 if periodic else x.min())))
 
     @classmethod
