@@ -15,7 +15,7 @@ MODULES = sorted(path for path in PACKAGE.rglob("*.py") if path.name != "__init_
 
 ROOMS = {
     *("checks", "compiled", "datafiles", "documents", "escaping", "quantities", "schema", "tables"),
-    *("commands", "paper", "response", "roads", "search", "study", "vehicles"),
+    *("commands", "desk", "paper", "response", "roads", "search", "study", "vehicles"),
 }
 
 PUBLIC = {
@@ -40,6 +40,7 @@ PUBLIC = {
     "UnitSlipWarning", "weighted_rms", "weighting",
     "FailureWarning", "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run",
     "Sampling", "minimise", "non_dominated", "Study", "as_pymoo", "as_scipy",
+    "candidates", "knee", "pick",
 }  # fmt: skip
 
 COMMANDS = {"commands/exposure.py", "commands/ride.py", "commands/weighting.py"}
@@ -82,6 +83,7 @@ def copy(checkout, tmp_path_factory) -> Path:
         ("study/lenses.py", "import suspension_ctrl.paper.experiment"),
         ("study/lenses.py", "from ..roads import road"),
         ("response/problem.py", "from ..search.nsga2 import Nsga2"),
+        ("desk/choosing.py", "from ..paper import experiment"),
         ("paper/tables.py", "def late():\n    from suspension_ctrl.commands import bode"),
         ("checks.py", "from .quantities import Real"),
     ],

@@ -1,3 +1,6 @@
+from .desk.candidate_table import candidates as candidates
+from .desk.choosing import knee as knee
+from .desk.choosing import pick as pick
 from .response.certifying import certify as certify
 from .response.correlation import correlate as correlate
 from .response.correlation import correlation_figure as correlation_figure

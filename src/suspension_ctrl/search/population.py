@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import checks
-from ..quantities import Bool, Checked, FrozenMapping, Real, Record, frozen_array
+from ..quantities import Bool, Checked, FrozenMapping, Integer, Real, Record, frozen_array
 from .constraints import violations
 from .indicators import non_dominated
 
@@ -53,9 +53,14 @@ class Population(Record):
 
     def front(self) -> "pd.DataFrame":
         """Return the rows of the non-dominated feasible designs, each once, without `violation`."""
+        return self.to_frame()[list(self.headers)].iloc[self.on_front()].reset_index(drop=True)
+
+    def on_front(self) -> Integer:
+        """Return the indices (k,) of the non-dominated feasible designs, each once."""
         feasible = np.flatnonzero(self.feasible)
         front = feasible[non_dominated(self.objectives[feasible])]
-        return self.to_frame()[list(self.headers)].iloc[front].drop_duplicates(ignore_index=True)
+        rows = np.hstack([self.designs[front], self.objectives[front]])
+        return front[np.sort(np.unique(rows, axis=0, return_index=True)[1])]
 
     def _repr_html_(self) -> str:
         return self.to_frame().to_html(max_rows=20)

@@ -12,3 +12,27 @@ def name_and_unit(header: str) -> tuple[str, str]:
         if found and text.endswith(closing):
             return name.strip(), " ".join(unit.split()).replace("²", "^2").replace("**", "^")
     return text, ""
+
+
+_SHOWN = {
+    "m": ("mm", 1e3), "N": ("kN", 1e-3), "N/m": ("kN/m", 1e-3), "N s/m": ("kN s/m", 1e-3),
+    "N m/rad": ("kN m/rad", 1e-3),
+}  # fmt: skip
+
+
+def shown_unit(unit: str) -> tuple[str, float]:
+    """Return the unit in which an engineer reads a quantity, and the factor to it: mm, kN, kN/m."""
+    return _SHOWN.get(unit, (unit, 1.0))
+
+
+def shown_value(value: float, unit: str, digits: int = 4) -> str:
+    """Return a value with its unit as an engineer reads it: ``12.5 mm``."""
+    shown, factor = shown_unit("" if unit == "-" else unit)
+    return f"{value * factor:.{digits}g} {shown}".rstrip()
+
+
+def shown_header(header: str) -> tuple[str, float]:
+    """Return a header in the unit in which an engineer reads its column, and the factor to it."""
+    name, unit = name_and_unit(header)
+    shown, factor = shown_unit(unit)
+    return (f"{name} [{shown}]", factor) if factor != 1 else (header, 1.0)

@@ -53,11 +53,16 @@ def _matrix(assembly: Assembly, values: Mapping[str, float], share: float) -> Re
         for links in (assembly.tyres, assembly.supports)
     )
     tyres, supports = lighter
+    plant = plant_of(replace(assembly, tyres=tyres, supports=supports), [])
+    return np.asarray(_dynamics(assembly, values, share).around(plant).A)
+
+
+def _dynamics(assembly: Assembly, values: Mapping[str, float], share: float) -> Dynamics:
+    """Return the struts with a share of all dampers."""
     units = {one.name: one.unit for one in assembly.strut_coefficients}
     own = {name: value * (share if units[name] == "N s/m" else 1.0) for name, value in values.items()}
     gains = gains_by_order(assembly.strut_coefficients, own, len(assembly.struts))
-    dynamics = Dynamics.of(assembly.networks, own, gains)
-    return np.asarray(dynamics.around(plant_of(replace(assembly, tyres=tyres, supports=supports), [])).A)
+    return Dynamics.of(assembly.networks, own, gains)
 
 
 def _eigen(matrix: Real) -> tuple[Complex, Complex]:
@@ -102,8 +107,9 @@ def _damped(assembly: Assembly, values: Mapping[str, float]) -> Iterator[Real]:
     """Yield A (s, s) with rising shares of all dampers, up to 1."""
     shares = np.linspace(0.0, 1.0, _STEPS + 1)[1:]
     none, whole = (_matrix(assembly, values, share) for share in (0.0, 1.0))
+    by_filters = bool(_dynamics(assembly, values, 1.0).filters)  # else A is linear in the share
     for share in shares.tolist():
-        if assembly.networks:
+        if by_filters:
             yield _matrix(assembly, values, share)
         else:
             yield none + share * (whole - none)
