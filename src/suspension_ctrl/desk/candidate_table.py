@@ -79,10 +79,11 @@ def candidates(
     >>> problem = sc.RideProblem(file.vehicle, sc.Iso8608Road("C"), speed=20.0, bounds=file.bounds)
     >>> run = sc.minimise(problem, sc.Nsga2(population=100), iterations=30, seed=1)
     >>> table = sc.candidates(problem, run, present=file.setting)
-    >>> table.name[0], sorted({"least ACC", "least SWS", "least DTL"} & {*table.name})
-    ('present design', ['least ACC', 'least DTL', 'least SWS'])
+    >>> [name for name in table.name if name != "between"]
+    ['present design', 'least ACC', 'compromise', 'least DTL, knee', 'least SWS']
     >>> first = table.loc[1]
     >>> print(f"{first['ACC change [%]']:.0f} %, {first['heave [Hz]']:.1f} Hz; {first['active']}")
+    -22 %, 0.5 Hz; damper at its lower bound
     """
     import pandas as pd
 

@@ -110,8 +110,7 @@ def knee(problem: Minimisable, run: Population) -> "pd.Series[float]":
 
     Examples
     --------
-    Between the least discomfort and the least travel of the paper's car; far more of one costs little of the other
-    up to there:
+    Of the discomfort and the travel of the paper's car on class C:
 
     >>> import suspension_ctrl as sc
     >>> file = sc.load_vehicle("yuen_ramli_2010")
@@ -121,7 +120,7 @@ def knee(problem: Minimisable, run: Population) -> "pd.Series[float]":
     >>> run = sc.minimise(problem, sc.Nsga2(population=100), iterations=30, seed=1)
     >>> best = sc.knee(problem, run)
     >>> print(f"ACC {best['ACC [m/s^2]']:.1f} m/s^2, SWS {1e3 * best['SWS [m]']:.0f} mm")
-    ACC 1.1 m/s^2, SWS 11 mm
+    ACC 1.4 m/s^2, SWS 9 mm
     """
     front = front_of(problem, run)
     return _row(problem, front, _knee(scaled(front.objectives)), KNEE)
