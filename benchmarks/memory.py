@@ -26,7 +26,7 @@ from suspension_ctrl.response.history_files import read_accelerations
 from suspension_ctrl.roads.profile_files import load_profile
 
 def peak():
-    with open("/proc/self/status") as status:
+    with open("/proc/self/status", encoding="ascii") as status:
         return next(int(line.split()[1]) for line in status if line.startswith("VmHWM")) / 1e3
 
 _, reader, small, large = sys.argv
@@ -91,7 +91,7 @@ def _csv(header: str, row: str, step: float) -> Callable[[Path, float], None]:
 
     def write(path: Path, megabytes: float) -> None:
         waves, left = _waves().tolist(), megabytes * 1e6
-        with path.open("w") as file:
+        with path.open("w", encoding="utf-8") as file:
             for start in _starts():
                 text = "".join(f"{row}\n".format(step * (start + i), one) for i, one in enumerate(waves))
                 left -= file.write(text if start else f"{header}\n{text}")
