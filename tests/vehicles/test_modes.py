@@ -10,8 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import eigh
 
-from garage import BENDING, DRIVER, FULL, HALF, PASSENGER, QUARTER, axle_struts, axles, masses, struts_of
+from garage import BENDING, DRIVER, FULL, HALF, PASSENGER, QUARTER, ROAD, axle_struts, axles, masses, struts_of
 from suspension_ctrl import (
+    BilinearDamper,
     Damper,
     HalfCar,
     Inerter,
@@ -255,3 +256,16 @@ def test_an_inerter_in_series_has_a_mode_of_its_own():
     table = car.modes({"spring": k, "damper": 1500.0, "inerter": b, "mount": c})
     np.testing.assert_allclose(table[FREQUENCY], expected, rtol=1e-9)
     assert table["name"].is_unique
+
+
+def test_a_vehicle_with_force_laws_has_modes_linearised_on_a_road():
+    """A bilinear damper of equal slopes is linear; the refusal names the call."""
+    law = replace(QUARTER, strut=parallel(Spring(), BilinearDamper(bump=1500.0, rebound=1500.0)))
+    instead = r"as of vehicle.linearised\(setting, road, speed\), with a Zener element for rubber, got damper"
+    for ask in (law.modes, law.closed):
+        with pytest.raises(ValueError, match=f"^strut must be of springs, dampers and inerters alone, {instead}$"):
+            ask({"spring": 22e3})
+    found = law.linearised({"spring": 22e3}, ROAD, 20.0).modes()
+    expected = QUARTER.modes({"spring": 22e3, "damper": 1500.0})
+    assert found["name"].equals(expected["name"])
+    np.testing.assert_allclose(found.iloc[:, 1:], expected.iloc[:, 1:], rtol=1e-6)

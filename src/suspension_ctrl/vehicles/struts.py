@@ -95,8 +95,8 @@ class Element(Strut):
 
     def fraction(self, _values: Mapping[str, float], /) -> Fraction:
         """Return the dynamic stiffness at the wheel; ValueError if the element has none of this form."""
-        needed = "of springs, dampers and inerters alone: linearise force laws, put a Zener element for rubber"
-        raise ValueError(f"strut must be {needed}, got {self.name}")
+        instead = "as of vehicle.linearised(setting, road, speed), with a Zener element for rubber"
+        raise ValueError(f"strut must be of springs, dampers and inerters alone, {instead}, got {self.name}")
 
     def static_stiffness(self, _values: Mapping[str, Any], /) -> Any:
         """Return 0 N/m: the element holds no static force."""
