@@ -40,7 +40,7 @@ class AnyStruts(NamedTuple):
     density: Real  # (2, n), quadrature weights of deflections and of rates
     wheels: Real  # (t,), number of ports of each network
 
-    @compiled(error_model="numpy")
+    @compilable()
     def __call__(self, designs: Real) -> Real:
         """Return the mean squares (p, k) of designs (p, v), each as if alone; NaN without a working point."""
         laws, ports = self.networks.law.shape[0], self.networks.sag.size
@@ -48,7 +48,7 @@ class AnyStruts(NamedTuple):
         return solve(self, designs, nothing)
 
 
-@compilable(error_model="numpy")
+@compiled(error_model="numpy")
 def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
     """Return the mean squares (p, k) of designs (p, v), and fill in their working points if there is room."""
     struts, networks = any_struts.struts, any_struts.networks

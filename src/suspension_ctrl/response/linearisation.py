@@ -2,12 +2,10 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled
 from ..quantities import Bool, FrozenMapping, Real, Record
 from ..vehicles.assembly import Assembly, Network, StrutCoefficient
 from ..vehicles.elements import Damper, Spring
@@ -153,7 +151,10 @@ def working_points(case: AnyCase, designs: Real) -> Points:
     """Return the working points of designs (p, v); ValueError that names the first design without one."""
     p, laws, ports = len(designs), len(case.networks.law), case.networks.sag.size
     points = Points(np.empty((p, laws, STATES)), np.zeros((p, ports)), np.empty(p, dtype=np.int64))
-    _solver(one_port.solve if isinstance(case, OnePort) else any_struts.solve)(case, designs, points)
+    if isinstance(case, OnePort):
+        one_port.solve(case, designs, points)
+    else:
+        any_struts.solve(case, designs, points)
     check_reached(points.iterations >= 0, designs)
     return points
 
@@ -170,11 +171,6 @@ def check_reached(reached: Bool, designs: Real) -> None:
     if not reached.all():
         got = designs[int(reached.argmin())].tolist()
         raise ValueError(f"force laws must have a working point, got none for design {got}")
-
-
-@lru_cache
-def _solver(function: Any) -> Any:
-    return compiled(error_model="numpy")(function)
 
 
 def at_working_point(

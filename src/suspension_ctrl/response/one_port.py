@@ -58,7 +58,7 @@ class OnePort(NamedTuple):
     guess: Real  # (3,), deviations of deflection and rate at a damping [N s/m] of the strut
     terms: int
 
-    @compiled(error_model="numpy")
+    @compilable()
     def __call__(self, designs: Real) -> Real:
         """Return the mean squares (p, k) of designs (p, v), each as if alone; NaN without a working point."""
         laws, ports = self.networks.law.shape[0], self.networks.sag.size
@@ -76,7 +76,7 @@ class OnePort(NamedTuple):
                 for density, by_road, by_strut in zip(densities, *ports.h.T[:, : ports.m], strict=True)
             ]
         ).reshape(ports.m, 4, omega.size)
-        term, power = np.nonzero(numerators.any(axis=2))
+        term, power = map(np.ascontiguousarray, np.nonzero(numerators.any(axis=2)))  # as pickles hold them
         denominator = _square_of_line(np.ones_like(p22), -p22)
         deflection = np.abs(p21) ** 2 * weight
         excitation = np.array([deflection, omega**2 * deflection])
@@ -120,7 +120,7 @@ def room_for(networks: Networks, n: int) -> Room:
     return Room(values, curve, state, statics, position, work, damping, direct, rows, gain, np.empty(n))
 
 
-@compilable(error_model="numpy")
+@compiled(error_model="numpy")
 def solve(port: OnePort, designs: Real, points: Points) -> Real:
     """Return the mean squares (p, k) of designs (p, v), and fill in their working points if there is room."""
     networks, room = port.networks, room_for(port.networks, port.omega.size)

@@ -62,7 +62,7 @@ class OneStrut(NamedTuple):
                 for density, by_road, by_strut in zip(densities, *ports.h.T[:, : ports.m], strict=True)
             ]
         ).reshape(ports.m, 5, omega.size)
-        term, power = np.nonzero(numerators.any(axis=2))
+        term, power = map(np.ascontiguousarray, np.nonzero(numerators.any(axis=2)))  # as pickles hold them
         denominator = _square_of_line(np.ones_like(p22), -p22, omega)
         return cls(denominator[1:], numerators[term, power], term, power, ports.m)
 

@@ -129,7 +129,7 @@ def _decoding(kinds: Sequence[str | Sequence[float]], lower: Sequence[float], up
             first, last = len(catalogue), len(catalogue) + len(kind) - 1
             catalogue += kind
         rows.append((form, first, last))
-    forms, ends = np.array(rows)[:, 0].astype(np.int64), np.array(rows)[:, 1:].T
+    forms, ends = np.array(rows)[:, 0].astype(np.int64), np.array(rows, dtype=float)[:, 1:].T
     return Decode(forms, ends[0].copy(), ends[1].copy(), np.array(catalogue, dtype=float))
 
 

@@ -110,7 +110,8 @@ def drive(motion: Motion, course: Course, state: Real, tolerance: float, times: 
     the first heights.
     """
     e, tree = motion.equations, motion.tree
-    numbers, work = numbers_of(motion.program, tree, motion.values), work_of(e, tree)
+    values = np.require(motion.values, requirements=("C", "W"))  # read-only arrays are another type
+    numbers, work = numbers_of(motion.program, tree, values), work_of(e, tree)
     if not np.isnan(state[0]):
         begin(numbers, work)
     elif not settle(e, tree, numbers, course, work, state):

@@ -68,7 +68,7 @@ def work_of(e: Equations, tree: Tree) -> Work:
     q, laws, t = e.f.shape[1], tree.of_rate.size, e.static.size
     n = len(e.a) + tree.states
     return Work(
-        columns=np.vstack([e.a.T, e.b.T, e.g.T, e.f.T]),
+        columns=np.vstack([e.a.T, e.b.T, e.g.T, e.f.T]).copy(),
         ports=np.ascontiguousarray(e.c.T),
         x=np.zeros((TERMS + 2, n)),
         z=np.zeros((2, ROAD, e.b.shape[1])),
