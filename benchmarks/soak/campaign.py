@@ -40,9 +40,10 @@ def made(folder: Path, jobs: int | None = None, scheduler: str | None = None) ->
         problem=problem, algorithms=["nsga2", "sobol"], populations=[20], iterations=[5], repeats=3, seeds=6
     )
     campaign = Campaign(comparison, folder, tolerance=0.02)
-    front, _ = campaign.reference(campaign.time(), grid=True)
+    reference = campaign.reference(campaign.time())
+    assert reference is not None  # the line has a front
     with cluster(jobs, scheduler) as client:
-        table, _ = campaign.judge(front, client)
+        table, _ = campaign.judge(reference.front, client)
     order = ["algorithm", "seed", "budget", "set"]
     return table.drop(columns="seconds").sort_values(order, ignore_index=True)
 

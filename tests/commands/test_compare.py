@@ -18,7 +18,7 @@ def quick(script, tmp_path_factory):
 
 def test_prints_tables_and_last_the_folder(quick):
     out, done = quick
-    for title in ("Table 2: nsga2", "Table 3: moead-dra", "Table 4:"):
+    for title in ("Table 2: nsga2", "Table 3: moead-dra", "Table 4: the ratio", "Quality of the final pop"):
         assert title in done.stdout
     assert "ACC is weighted with Wb" in done.stdout
     assert "MOEA/D-DRA has not allocated resources yet" in done.stdout
@@ -28,10 +28,11 @@ def test_prints_tables_and_last_the_folder(quick):
 def test_writes_everything(quick):
     out, _ = quick
     names = {path.name for path in out.glob("[!.]*")}
-    tables = {f"table{n}{ending}" for n in (2, 3, 4) for ending in (".csv", ".md", ".tex")}
+    tables = {f"{n}{e}" for n in ("table2", "table3", "table4", "hypervolume") for e in (".csv", ".md", ".tex")}
     others = ("", "_moead-dra", "_moead-dra-raw")  # the first algorithm beside each of the others
     pictures = {f"figure5{other}.{ending}" for other in others for ending in ("png", "pdf")}
-    assert names == tables | pictures | {"runs.csv", "environment.json", "reference", "fronts", "timed"}
+    files = {"runs.csv", "reference.csv", "environment.json", "reference", "fronts", "timed"}
+    assert names == tables | pictures | files
     runs = pd.read_csv(out / "runs.csv")
     assert runs.timing.all()
     assert len(list((out / "fronts").iterdir())) == len(runs) == 2 * 2 * 2 * (4 + 2)

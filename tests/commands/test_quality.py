@@ -61,8 +61,30 @@ def test_runs_that_raise_leave_the_others_in_tables_and_figures(tmp_path, monkey
     assert set(raised.error) == {"RuntimeError: no such strut"}
     differences = pd.read_csv(tmp_path / "differences.csv")
     assert set(differences["first"]) == {"nsga2"}
-    assert "nsga2 against sobol. At equal iterations" in (tmp_path / "verdict.md").read_text()
+    words = (tmp_path / "verdict.md").read_text()
+    assert words.startswith("No verdict: 2 runs against 6 cannot differ significantly.")
     assert (tmp_path / "attainment_n20.png").exists()
+
+
+def test_a_verdict_is_a_table_and_words(tmp_path, monkeypatch, capsys):
+    """Printed with a column for each lens; the same in the files, with the numbers behind it."""
+    reported(campaign(lambda x: False), tmp_path, monkeypatch)
+    table = pd.read_csv(tmp_path / "verdict.csv")
+    assert set(zip(table.set, table.lens, strict=True)) == {
+        (one, f"equal {lens}")
+        for one in ("population", "archive of N")
+        for lens in ("iterations", "evaluations", "time")
+    }
+    assert set(table.ahead) <= {"nsga2", "sobol", "no difference"}
+    words = (tmp_path / "verdict.md").read_text()
+    assert words.startswith("| set ")
+    assert words.count("nsga2 against sobol. At equal iterations ") == 2
+    assert r"\toprule" in (tmp_path / "verdict.tex").read_text()
+    quality.say_verdict(table)
+    rows = [line.split() for line in capsys.readouterr().out.splitlines() if line.startswith(("archive", "popul"))]
+    assert len(rows) == 2
+    wanted = table[table.set == "population"].set_index("lens").ahead
+    assert " ".join(rows[0]) == f"population 20 2 sobol {' '.join(wanted)}"
 
 
 def test_an_algorithm_without_any_run_is_left_out(tmp_path, monkeypatch):

@@ -12,8 +12,10 @@ import pandas as pd
 import pytest
 
 from suspension_ctrl import Problem
+from suspension_ctrl.search.indicators import ReferenceFront
 from suspension_ctrl.study.campaign import Campaign
 from suspension_ctrl.study.comparison import Comparison
+from suspension_ctrl.study.reference import Reference
 from suspension_ctrl.study.store import FolderStore, SpoiltRunWarning
 
 RUNS, BUDGET, POPULATION = 24, 200, 20
@@ -200,42 +202,57 @@ SAMPLE = 64  # designs that tell one problem from another
 def test_a_campaign_in_a_program_resumes_from_its_folder(tmp_path):
     line, watched = Line(), []
 
-    def watch(runs, total, text):
-        watched.append((text, total))
+    def watch(runs, total, text, found):
+        watched.append((text, total, found))
         return runs
 
     campaign = Campaign(compared(line), tmp_path, tolerance=0.02, watch=watch)
     store = campaign.time()
     assert sorted(store) == sorted(run.name for run in campaign.comparison.timed_runs())
-    front, origin = campaign.reference(store, grid=False)
-    assert origin == "the non-dominated designs of all these runs"
+    assert campaign.kept(judged=True) == (4, 4 + 6)
+    front, _ = campaign.reference(store)
     table, judged = campaign.judge(front)
     assert table.groupby(["algorithm", "seed"]).ngroups == len(judged) == 2 * 3
     finals = campaign.comparison.studies()[20].finals(judged)
     assert finals.groupby(["algorithm", "seed"]).size().between(1, 20).all()
     assert (finals.f2 >= 1 - finals.f1 - 1e-12).all()
-    assert watched == [("timed runs", 4), ("quality, N = 20", 6)]
+    assert watched == [("timed runs", 4, 0), ("quality, N = 20", 6, 0)]
+    assert campaign.kept(judged=False) == (4, 4)
+    assert campaign.kept(judged=True) == (10, 10)
 
     before = line.designs
     again, _ = campaign.judge(front)
     pd.testing.assert_frame_equal(again, table)
-    assert watched[-1] == ("quality, N = 20", 0)
+    assert watched[-1] == ("quality, N = 20", 6, 6)
     assert line.designs == before + SAMPLE
+    campaign.time()
+    assert watched[-1] == ("timed runs", 4, 4)
+    assert line.designs == before + 2 * SAMPLE  # nothing is warmed up
 
 
 def test_the_reference_front_of_a_grid_is_made_once_for_a_folder(tmp_path):
     line = Line()
     campaign = Campaign(compared(line), tmp_path, tolerance=0.02)
-    front, origin = campaign.reference({}, grid=True)
-    assert origin.startswith("the non-dominated designs of a 200 x 200 grid (")
-    assert front.volume == pytest.approx(0.71, abs=0.5 / 199)  # closed form, less triangles between points
+    found = campaign.reference({})
+    assert found.origin.startswith("a 200 x 200 grid (")
+    assert found.front.volume == pytest.approx(0.71, abs=0.5 / 199)  # closed form, less triangles between points
     before = line.designs
-    assert campaign.reference({}, grid=True) == (front, origin)
+    assert campaign.reference({}) == found
     assert line.designs == before + SAMPLE
 
-    (tmp_path / "reference" / "final" / "grid.csv").write_text("0,1\n")
-    with pytest.warns(SpoiltRunWarning, match=r"grid.csv: must be as it was stored"):
-        assert campaign.reference({}, grid=True) == (front, origin)
+    (tmp_path / "reference" / "final" / "front.csv").write_text("0,1\n")
+    with pytest.warns(SpoiltRunWarning, match=r"front.csv: must be as it was stored"):
+        assert campaign.reference({}) == found
+
+
+def test_a_given_reference_front_is_kept_and_another_one_refused(tmp_path):
+    line = Line()
+    given, other = (Reference(ReferenceFront.of(np.array([[0, f2], [1.0, 0]])), "a table") for f2 in (1.0, 2.0))
+    campaign = Campaign(compared(line), tmp_path)
+    assert campaign.reference({}, given) == given
+    assert line.designs == SAMPLE
+    with pytest.raises(ValueError, match=r"^given.* must be .* to resume there"):
+        campaign.reference({}, other)
 
 
 @pytest.mark.parametrize(
@@ -247,12 +264,12 @@ def test_the_reference_front_of_a_grid_is_made_once_for_a_folder(tmp_path):
     ],
 )
 def test_a_reference_front_of_another_problem_is_refused(tmp_path, evaluate, changes, key):
-    Campaign(compared(Line()), tmp_path, tolerance=0.02).reference({}, grid=True)
+    Campaign(compared(Line()), tmp_path, tolerance=0.02).reference({})
     with pytest.raises(ValueError, match=f"^{key}.* must be .* to resume there"):
-        Campaign(compared(evaluate, **changes), tmp_path, tolerance=0.02).reference({}, grid=True)
+        Campaign(compared(evaluate, **changes), tmp_path, tolerance=0.02).reference({})
 
 
 def test_another_tolerance_makes_no_use_of_a_reference_front(tmp_path):
-    Campaign(compared(Line()), tmp_path, tolerance=0.02).reference({}, grid=True)
+    Campaign(compared(Line()), tmp_path, tolerance=0.02).reference({})
     with pytest.raises(ValueError, match=r"^tolerance must be 0.02 as in .* to resume there, got 0.01$"):
-        Campaign(compared(Line()), tmp_path, tolerance=0.01).reference({}, grid=True)
+        Campaign(compared(Line()), tmp_path, tolerance=0.01).reference({})

@@ -1,5 +1,7 @@
 """Findings of a comparison over many seeds, from a table made by hand."""
 
+from math import comb
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -46,10 +48,30 @@ def test_findings_of_a_table_made_by_hand(comparison):
     reached = found.reached.set_index(["set", "algorithm"])
     assert reached.loc[(POPULATION, "nsga2"), "reached"] == 3  # seeds 5, 6 and 7
     assert reached.loc[(POPULATION, "sobol"), "reached"] == 0
-    assert [words.split(",")[0] for words in found.verdict] == [
+    verdict = found.verdict.set_index(["set", "lens"])
+    assert verdict.ahead.eq("nsga2").all()
+    assert len(verdict) == 2 * 3
+    assert verdict.median_first[POPULATION, "equal evaluations"] == pytest.approx(0.9035)
+    assert [words.split(",")[0] for words in found.words] == [
         "Hypervolume of the final population", "Hypervolume of the archive cut to N",
     ]  # fmt: skip
-    assert "nsga2 is ahead" in found.verdict[0]
+    assert "nsga2 is ahead" in found.words[0]
+
+
+def test_too_few_runs_give_no_verdict_but_the_number_that_would(comparison):
+    """By hand: 4 indicators, 3 lenses and 3 sets are 36 tests; the least p is 2 / (2n over n)."""
+    few = table(comparison)
+    few = few[few.seed < 3]
+    found = findings(comparison, few, clock(), 0.905)
+    assert found.verdict.empty
+    assert len(found.differences) == 36
+    needed = next(n for n in range(2, 99) if 36 * 2 / comb(2 * n, n) < 0.05)
+    assert found.words == [
+        "No verdict: 3 runs against 3 cannot differ significantly. Their least p is 0.1, and "
+        "Holm's method multiplies it by the 36 tests of pairs, configurations, lenses, sets and indicators. "
+        f"It takes {needed} seeds."
+    ]
+    assert found.medians.runs.eq(3).all()
 
 
 def test_without_a_run_that_ended_there_is_nothing(comparison):
@@ -59,5 +81,5 @@ def test_without_a_run_that_ended_there_is_nothing(comparison):
 def test_one_algorithm_has_medians_and_no_verdict(comparison):
     alone = Comparison(problem=comparison.problem, algorithms=["nsga2"], populations=[20], iterations=[2], seeds=8)
     found = findings(alone, table(alone), clock(), 0.9)
-    assert found.verdict == []
+    assert (len(found.verdict), found.words) == (0, [])
     assert len(found.medians) == 3 * 3

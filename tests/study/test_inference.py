@@ -1,12 +1,14 @@
 """Statistics against worked examples and against straightforward second computations."""
 
 import itertools
+from math import comb
 
 import numpy as np
 import pandas as pd
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy import stats
 
 from suspension_ctrl.study import inference as statistics
 
@@ -92,6 +94,38 @@ def test_one_run_each_can_be_compared():
     assert pair.ratio == 0.5
     assert np.isnan(pair.ratio_low)
     assert pair.p_holm == 1
+
+
+def test_the_least_p_is_of_samples_that_do_not_overlap():
+    """Exact: 2 of all orders; of three against three 0.1, of samples beyond the exact test nearly nothing."""
+    for first, second in ((3, 3), (4, 7), (8, 8), (20, 31)):
+        assert statistics.least_p(first, second) == pytest.approx(2 / comb(first + second, first), rel=1e-9)
+    assert 0 < statistics.least_p(21, 21) < 1e-7
+    assert statistics.rank_test([1, 2, 3], [4, 5, 6]) == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize("tests", [1, 36, 144, 1440, 100_000])
+def test_as_many_runs_as_needed_differ_and_one_less_do_not(tests):
+    runs = statistics.runs_needed(tests)
+    assert 2 * tests / comb(2 * runs, runs) < 0.05 <= 2 * tests / comb(2 * runs - 2, runs - 1)
+
+
+def test_ties_are_left_to_the_normal_approximation():
+    """SciPy's own value: an exact distribution does not hold with ties."""
+    first, second = [1.0, 2.0, 2.0, 3.0], [2.0, 4.0, 5.0]
+    wanted = stats.mannwhitneyu(first, second, method="asymptotic").pvalue
+    assert statistics.rank_test(first, second) == wanted
+
+
+def test_a_verdict_names_who_is_ahead_or_why_nobody_is():
+    """Of 3 runs none, however far apart; of 31 only where effect and p say so."""
+    few = table()[lambda t: t.seed < 3]
+    judged = statistics.verdict(statistics.pairwise(few, ["population"], ["value"], ["a", "b", "c"]))
+    assert judged.ahead.eq(statistics.TOO_FEW).all()
+    assert judged.p_holm_least.eq(6 * 0.1).all()
+    judged = statistics.verdict(statistics.pairwise(table(), ["population"], ["value"], ["a", "b", "c"]))
+    assert judged.ahead[:3].tolist() == [statistics.NO_DIFFERENCE, "c", "c"]
+    assert judged.p_holm_least.lt(1e-9).all()
 
 
 def test_quartiles_by_group():

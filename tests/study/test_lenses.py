@@ -85,7 +85,7 @@ def compared(shift: float) -> pd.DataFrame:
 
 def test_verdict_says_who_is_ahead_and_where_nobody_is():
     for shift, expected in ((0.05, "b is ahead"), (-0.05, "a is ahead")):
-        words = verdicts.verdict(compared(shift), "a", "b", "Quality")
+        words = verdicts.in_words(verdicts.verdict(compared(shift)), "a", "b", "Quality")
         assert words.startswith("Quality, a against b. At equal iterations the runs show no difference for N = 10")
         assert f"At equal time {expected} for N = 10 and 5 iterations (medians 0." in words
         assert "p < 0.001, A12 = " in words
@@ -93,4 +93,5 @@ def test_verdict_says_who_is_ahead_and_where_nobody_is():
 
 
 def test_verdict_without_runs_says_so():
-    assert verdicts.verdict(compared(0.0), "a", "c", "Quality") == "There are no runs of both a and c to compare."
+    words = verdicts.in_words(verdicts.verdict(compared(0.0)), "a", "c", "Quality")
+    assert words == "There are no runs of both a and c to compare."

@@ -27,10 +27,10 @@ class Line:
 def test_refined_front_has_the_hypervolume_of_the_true_one():
     """n points on the line lose (n - 1) triangles of 1/2 (n - 1)^2: with half as many values twice as much."""
     found = references.refined(Line().problem(), 2e-3)
-    lost = 0.5 / (found.points - 1)
-    assert found.front.volume == pytest.approx(0.71 - lost, rel=1e-9)
+    lost, volume = 0.5 / (found.points - 1), ReferenceFront.of(found.objectives).volume
+    assert volume == pytest.approx(0.71 - lost, rel=1e-9)
     half = 0.5 / (found.points // 2 - 1)
-    assert found.change == pytest.approx((half - lost) / found.front.volume, rel=1e-6)
+    assert found.change == pytest.approx((half - lost) / volume, rel=1e-6)
     assert 0 < found.second < found.change <= 2e-3
     assert found.points == 400  # 200 values change by 3.5e-3
 
@@ -42,17 +42,15 @@ def test_a_grid_has_the_values_of_discrete_variables_and_none_of_a_held_one():
         lower=(0, 0, 0.5), upper=(1, 3, 0.5), objectives=("f1", "f2"), kinds=kinds,
     )  # fmt: skip
     found = references.refined(line)
-    np.testing.assert_array_equal(np.unique(found.front.objectives, axis=0), [[0, 1.5], [0.25, 1.25], [1, 0.5]])
+    np.testing.assert_array_equal(np.unique(found.objectives, axis=0), [[0, 1.5], [0.25, 1.25], [1, 0.5]])
     assert found.points == 200
-    assert found.describe(line).startswith("the non-dominated designs of a 3 x 4 grid (hypervolume ")
+    assert found.describe(line) == "3 x 4 grid"
 
 
 def test_a_front_comes_back_from_its_tables_to_the_last_bit(tmp_path):
-    first = references.refined(Line(1 / 3).problem(), 1e-2)
+    first = references.sought(Line(1 / 3).problem(), [], 1e-2)
     FolderStore(tmp_path, {})["grid"] = first.stored()
-    second = references.Refined.of(FolderStore(tmp_path, {})["grid"])
-    assert second.front == first.front
-    assert second[1:] == first[1:]
+    assert references.Reference.of(FolderStore(tmp_path, {})["grid"]) == first
 
 
 def test_values_tell_one_problem_from_another():
@@ -63,10 +61,47 @@ def test_values_tell_one_problem_from_another():
     assert references.fingerprint(line.problem()) == references.fingerprint(Line().problem())
 
 
-def test_too_many_variables_are_refused():
+def test_of_too_many_variables_no_grid_is_tried():
     problem = Problem(evaluate=lambda x: x[:, :2], lower=(0,) * 5, upper=(1,) * 5, objectives=("f1", "f2"))
-    with pytest.raises(ValueError, match=r"^problem must have a front that a grid of 20000000 designs settles"):
-        references.refined(problem)
+    assert references.refined(problem) is None
+
+
+def test_where_no_grid_settles_the_front_is_of_the_runs_and_the_finest_grid():
+    """A run has found a point beyond the line of the grid; 50,000 designs allow 200 x 200."""
+    found = references.sought(Line().problem(), [np.array([[0.5, 0.4], [0.6, 0.9]])], 1e-9, most=50_000)
+    x = np.linspace(0, 1, 200)
+    line = np.stack([x, 1 - x], axis=1)[~((x >= 0.5) & (1 - x >= 0.4))]
+    points = found.front.objectives[found.front.objectives[:, 0].argsort()]
+    np.testing.assert_allclose(points, np.insert(line, 100, [0.5, 0.4], axis=0), atol=1e-12)
+    half, lost = 0.5 / 99, 0.5 / 199
+    assert found.origin == (
+        "all timed runs and a 200 x 200 grid (no grid within 50,000 designs and 120 s settles to 1e-09: half as "
+        f"many values change its hypervolume by {(half - lost) / (0.71 - lost):.1e})"
+    )
+
+
+def test_without_a_grid_the_front_is_of_the_runs():
+    runs = [np.array([[0, 1.0], [0.5, 0.5]]), np.array([[1.0, 0]])]
+    found = references.sought(Line().problem(), runs, most=9_999)
+    assert found.front.objectives.tolist() == [[0, 1], [0.5, 0.5], [1, 0]]
+    assert found.origin == "all timed runs (no grid within 9,999 designs and 120 s has a front)"
+
+
+@pytest.mark.parametrize("runs", [[], [np.empty((0, 2))], [np.array([[0.5, 0.5], [0.5, 0.6]])]])
+def test_without_two_designs_that_differ_in_every_objective_there_is_no_reference(runs):
+    assert references.sought(limited(2.0), runs, most=20_000) is None
+
+
+def test_a_slow_evaluation_ends_the_search_for_a_finer_grid(monkeypatch):
+    """A clock that runs by designs, 1 s for 10,000: 100 x 100 takes 1 s, 200 x 200 4 s, of 6 s in all."""
+    line = Line()
+    monkeypatch.setattr(references, "perf_counter", lambda: line.designs / 10_000)
+    found = references.refined(line.problem(), 1e-9, seconds=6.0)
+    assert found.points == 200
+    assert line.designs == 50_000 + 20_000  # two evaluations of the next, which would take 16 s
+    with pytest.raises(TimeoutError):
+        references.grid_front(line.problem(), 400, end=line.designs / 10_000 + 15)
+    assert len(references.grid_front(line.problem(), 400, end=line.designs / 10_000 + 17)) == 400
 
 
 def limited(bound: float, evaluate=None) -> Problem:
@@ -81,9 +116,10 @@ def limited(bound: float, evaluate=None) -> Problem:
 def test_only_feasible_designs_make_a_front():
     """The feasible half of the line: in its own scale the same 0.71 below 1.1, less as many triangles as steps."""
     found = references.refined(limited(0.5), 2e-3)
-    assert found.front.ideal[0] >= 0.5
+    front = ReferenceFront.of(found.objectives)
+    assert front.ideal[0] >= 0.5
     steps = np.count_nonzero(np.linspace(0, 1, found.points) >= 0.5) - 1
-    assert found.front.volume == pytest.approx(0.71 - 0.5 / steps, rel=1e-9)
+    assert front.volume == pytest.approx(0.71 - 0.5 / steps, rel=1e-9)
 
 
 def test_the_front_of_a_constrained_problem_is_its_closed_form():
@@ -97,10 +133,7 @@ def test_the_front_of_a_constrained_problem_is_its_closed_form():
 def test_without_a_front_of_feasible_designs_there_is_no_reference(bound, found):
     """One point, the bound of the box, has no range to scale by; no point at all is no front either."""
     assert references.grid_front(limited(bound), 100).shape == (found, 2)
-    with pytest.raises(
-        ValueError, match=r"^problem must have .* does not \(no front of feasible designs found\); give"
-    ):
-        references.refined(limited(bound), most=100_000)
+    assert references.refined(limited(bound), most=100_000) is None
 
 
 def test_a_feasible_region_that_the_coarsest_grid_misses_is_found():

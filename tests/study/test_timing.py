@@ -39,7 +39,8 @@ def store(comparison, plan):
 
 @pytest.fixture(scope="module")
 def runs(problem, comparison, store):
-    return experiments.tidy(comparison, store, ReferenceFront.of(grid_front(problem, 40)))
+    front = ReferenceFront.of(grid_front(problem, 40))
+    return experiments.judged(comparison, store, experiments.tidy(comparison, store), front)
 
 
 def test_runs_spend_what_was_planned(plan, store):
@@ -65,7 +66,8 @@ def test_tidy_table_has_a_row_per_run(runs, plan):
 
 def test_runs_that_are_stored_are_not_made_again(comparison, plan, store):
     some = {planned.name: store[planned.name] for planned in plan[3:]}
-    assert list(experiments.carry_out(comparison, some)) == plan
+    assert list(experiments.carry_out(comparison, some)) == plan[:3]
+    assert list(experiments.carry_out(comparison, some)) == []
     assert all(some[planned.name] is store[planned.name] for planned in plan[3:])
     for planned in plan[:3]:
         np.testing.assert_array_equal(some[planned.name].final, store[planned.name].final)
@@ -133,7 +135,7 @@ def test_final_populations_tell_violations_where_there_are_constraints():
     assert 0 < len(front) <= feasible.sum()
     assert front.violation.eq(0).all()
     reference = ReferenceFront.of(grid_front(problem, 40))
-    row = experiments.tidy(comparison, store, reference).iloc[0]
+    row = experiments.judged(comparison, store, experiments.tidy(comparison, store), reference).iloc[0]
     assert row.hypervolume == reference.hypervolume(values[feasible, :2])
     assert row.igd_plus == reference.igd_plus(values[feasible, :2])
 
@@ -151,7 +153,7 @@ def test_runs_without_a_feasible_design_have_rows_too():
     with pytest.warns(InfeasibleWarning, match=r"^no feasible design among \d+ evaluated, .* 1: g 1$"):
         planned = list(experiments.carry_out(comparison, store))
     front = ReferenceFront.of(np.array([[0.0, 1.0], [1.0, 0.0]]))
-    table = experiments.tidy(comparison, store, front)
+    table = experiments.judged(comparison, store, experiments.tidy(comparison, store), front)
     assert table.hypervolume.eq(0).all()
     assert np.isposinf(table.igd_plus).all()
     assert experiments.front(problem, store[planned[0].name]).empty

@@ -23,6 +23,7 @@ def compare(
     speed: o.Speed = None,
     band: o.Band = None,
     problem: o.Problem = None,
+    reference: o.Reference = None,
     seed: o.Seed = 0,
     out: o.Resumed = None,
     quick: o.Quick = False,
@@ -32,7 +33,7 @@ def compare(
     jobs: o.Jobs = None,
     scheduler: o.Scheduler = None,
 ) -> None:
-    """Time NSGA-II against MOEA/D-DRA: Tables 2 to 4, Figure 5.
+    """Time NSGA-II against MOEA/D-DRA on any problem; on the paper's: Tables 2 to 4, Figure 5.
 
     With --quality the algorithms are also compared over many seeds, at equal iterations, evaluations and time,
     with statistics and a verdict; these runs are not timed and can be spread over processes and machines. Writes

@@ -1,4 +1,4 @@
-"""The steps of `suspension-ctrl compare`: timed runs, quality over seeds, files and printed tables."""
+"""The steps of `suspension-ctrl compare`: timed runs, reference front, quality over seeds; files before prints."""
 
 from collections.abc import Mapping
 from contextlib import AbstractContextManager
@@ -14,21 +14,20 @@ from ..paper import experiment as paper
 from ..quantities import column_headers
 from ..response.files import load_problem
 from ..response.problem import RideProblem
-from ..search.kinds import Coding
+from ..search.indicators import ReferenceFront
 from ..study import machine, reference, timing
 from ..study.campaign import Campaign
 from ..study.comparison import Comparison
 from ..study.findings import findings, last_rows
-from ..study.store import keeping
+from ..study.reference import Reference
+from ..study.reference_files import load_reference
+from ..study.store import FolderStore, keeping
 from ..tables import write_csv, write_json
 from . import options as o
-from . import quality, reports, results, terminal
+from . import quality, reports, results, stages, terminal
 
 QUICK_TOLERANCE = 1e-3
-GRID_VARIABLES = 2  # of more a grid is too coarse, and of several wheels it would take too long
 RECORD = "environment.json"  # the first file in the folder of a comparison
-PAPERS = ("vehicle", "road", "speed", "band", "problem")
-"""Options without which the problem is the paper's."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +37,7 @@ class Request:
     campaign: Campaign
     problem: RideProblem
     options: Mapping[str, Any]
+    reference: Reference | None = None  # given by an option
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> Self:
@@ -54,13 +54,14 @@ class Request:
             seed=options["seed"],
         )
         tolerance = QUICK_TOLERANCE if options["quick"] else reference.TOLERANCE
+        given = options["reference"] and load_reference(options["reference"], problem)
         folder = results.results_folder(options["out"], resumed_by=RECORD)
-        return cls(Campaign(comparison, folder, tolerance, terminal.progress), problem, options)
+        return cls(Campaign(comparison, folder, tolerance, stages.counted), problem, options, given)
 
-    def published(self) -> pd.DataFrame:
-        """Return the times of the paper, empty for another problem."""
-        of_paper = all(self.options[name] is None for name in PAPERS)
-        return paper.published_seconds() if of_paper else paper.published_seconds().iloc[:0]
+    @property
+    def of_paper(self) -> bool:
+        """Whether the problem is the paper's, with any weighting."""
+        return self.problem.replace(weighting="Wk") == paper.ride_problem()
 
     def headers(self) -> dict[str, str]:
         """Return the headers of the objectives by name; a travel comes first, or else the last objective."""
@@ -85,11 +86,17 @@ def chosen_problem(options: Mapping[str, Any]) -> RideProblem:
 
 def carry_out(request: Request, cluster: AbstractContextManager[Any] | None) -> None:
     """Make, write and print the timed runs; with a cluster, also the runs over many seeds."""
-    with keeping(request.campaign.folder):
-        raised = _carried_out(request, cluster)
-    print(request.campaign.folder)
+    campaign = request.campaign
+    try:
+        with keeping(campaign.folder):
+            raised = _carried_out(request, cluster)
+    except KeyboardInterrupt:
+        kept, planned = campaign.kept(judged=cluster is not None)
+        stages.say(f"{kept} of {planned} runs are kept in {campaign.folder}; go on with --out {campaign.folder}")
+        raise
+    print(campaign.folder)
     if raised:
-        terminal.complain(f"{raised} runs raised: see the column error of {request.campaign.folder / 'runs.csv'}")
+        terminal.complain(f"{raised} runs raised: see the column error of {campaign.folder / 'runs.csv'}")
         raise typer.Exit(1)
 
 
@@ -102,15 +109,29 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
             write_json(record, machine.describe(texts))
     with terminal.compiling():
         store = campaign.time()
-    several = any(len(case.vehicle.contact_points) > 1 for case in request.problem.cases)
-    with terminal.waiting("reference front"):
-        grid = not several and Coding(request.problem).lower.size <= GRID_VARIABLES
-        front, origin = campaign.reference(store, grid=grid)
-    timed = timing.tidy(campaign.comparison, store, front).assign(timing=True)
-    reports.write(request, store, timed)
-    reports.say(request, store, timed, origin)
-    if cluster is None:
+    timed = timing.tidy(campaign.comparison, store).assign(timing=True)
+    reports.write_times(request, store, timed)
+    reports.say_times(request, store, timed)
+    with stages.stage("reference front"):
+        reference = campaign.reference(store, request.reference)
+    if reference is None:
+        terminal.note("Quality is not judged: no two designs found within the limits differ in every objective.")
         return 0
+    timed = timing.judged(campaign.comparison, store, timed, reference.front)
+    reports.write_quality(request, timed, reference)
+    reports.say_quality(request, timed, reference)
+    return 0 if cluster is None else _judge(request, cluster, store, timed, reference.front)
+
+
+def _judge(
+    request: Request,
+    cluster: AbstractContextManager[Any],
+    store: FolderStore,
+    timed: pd.DataFrame,
+    front: ReferenceFront,
+) -> int:
+    """Make the runs over many seeds and write and print what came of them; return the number that raised."""
+    campaign = request.campaign
     with cluster as client, terminal.compiling():
         table, judged = campaign.judge(front, client)
     write_csv(campaign.folder / "runs.csv", pd.concat([timed, last_rows(table)]))

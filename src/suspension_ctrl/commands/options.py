@@ -131,6 +131,10 @@ SwsLimit = Annotated[float, _real("Suspension working space [m]: 0.0287 or 28.7m
 Population = Annotated[int, _whole("Population of MOEA/D-DRA.")]
 Generations = Annotated[int, _whole("Iterations of MOEA/D-DRA.", "--iterations")]
 Problem = Annotated[File, _option("FILE", "TOML file of load cases, measures, limits.")]
+Reference = Annotated[
+    File,
+    _option("PATH", "Reference front: CSV of objectives with units, or a comparison's folder.  [default: sought]"),
+]
 Populations = Annotated[Text, _option("NUMBER,...", "Population sizes.  [default: 500,1000; --quick: 60,100]")]
 Iterations = Annotated[Text, _option("NUMBER,...", "Iterations.  [default: 10,20; --quick: 5,10]")]
 Repeats = Annotated[Whole, _whole("Timed runs at each configuration.  [default: 5; --quick: 2]")]

@@ -3,21 +3,23 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+import pandas as pd
+
 from .. import escaping
-from ..study import figures, lenses, study
+from ..study import figures, inference, lenses, study
 from ..study.comparison import CONFIGURATION
 from ..study.findings import Findings
 from ..study.store import StoredRun
 from ..study.study import INDICATORS
 from ..tables import write_csv, write_figure, write_table, write_text
-from . import terminal
+from . import stages, terminal
 
 if TYPE_CHECKING:
     from .comparing import Request
 
 PLAIN = {
-    *("value", "lens", "population", "iterations", "set", "algorithm", "first", "second"),
-    *("effect", "members", "runs", "reached"),
+    *("value", "lens", "population", "iterations", "set", "algorithm", "first", "second", "ahead"),
+    *("effect", "members", "runs", "runs_first", "runs_second", "reached"),
 }
 SHORT = {
     "population": "N", "iterations": "iter.", "evaluations": "evals", "relative_hypervolume": "HV / ref.",
@@ -32,8 +34,13 @@ def write(request: "Request", results: Findings, store: Mapping[str, StoredRun])
     tables = {"equal": results.medians, "differences": results.differences, "to_reach": results.reached}
     for name, table in tables.items():
         write_table(request.campaign.folder / name, table.rename(columns=_header))
-    write_text(request.campaign.folder / "verdict.md", "\n\n".join(map(escaping.markdown, results.verdict)) + "\n")
-    with terminal.waiting("drawing"):
+    folder = request.campaign.folder
+    words = "\n\n".join(map(escaping.markdown, results.words))
+    if len(results.verdict):
+        write_table(folder / "verdict", results.verdict.rename(columns=_header))
+        words = (folder / "verdict.md").read_text(encoding="utf-8") + "\n" + words
+    write_text(folder / "verdict.md", words + "\n")
+    with stages.stage("figures of quality"):
         for population in request.campaign.comparison.populations:
             _draw(request, results, store, population)
 
@@ -67,5 +74,21 @@ def say(results: Findings, target: float) -> None:
     terminal.show("Final populations, medians", final[kept].rename(columns=SHORT), DECIMALS, keys=4)
     title = f"To {target:g} of the reference hypervolume, medians"
     terminal.show(title, results.reached.rename(columns=SHORT), DECIMALS, keys=3)
-    for paragraph in results.verdict:
-        terminal.note(paragraph)
+    if len(results.verdict):
+        say_verdict(results.verdict)
+    else:
+        for paragraph in results.words:
+            terminal.note(paragraph)
+
+
+def say_verdict(verdict: pd.DataFrame) -> None:
+    """Print who is ahead: a row per set, configuration and algorithm beside the first, a column per lens."""
+    first = verdict["first"].iloc[0]
+    rows = ["set", *CONFIGURATION, "second"]
+    table = verdict.pivot_table("ahead", rows, "lens", "first", sort=False).reset_index()
+    title = f"Verdict: of {first} and another algorithm, the one whose hypervolume is ahead"
+    terminal.show(title, table.rename(columns=SHORT | {"second": "other"}), keys=4)
+    terminal.note(
+        f"Ahead: p < {inference.SIGNIFICANCE:g} by two-sided Mann-Whitney tests, adjusted by Holm for all tests, "
+        "and an effect that is not negligible (A12). verdict.md says it in words."
+    )

@@ -7,7 +7,8 @@ import pandas as pd
 
 from ..quantities import column_headers
 from ..response.problem import RideProblem
-from ..study.comparison import CONFIGURATION, EQUAL_EVALUATIONS, EQUAL_ITERATIONS
+from ..study import timing
+from ..study.comparison import CONFIGURATION, EQUAL_ITERATIONS
 
 ALGORITHMS = {2: "nsga2", 3: "moead-dra"}
 """Published algorithms by the number of the table with their times."""
@@ -45,36 +46,16 @@ def as_printed(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def comparison(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
-    """Return Table 4 of runs from `timing.tidy`: each algorithm compared with the first at equal budgets.
-
-    Ratios are mean seconds of the first algorithm over those of the row [%]; hypervolume and IGD+ are medians.
-    """
-    keys = [*CONFIGURATION, "algorithm", "budget"]
-    summary = {
-        "evaluations": ("evaluations", "first"), "seconds": ("seconds", "mean"),
-        "hypervolume": ("hypervolume", "median"), "igd_plus": ("igd_plus", "median"),
-    }  # fmt: skip
-    table = runs.groupby(keys, sort=False).agg(**summary).reset_index()
-    table = pd.concat([table, _also_at_equal_evaluations(table)]).sort_values(keys[:2], kind="stable")
-    means = published.groupby(["algorithm", *CONFIGURATION]).published_seconds.mean().reset_index()
-    table = table.merge(means.assign(budget=EQUAL_ITERATIONS), on=keys, how="left")
-    table["microseconds_per_evaluation"] = 1e6 * table.seconds / table.evaluations
-    same = [*CONFIGURATION, "budget"]
-    baseline = table[table.algorithm == runs.algorithm.iloc[0]].set_index(same)
-    for seconds, ratio in (("published_seconds", "published_ratio_percent"), ("seconds", "ratio_percent")):
-        table[ratio] = 100 * table.join(baseline[seconds].rename("first"), on=same)["first"] / table[seconds]
-    times = ["published_seconds", "seconds", "microseconds_per_evaluation"]
+    """Return Table 4: `timing.compared` with published means and their ratios."""
+    table = timing.compared(runs)
+    keys = ["algorithm", *CONFIGURATION]
+    means = published.groupby(keys).published_seconds.mean().reset_index().assign(budget=EQUAL_ITERATIONS)
+    table = table.merge(means, on=[*keys, "budget"], how="left")
+    first = str(runs.algorithm.iloc[0])
+    table["published_ratio_percent"] = timing.ratios_to_first(table, "published_seconds", first)
+    columns = ["evaluations", "published_seconds", "seconds", "microseconds_per_evaluation"]
     ratios = ["published_ratio_percent", "ratio_percent"]
-    return table[[*keys, "evaluations", *times, *ratios, "hypervolume", "igd_plus"]]
-
-
-def _also_at_equal_evaluations(table: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows of the algorithms with most evaluations again, as rows at equal evaluations."""
-    others = table[table.budget == EQUAL_EVALUATIONS]
-    matched = table.merge(others[CONFIGURATION].drop_duplicates(), on=CONFIGURATION)
-    own_runs = pd.MultiIndex.from_frame(others[[*CONFIGURATION, "algorithm"]])
-    most = matched[~pd.MultiIndex.from_frame(matched[[*CONFIGURATION, "algorithm"]]).isin(own_runs)]
-    return most.assign(budget=EQUAL_EVALUATIONS)
+    return table[[*CONFIGURATION, "algorithm", "budget", *columns, *ratios]]
 
 
 def beside_published(

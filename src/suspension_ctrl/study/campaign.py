@@ -13,24 +13,28 @@ from ..search.constraints import InfeasibleWarning
 from ..search.indicators import ReferenceFront
 from . import lock, machine, reference, timing
 from .comparison import Comparison
-from .store import FolderStore
+from .reference import Reference
+from .store import FolderStore, count_runs
 
 if TYPE_CHECKING:
     from distributed import Client
+
+TIMED, QUALITY = "timed", "quality"
+"""Folders of finished runs in the folder of a campaign."""
 
 
 @dataclass(frozen=True)
 class Campaign:
     """A comparison with its results folder; an interrupted campaign resumes with the missing runs.
 
-    It locks the folder: BlockingIOError if another process has. `watch(runs, number, text)` yields the runs of an
-    iterator unchanged, like a progress bar.
+    It locks the folder: BlockingIOError if another process has. `watch(runs, number, text, found)` yields the runs
+    of an iterator unchanged, like a progress bar: those that are missing of a number, of which some were found.
     """
 
     comparison: Comparison
     folder: Path
     tolerance: float = reference.TOLERANCE  # largest relative change of the reference hypervolume by a finer grid
-    watch: Callable[[Iterator[Any], int, str], Iterator[Any]] = lambda runs, _total, _text: runs
+    watch: Callable[[Iterator[Any], int, str, int], Iterator[Any]] = lambda runs, _total, _text, _found: runs
     _lock: Any = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -39,33 +43,43 @@ class Campaign:
     def time(self) -> FolderStore:
         """Make the timed runs one after the other on one thread, after a warm-up; return their store."""
         made_on = {"processor": machine.processor_name(), "python": platform.python_version()}
-        store = self._store("timed", "repeats", **made_on)
-        runs = len(self.comparison.timed_runs())
+        store = self._store(TIMED, "repeats", **made_on)
+        found, runs = len(store), len(self.comparison.timed_runs())
         with machine.single_thread(), warnings.catch_warnings():
             warnings.simplefilter("ignore", InfeasibleWarning)  # their table shows runs without a feasible design
-            for _ in self.watch(timing.carry_out(self.comparison, store), runs, "timed runs"):
+            for _ in self.watch(timing.carry_out(self.comparison, store), runs, "timed runs", found):
                 pass
         return store
 
-    def reference(self, store: FolderStore, *, grid: bool) -> tuple[ReferenceFront, str]:
-        """Return the reference front of a grid, stored in the folder, or of the timed runs; and its origin."""
-        problem = self.comparison.problem
-        if grid:
-            kept = self._store("reference")
-            if "grid" not in kept:
-                kept["grid"] = reference.refined(problem, self.tolerance).stored()
-            refined = reference.Refined.of(kept["grid"])
-            return refined.front, refined.describe(problem)
-        finals = [timing.feasible_objectives(problem, store[run.name]) for run in self.comparison.timed_runs()]
-        return reference.best_known(finals), "the non-dominated designs of all these runs"
+    def kept(self, *, judged: bool) -> tuple[int, int]:
+        """Return the numbers of stored runs and of all runs, timed ones and, if asked for, `judged` ones."""
+        plan = {TIMED: len(self.comparison.timed_runs())}
+        if judged:
+            plan[QUALITY] = sum(len(study.runs()) for study in self.comparison.studies().values())
+        return sum(count_runs(self.folder / name) for name in plan), sum(plan.values())
+
+    def reference(self, store: FolderStore, given: Reference | None = None) -> Reference | None:
+        """Return the reference front, stored in the folder: the given one or that of `reference.sought`."""
+        of_given = {"given": given and reference.summary(given.front)}
+        kept = self._store(reference.FOLDER, "repeats", **of_given)
+        if reference.NAME not in kept:
+            made = [run.name for run in self.comparison.timed_runs() if run.name in store]
+            finals = [timing.feasible_objectives(self.comparison.problem, store[name]) for name in made]
+            found = given or reference.sought(self.comparison.problem, finals, self.tolerance)
+            if found is None:
+                return None
+            kept[reference.NAME] = found.stored()
+        return Reference.of(kept[reference.NAME])
 
     def judge(self, front: ReferenceFront, client: "Client | None" = None) -> tuple[pd.DataFrame, FolderStore]:
         """Make the runs over many seeds, on a cluster if given; return their table (`Study.table`) and store."""
-        store = self._store("quality", "seeds", reference=reference.summary(front))
+        store = self._store(QUALITY, "seeds", reference=reference.summary(front))
         parts = []
         for population, study in self.comparison.studies(front).items():
-            missing = sum(run.name not in store for run in study.runs())
-            runs = self.watch(study.carry_out(store, client), missing, f"quality, N = {population}")
+            planned = study.runs()
+            found = sum(run.name in store for run in planned)
+            text = f"quality, N = {population}"
+            runs = self.watch(study.carry_out(store, client), len(planned), text, found)
             parts.append(study.table(store, {run.name: failure for run, failure in runs if failure}))
         return pd.concat(parts, ignore_index=True).drop(columns="problem"), store
 

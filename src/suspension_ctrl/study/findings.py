@@ -10,6 +10,11 @@ from .comparison import CONFIGURATION, Comparison
 from .study import CUT_ARCHIVE, INDICATORS, POPULATION
 
 SETS = {"final population": POPULATION, "archive cut to N": CUT_ARCHIVE}
+VERDICT = [
+    *("set", "lens", *CONFIGURATION, "first", "second", "ahead"),
+    *("median_first", "median_second", "p_holm", "a12", "effect"),
+]
+"""Columns of the table of the verdict."""
 
 
 class Findings(NamedTuple):
@@ -20,7 +25,8 @@ class Findings(NamedTuple):
     medians: pd.DataFrame  # a row per configuration, lens, set and algorithm
     differences: pd.DataFrame  # of every two algorithms, from `inference.pairwise`
     reached: pd.DataFrame  # evaluations and seconds to the target, from `lenses.to_reach`
-    verdict: list[str]  # a paragraph per set
+    verdict: pd.DataFrame  # rows of `inference.verdict`, each algorithm against the first; none of too few runs
+    words: list[str]  # the verdict on the first two algorithms, a paragraph per set; or why there is none
 
 
 def findings(comparison: Comparison, table: pd.DataFrame, clock: pd.DataFrame, target: float) -> Findings | None:
@@ -34,19 +40,35 @@ def findings(comparison: Comparison, table: pd.DataFrame, clock: pd.DataFrame, t
     spent = equal.groupby(by, sort=False)[["evaluations", "seconds"]].median().reset_index()
     differences = inference.pairwise(equal, by[:-1], INDICATORS, comparison.algorithms)
     medians = spent.merge(inference.quartiles(equal, by, INDICATORS), on=by)
-    verdict = _verdict(differences, comparison.algorithms[:2])
-    return Findings(course, equal, medians, differences, lenses.to_reach(course, target), verdict)
+    verdict, words = _verdict(differences, comparison.algorithms)
+    return Findings(course, equal, medians, differences, lenses.to_reach(course, target), verdict, words)
 
 
-def _verdict(differences: pd.DataFrame, algorithms: Sequence[str]) -> list[str]:
+def _verdict(differences: pd.DataFrame, algorithms: Sequence[str]) -> tuple[pd.DataFrame, list[str]]:
+    """Return table and words of the verdict."""
     if differences.empty:
-        return []
-    first, second = algorithms
-    judged = differences[differences.value == "relative_hypervolume"]
-    return [
-        inference.verdict(judged[judged.set == chosen], first, second, f"Hypervolume of the {words}")
-        for words, chosen in SETS.items()
+        return differences, []
+    first, second, *_ = algorithms
+    rows = differences[differences.value.eq("relative_hypervolume") & differences["first"].eq(first)]
+    judged = inference.verdict(rows[rows.set.isin(SETS.values())])
+    if judged.ahead.eq(inference.TOO_FEW).all():
+        return judged.iloc[:0], [_too_few(differences)]
+    about = {words: judged[judged.set == chosen] for words, chosen in SETS.items()}
+    return judged[VERDICT], [
+        inference.in_words(part, first, second, f"Hypervolume of the {words}") for words, part in about.items()
     ]
+
+
+def _too_few(differences: pd.DataFrame) -> str:
+    """Return how many runs a verdict needs."""
+    most = differences.loc[differences.p_holm_least.idxmin()]
+    first, second, tests = most.runs_first, most.runs_second, len(differences)
+    least = inference.least_p(first, second)
+    return (
+        f"No verdict: {first} runs against {second} cannot differ significantly. Their least p "
+        f"is {least:.2g}, and Holm's method multiplies it by the {tests} tests of pairs, configurations, lenses, "
+        f"sets and indicators. It takes {inference.runs_needed(tests)} seeds."
+    )
 
 
 def last_rows(table: pd.DataFrame) -> pd.DataFrame:

@@ -1,7 +1,8 @@
 """Rank tests, effect sizes and bootstrap intervals over repeated runs, and their verdict in words."""
 
 from collections.abc import Sequence
-from itertools import combinations, product
+from functools import cache
+from itertools import combinations, count, product
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,10 @@ from ..checks import installed
 from ..quantities import Real
 
 SIGNIFICANCE, CONFIDENCE, RESAMPLES = 0.05, 0.95, 9999
+EXACT = 20
+"""Largest size of the smaller sample of an exact rank test."""
+NO_DIFFERENCE, TOO_FEW = "no difference", "too few runs"
+"""Outcomes of a verdict in place of the algorithm that is ahead."""
 
 
 def quartiles(table: pd.DataFrame, by: Sequence[str], values: Sequence[str]) -> pd.DataFrame:
@@ -74,14 +79,35 @@ def ratio_of_medians(first: ArrayLike, second: ArrayLike, seed: int = 0) -> tupl
     return value, float(low), float(high)
 
 
+def rank_test(first: ArrayLike, second: ArrayLike) -> float:
+    """Return p of the two-sided Mann-Whitney test: exact for small samples without ties, else asymptotic."""
+    from scipy import stats
+
+    first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
+    tied = np.unique([*first, *second]).size < first.size + second.size
+    exact = not tied and min(first.size, second.size) <= EXACT
+    return float(stats.mannwhitneyu(first, second, method="exact" if exact else "asymptotic").pvalue)
+
+
+@cache
+def least_p(first: int, second: int) -> float:
+    """Return the least p that samples of these sizes can have: all of one sample are beyond the other."""
+    return rank_test(range(first), range(first, first + second))
+
+
+def runs_needed(tests: int) -> int:
+    """Return the least number of runs of each algorithm that can differ, adjusted by Holm for so many tests."""
+    return next(runs for runs in count(2) if tests * least_p(runs, runs) < SIGNIFICANCE)
+
+
 def pairwise(
     table: pd.DataFrame, by: Sequence[str], values: Sequence[str], algorithms: Sequence[str]
 ) -> pd.DataFrame:
     """Return a row per value, group of runs and pair of algorithms, with their comparison.
 
-    Columns: value, `by`, first, second, both medians, their ratio with its bootstrap interval (ratio, ratio_low,
-    ratio_high), p of the two-sided Mann-Whitney test, p_holm adjusted for all tests of the table, a12 of the first
-    over the second, and effect, its size in words.
+    Columns: value, `by`, first, second, numbers of runs, both medians, their ratio with its bootstrap interval
+    (ratio, ratio_low, ratio_high), p by `rank_test`, a12 of the first over the second, effect, its size in words,
+    p_holm adjusted for all tests of the table, and p_holm_least, the least that so many runs can have.
     """
     rows: list[dict[str, Any]] = []
     for value, (key, group) in product(values, list(table.groupby(list(by), sort=False))):
@@ -91,36 +117,48 @@ def pairwise(
                 pair = {"value": value, **dict(zip(by, key, strict=True)), "first": first, "second": second}
                 rows.append(pair | _compared(samples[first], samples[second]))
     compared = pd.DataFrame(rows)
-    return compared.assign(p_holm=holm(compared["p"])) if len(compared) else compared
+    if compared.empty:
+        return compared
+    least = [least_p(*sizes) for sizes in zip(compared.runs_first, compared.runs_second, strict=True)]
+    return compared.assign(p_holm=holm(compared["p"]), p_holm_least=np.minimum(1, len(rows) * np.array(least)))
 
 
 def _compared(first: "pd.Series[float]", second: "pd.Series[float]") -> dict[str, Any]:
-    from scipy import stats
-
+    numbers = {"runs_first": first.size, "runs_second": second.size}
     medians = {"median_first": first.median(), "median_second": second.median()}
     ratios = dict(zip(("ratio", "ratio_low", "ratio_high"), ratio_of_medians(first, second), strict=True))
-    p, effect = float(stats.mannwhitneyu(first, second).pvalue), a12(first, second)
-    return {**medians, **ratios, "p": p, "a12": effect, "effect": size_in_words(effect)}
+    effect = a12(first, second)
+    p = rank_test(first, second)
+    return {**numbers, **medians, **ratios, "p": p, "a12": effect, "effect": size_in_words(effect)}
 
 
-def verdict(compared: pd.DataFrame, first: str, second: str, value: str) -> str:
-    """Return a paragraph that compares two algorithms, from the rows of `pairwise` of a value to be maximised."""
-    pairs = compared[(compared["first"] == first) & (compared["second"] == second)]
+def verdict(compared: pd.DataFrame) -> pd.DataFrame:
+    """Return rows of `pairwise` of a value to be maximised with a column ``ahead``.
+
+    It is the name of the algorithm that is ahead, `NO_DIFFERENCE` or `TOO_FEW`.
+    """
+    same = (compared.p_holm >= SIGNIFICANCE) | compared.effect.eq("negligible")
+    ahead = compared["first"].where(compared.a12 > 0.5, compared["second"]).mask(same, NO_DIFFERENCE)
+    return compared.assign(ahead=ahead.mask(compared.p_holm_least >= SIGNIFICANCE, TOO_FEW))
+
+
+def in_words(judged: pd.DataFrame, first: str, second: str, value: str) -> str:
+    """Return a paragraph that compares two algorithms, from the rows of `verdict`."""
+    pairs = judged[(judged["first"] == first) & (judged["second"] == second)]
     if pairs.empty:
         return f"There are no runs of both {first} and {second} to compare."
-    sentences = [_sentence(str(lens), part, first, second) for lens, part in pairs.groupby("lens", sort=False)]
+    sentences = [_sentence(str(lens), part) for lens, part in pairs.groupby("lens", sort=False)]
     return f"{value}, {first} against {second}. " + " ".join(sentences)
 
 
-def _sentence(lens: str, pairs: pd.DataFrame, first: str, second: str) -> str:
+def _sentence(lens: str, pairs: pd.DataFrame) -> str:
     outcomes: dict[str, list[str]] = {}
     for pair in pairs.to_dict("records"):
         p = "p < 0.001" if pair["p_holm"] < 0.001 else f"p = {pair['p_holm']:.3f}"
         medians = f"medians {pair['median_first']:.4f} and {pair['median_second']:.4f}"
         numbers = f"{medians}, {p}, A12 = {pair['a12']:.2f}, {pair['effect']}"
-        outcome = f"{first if pair['a12'] > 0.5 else second} is ahead"
-        if pair["p_holm"] >= SIGNIFICANCE or pair["effect"] == "negligible":
-            outcome = "the runs show no difference"
+        words = {NO_DIFFERENCE: "the runs show no difference", TOO_FEW: "there are too few runs"}
+        outcome = words.get(pair["ahead"], f"{pair['ahead']} is ahead")
         where = f"N = {pair['population']} and {pair['iterations']} iterations ({numbers})"
         outcomes.setdefault(outcome, []).append(where)
     return f"At {lens} {'; '.join(f'{outcome} for {_listed(where)}' for outcome, where in outcomes.items())}."

@@ -14,6 +14,9 @@ import numpy as np
 from .. import tables
 from . import lock
 
+FILE = "plan.json"
+"""Name of the file of a plan in its folder."""
+
 _MOST = 1_000_000  # bytes of a plan
 _SHOWN = 60  # characters of a value in a message
 
@@ -47,12 +50,23 @@ def settle(path: Path, plan: Mapping[str, Any], *, started: bool) -> None:
         lock.set_aside(path)
         tables.write_json(path, wanted)
         return
+    _compare(path, kept, wanted, "to resume there")
+
+
+def agree(path: Path, part: Mapping[str, Any], purpose: str) -> None:
+    """Raise ValueError, with the purpose of the comparison, unless the plan in a file has this part."""
+    kept, wanted = read(path), json.loads(json.dumps(described(part)))
+    _compare(path, {key: kept.get(key) for key in wanted}, wanted, purpose)
+
+
+def _compare(path: Path, kept: Mapping[str, Any], wanted: Mapping[str, Any], purpose: str) -> None:
+    """Raise ValueError about the first difference of two plans, if any."""
     if different := list(_differences(kept, wanted)):
         (key, old, new), *others = different
         more = [key for key, *_ in others[:4]] + ([f"{len(others) - 4} more"] if len(others) > 4 else [])
         also = f" (also another {', '.join(more)})" if others else ""
         old, new = _around_difference(repr(old), repr(new))
-        raise ValueError(f"{key} must be {old} as in {str(path)!r} to resume there, got {new}{also}")
+        raise ValueError(f"{key} must be {old} as in {str(path)!r} {purpose}, got {new}{also}")
 
 
 def read(path: Path) -> dict[str, Any]:

@@ -1,8 +1,11 @@
-"""The reference front of a problem: a grid refined until its hypervolume converges."""
+"""The reference front of a problem: that of a grid whose hypervolume settles, or of all runs."""
 
 import hashlib
-from collections.abc import Sequence
-from math import prod
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from itertools import pairwise
+from math import inf, isnan, nan, prod
+from time import perf_counter
 from typing import Any, NamedTuple, Self
 
 import numpy as np
@@ -19,77 +22,134 @@ from .store import StoredRun
 TOLERANCE = 1e-4
 FIRST, MOST = 100, 20_000_000
 """Points per variable of the coarsest grid, and most designs of the finest."""
-_CHUNK = 500_000  # designs in one evaluation
+SECONDS = 120.0
+"""Longest time for the grids of a problem [s]."""
+FOLDER, NAME = "reference", "front"
+"""Folder of the reference front in the folder of a comparison, and its name there."""
+_PROBE, _CHUNK = 10_000, 500_000  # designs in the first two evaluations of a grid, and in the others
 
 
 class Refined(NamedTuple):
-    """A reference front with the grid and the convergence of its hypervolume."""
+    """The finest grid of a problem with the convergence of its hypervolume."""
+
+    objectives: Real  # (n, m) non-dominated and feasible
+    points: int  # per variable
+    change: float = nan  # of the hypervolume to that of half as many points, relative; NaN of the coarsest grid
+    second: float = nan  # to that of a second grid with 1/sqrt(2) as many points: only corners coincide
+
+    def settles(self, tolerance: float) -> bool:
+        """Whether both changes are within the tolerance."""
+        return abs(self.change) <= tolerance and abs(self.second) <= tolerance
+
+    def describe(self, problem: Minimisable) -> str:
+        """Return the numbers of values of the variables, ``"400 x 400 grid"``."""
+        return f"{' x '.join(str(axis.size) for axis in Coding(problem).grid_axes(self.points))} grid"
+
+
+class Reference(NamedTuple):
+    """A reference front and its origin in words."""
 
     front: ReferenceFront
-    points: int  # per variable
-    change: float  # of the hypervolume to that of half as many points, relative
-    second: float  # to that of a second grid with 1/sqrt(2) as many points: only corners coincide
+    origin: str
 
     @classmethod
     def of(cls, run: StoredRun) -> Self:
-        """Return the front from the tables of `stored`."""
-        numbers = run.course.iloc[0]
+        """Return the reference from the tables of `stored`."""
         ideal, nadir = run.course[["ideal", "nadir"]].to_numpy().T
-        front = ReferenceFront(run.final.to_numpy(), ideal, nadir, numbers.volume)
-        return cls(front, int(numbers.points), numbers.change, numbers.second)
+        volume, origin = float(run.course.volume.iloc[0]), str(run.course.origin.iloc[0])
+        return cls(ReferenceFront(run.final.to_numpy(), ideal, nadir, volume), origin)
 
     def stored(self) -> StoredRun:
-        """Return the tables of the front: corners and numbers, a row per objective; and its points."""
-        front, points, change, second = self
-        corners = pd.DataFrame({"ideal": front.ideal, "nadir": front.nadir})
-        numbers = {"volume": front.volume, "points": points, "change": change, "second": second}
-        return StoredRun(corners.assign(**numbers), pd.DataFrame(front.objectives))
-
-    def describe(self, problem: Minimisable) -> str:
-        """Return the grid and its convergence in words."""
-        points = " x ".join(str(axis.size) for axis in Coding(problem).grid_axes(self.points))
-        return (
-            f"the non-dominated designs of a {points} grid (hypervolume {self.front.volume:.4f}, which half as "
-            f"many values change by {self.change:.1e} and a second grid by {self.second:.1e})"
-        )
+        """Return the tables of the front: corners, volume and origin, a row per objective; and its points."""
+        corners = pd.DataFrame({"ideal": self.front.ideal, "nadir": self.front.nadir})
+        course = corners.assign(volume=self.front.volume, origin=self.origin)
+        return StoredRun(course, pd.DataFrame(self.front.objectives))
 
 
-def refined(problem: Minimisable, tolerance: float = TOLERANCE, most: int = MOST) -> Refined:
-    """Return the front of a grid of at most `most` designs, refined until its hypervolume converges."""
+def sought(
+    problem: Minimisable,
+    runs: Sequence[Real],
+    tolerance: float = TOLERANCE,
+    most: int = MOST,
+    seconds: float = SECONDS,
+) -> Reference | None:
+    """Return the front of a grid that settles, or else that of runs (n, m) and the finest grid together.
+
+    None without two feasible designs that differ in every objective.
+    """
+    grid = refined(problem, tolerance, most, seconds)
+    if grid and grid.settles(tolerance):
+        front = ReferenceFront.of(grid.objectives)
+        changes = f"half as many values change by {grid.change:.1e} and a second grid by {grid.second:.1e}"
+        origin = f"a {grid.describe(problem)} (hypervolume {front.volume:.4f}, which {changes})"
+        return Reference(front, origin)
+    none = np.empty((0, len(problem.objectives)))
+    best = best_of(np.concatenate([none, *runs, grid.objectives if grid else none]))
+    if not spans(best):
+        return None
+    budget = f"within {most:,} designs and {seconds:g} s"
+    origin = f"all timed runs (no grid {budget} has a front)"
+    if grid:
+        change = "" if isnan(grid.change) else f": half as many values change its hypervolume by {grid.change:.1e}"
+        finest = grid.describe(problem)
+        origin = f"all timed runs and a {finest} (no grid {budget} settles to {tolerance:g}{change})"
+    return Reference(ReferenceFront.of(best), origin)
+
+
+def refined(
+    problem: Minimisable, tolerance: float = TOLERANCE, most: int = MOST, seconds: float = SECONDS
+) -> Refined | None:
+    """Return the finest grid in `most` designs and `seconds`, refined until it settles; None without a front."""
     checks.positive("tolerance", tolerance)
-    points, before, coding = FIRST, None, Coding(problem)
-    while points <= most >= prod(axis.size for axis in coding.grid_axes(points)):
-        objectives = grid_front(problem, points)
-        if len(objectives) and np.ptp(objectives, axis=0).all():  # indicators divide by the ranges
-            front = ReferenceFront.of(objectives)
-            change = np.inf if before is None else 1 - front.relative_hypervolume(before)
-            if abs(change) <= tolerance:
-                second = 1 - front.relative_hypervolume(grid_front(problem, round(points / np.sqrt(2))))
-                if abs(second) <= tolerance:
-                    return Refined(front, points, change, second)
-            before = objectives
-        points *= 2
-    none = " (no front of feasible designs found)" if problem.constraints and before is None else ""
-    raise ValueError(
-        f"problem must have a front that a grid of {most} designs settles to {tolerance:g}, got one of "
-        f"{coding.lower.size} variables that does not{none}; give a reference front"
-    )
+    points, found, end, coding = FIRST, None, perf_counter() + seconds, Coding(problem)
+    with suppress(TimeoutError):
+        while points <= most >= prod(axis.size for axis in coding.grid_axes(points)):
+            objectives = grid_front(problem, points, end)
+            if spans(objectives):
+                front = ReferenceFront.of(objectives)
+                change = nan if found is None else 1 - front.relative_hypervolume(found.objectives)
+                found = Refined(objectives, points, change)
+                if abs(change) <= tolerance:
+                    second = grid_front(problem, round(points / np.sqrt(2)), end)
+                    found = found._replace(second=1 - front.relative_hypervolume(second))
+                    if found.settles(tolerance):
+                        break
+            points *= 2
+    return found
 
 
-def grid_front(problem: Minimisable, points: int) -> Real:
-    """Return the non-dominated feasible objectives (n, m) on a grid of `points` values per variable at most."""
+def spans(front: Real) -> bool:
+    """Whether a front (n, m) has points that differ in every objective: indicators divide by its ranges."""
+    return len(front) > 0 and bool(np.ptp(front, axis=0).all())
+
+
+def grid_front(problem: Minimisable, points: int, end: float = inf) -> Real:
+    """Return the non-dominated feasible objectives (n, m) on a grid of `points` values per variable at most.
+
+    TimeoutError as soon as it is clear that it would take until after `end`, a time of `perf_counter` [s].
+    """
     checks.at_least("points", points, 2)
     coding = Coding(problem)
     axes = coding.grid_axes(points)
     shape = [axis.size for axis in axes]
     m, total = len(problem.objectives), prod(shape)
-    front = np.empty((0, m))
-    for start in range(0, total, _CHUNK):
-        places = np.unravel_index(np.arange(start, min(start + _CHUNK, total)), shape)
+    front, begun = np.empty((0, m)), perf_counter()
+    for start, stop in _parts(total):
+        if start <= _PROBE:
+            begun = perf_counter()  # again after the first evaluation, which may compile
+        elif perf_counter() + (perf_counter() - begun) * (total - start) / (start - _PROBE) > end:
+            raise TimeoutError
+        places = np.unravel_index(np.arange(start, stop), shape)
         codes = np.stack([axis[place] for axis, place in zip(axes, places, strict=True)], axis=-1)
         values = problem.evaluate(coding.decode(codes))
         front = best_of(np.concatenate([front, best_of(feasible_objectives(values, m))]))
     return front
+
+
+def _parts(total: int) -> Iterator[tuple[int, int]]:
+    """Yield start and stop of each evaluation of a grid: two small ones, by which its time is estimated."""
+    starts = [0, _PROBE, *range(2 * _PROBE, total, _CHUNK)]
+    return pairwise([*(start for start in starts if start < total), total])
 
 
 def best_known(sets: Sequence[Real]) -> ReferenceFront:
@@ -97,7 +157,7 @@ def best_known(sets: Sequence[Real]) -> ReferenceFront:
     best = best_of(np.concatenate(sets))
     if len(best) == 0:
         raise ValueError("constraints must leave a feasible design, got none in any run")
-    if not np.ptp(best, axis=0).all():
+    if not spans(best):
         got = f"{len(best)} that do not"
         raise ValueError(f"the best designs of all runs must differ in every objective, got {got}")
     return ReferenceFront.of(best)

@@ -66,15 +66,13 @@ class FolderStore(MutableMapping[str, StoredRun]):
         for part in (*_PARTS, _RECORDS):
             (folder / part).mkdir(exist_ok=True)
         tables.sync_folder(folder)
-        plans.settle(folder / "plan.json", plan, started=len(self) > 0)
+        plans.settle(folder / plans.FILE, plan, started=len(self) > 0)
         self._set_spoilt_aside()
 
     def __getitem__(self, name: str) -> StoredRun:
         if name not in self:
             raise KeyError(name)
-        record = _read_record(self._path(_RECORDS, name))
-        final, course = (_read_part(self._path(part, name), record[part]) for part in _PARTS)
-        return StoredRun(course, final)
+        return read_run(self._folder, name)
 
     def __setitem__(self, name: str, run: StoredRun) -> None:
         record = {}
@@ -95,10 +93,10 @@ class FolderStore(MutableMapping[str, StoredRun]):
         return (path.stem for path in sorted((self._folder / _RECORDS).glob("[!.]*.json")))
 
     def __len__(self) -> int:
-        return sum(1 for _ in self)
+        return count_runs(self._folder)
 
     def _path(self, part: str, name: str) -> Path:
-        return self._folder / part / f"{name}.{'json' if part == _RECORDS else 'csv'}"
+        return _path(self._folder, part, name)
 
     def _set_spoilt_aside(self) -> None:
         """Warn about each spoilt run and rename its files."""
@@ -113,6 +111,22 @@ class FolderStore(MutableMapping[str, StoredRun]):
                 warnings.warn(f"{spoilt}; the run is repeated", SpoiltRunWarning, stacklevel=3)
                 for part in (*_PARTS, _RECORDS):
                     lock.set_aside(self._path(part, name))
+
+
+def count_runs(folder: Path) -> int:
+    """Return the number of finished runs in the folder of a store, 0 without it."""
+    return sum(1 for _ in (folder / _RECORDS).glob("[!.]*.json"))
+
+
+def read_run(folder: Path, name: str) -> StoredRun:
+    """Return a finished run in the folder of a store; ValueError with the path of a missing or damaged file."""
+    record = _read_record(_path(folder, _RECORDS, name))
+    final, course = (_read_part(_path(folder, part, name), record[part]) for part in _PARTS)
+    return StoredRun(course, final)
+
+
+def _path(folder: Path, part: str, name: str) -> Path:
+    return folder / part / f"{name}.{'json' if part == _RECORDS else 'csv'}"
 
 
 class _SpoiltError(ValueError):

@@ -67,20 +67,25 @@ def read_table(
 
 
 def read_columns(path: str | PathLike[str], units: Mapping[str, str], most: int) -> dict[str, Real]:
-    """Return columns (n <= `most`,) by name in `units`, converted from the header's: ``velocity [mm/s]``."""
+    """Return columns (n <= `most`,) by name in `units`, converted from the header's: ``velocity [mm/s]``.
+
+    A number without unit (``""``) has the unit ``-`` or none in its header.
+    """
     names, values = read_table(path)
     with naming(path):
         if len(values) > most:
             raise ValueError(f"rows of numbers must be {most} or less, got {len(values)}")
-        found = {name: (i, unit) for i, (name, unit) in enumerate(map(name_and_unit, names))}
+        headers = [name_and_unit(escaping.from_csv(name)) for name in names]
+        found = {name: (i, unit) for i, (name, unit) in enumerate(headers)}
         columns: dict[str, Real] = {}
         for name, unit in units.items():
             i, given = found.get(name, (None, ""))
-            if i is None or not given:
-                needed = f"with its unit in the header, as in '{name} [{unit}]'"
+            if i is None or not (given or not unit):
+                needed = f"with its unit in the header, as in '{name} [{unit or '-'}]'"
                 got = checks.shown(names if i is None else names[i])
                 raise ValueError(f"columns must include {name} {needed}, got {got}")
             numbers = values[:, i].tolist()
+            given = "" if given == "-" else given
             columns[name] = np.array([quantity(name, f"{number!r} {given}", unit) for number in numbers])
     return columns
 
