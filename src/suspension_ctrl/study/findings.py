@@ -61,8 +61,8 @@ def _verdict(differences: pd.DataFrame, algorithms: Sequence[str]) -> tuple[pd.D
 
 def _too_few(differences: pd.DataFrame) -> str:
     """Return how many runs a verdict needs."""
-    most = differences.loc[differences.p_holm_least.idxmin()]
-    first, second, tests = most.runs_first, most.runs_second, len(differences)
+    most, tests = differences.p_holm_least.argmin(), len(differences)
+    first, second = differences[["runs_first", "runs_second"]].to_numpy()[most].tolist()
     least = inference.least_p(first, second)
     return (
         f"No verdict: {first} runs against {second} cannot differ significantly. Their least p "
