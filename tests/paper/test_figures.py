@@ -4,7 +4,6 @@ import re
 from dataclasses import replace
 
 import numpy as np
-import pandas as pd
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -17,7 +16,6 @@ from suspension_ctrl.paper import figures
 from suspension_ctrl.response import weightings
 from suspension_ctrl.response.curves import DesignCurves, design_curves
 
-ALGORITHMS = ("a", "b")
 DESIGNS = {"soft": (12e3, 1600.0), "stiff": (26e3, 1900.0)}
 TITLES = {"SWS": "suspension_travel", "ACC": "body_acceleration", "DTL": "tyre_load"}
 PER_SI = {"m": 1.0, "m/s²": 1.0, "rad/s²": 1.0, "kN": 1e-3}
@@ -127,49 +125,9 @@ def test_many_designs_have_colours_of_their_own_and_no_legend(curves):
         assert (len(colours), len(figure.legends)) == (count, legends)
 
 
-def populations() -> pd.DataFrame:
-    rows = [
-        {"algorithm": name, "population": n, "iterations": 5, "SWS [m]": x, "ACC [m/s^2]": y, "DTL [N]": z}
-        for name in ALGORITHMS
-        for n in (10, 20)
-        for x, y, z in np.random.default_rng(3).random((n, 3)) * [0.1, 2, 3000]
-    ]
-    return pd.DataFrame(rows)
-
-
-def test_figure_5_shows_every_design_in_the_units_of_its_axes():
-    table = populations()
-    figure = figures.final_populations(table, "SWS [m]", ["ACC [m/s^2]", "DTL [N]"])
-    (left, right) = figure.subfigs
-    for place, n in ((left, 10), (right, 20)):
-        upper, lower = place.axes
-        assert upper.get_title() == f"N = {n}, 5 iterations"
-        assert (upper.get_ylabel(), lower.get_ylabel(), lower.get_xlabel()) == (
-            "ACC [m/s²]",
-            "DTL [kN]",
-            "SWS [m]",
-        )
-        for ax, column, factor in ((upper, "ACC [m/s^2]", 1), (lower, "DTL [N]", 1e-3)):
-            assert [marks.get_label() for marks in ax.collections] == list(ALGORITHMS)
-            for marks, name in zip(ax.collections, ALGORITHMS, strict=True):
-                part = table[(table.algorithm == name) & (table.population == n)]
-                expected = np.stack([part["SWS [m]"], factor * part[column]], axis=1)
-                np.testing.assert_allclose(marks.get_offsets(), expected, rtol=1e-14)
-
-
 def test_hostile_names_are_no_formulas_and_stand_in_the_legends(curves):
-    """Names of designs, algorithms and objectives; a formula with a mistake would raise as it is drawn."""
+    """Names of designs; a formula with a mistake would raise as it is drawn."""
     name = r"_$x$ \frac{ <b>"
-    bode = figures.bode([replace(curves[0], label=name)])
-    table = populations().replace({"algorithm": {"a": name}}).rename(columns={"DTL [N]": f"{name} [N]"})
-    populated = figures.final_populations(table, "SWS [m]", [f"{name} [N]"])
-    for figure in (bode, populated):
-        FigureCanvasAgg(figure).draw()
-        assert figure.legends[0].get_texts()[0].get_text() == escaping.figure(name)
-    assert populated.subfigs[0].axes[0].yaxis.label.get_text() == escaping.figure(f"{name} [kN]")
-
-
-def test_figure_5_is_of_two_algorithms_at_most():
-    table = pd.concat([populations(), populations().replace({"algorithm": {"a": "c"}})])
-    with pytest.raises(ValueError, match=r"^populations must be of one or two algorithms, got \['a', 'b', 'c'\]$"):
-        figures.final_populations(table, "SWS [m]", ["DTL [N]"])
+    figure = figures.bode([replace(curves[0], label=name)])
+    FigureCanvasAgg(figure).draw()
+    assert figure.legends[0].get_texts()[0].get_text() == escaping.figure(name)

@@ -10,7 +10,7 @@ from suspension_ctrl import escaping
 from suspension_ctrl.study import figures
 
 ALGORITHMS = ("a", "b")
-SEEDS = range(7)
+SEEDS = range(9)
 rng = np.random.default_rng(3)
 
 
@@ -41,7 +41,7 @@ def quality() -> pd.DataFrame:
 def test_anytime_curves_are_medians_between_quartiles(ax, quality, over):
     figures.anytime(ax, quality, over)
     assert ax.get_xlabel() == {"evaluations": "evaluations [-]", "seconds": "time [s]"}[over]
-    assert (ax.get_ylabel(), ax.get_xscale()) == ("hypervolume / reference [-]", "log")
+    assert (ax.get_ylabel(), ax.get_xscale()) == ("hypervolume / reference [-], more is better", "log")
     assert [line.get_label() for line in ax.lines] == list(ALGORITHMS)
     for line, band, name in zip(ax.lines, ax.collections, ALGORITHMS, strict=True):
         part = quality[quality.algorithm == name]
@@ -55,10 +55,10 @@ def test_anytime_curves_are_medians_between_quartiles(ax, quality, over):
 
 
 def test_boxes_reach_from_quartile_to_quartile_of_finite_values():
-    values = {"a": [3.0, 1.0, 2.0, 5.0, 4.0], "b": [20.0, 10.0, np.inf, 30.0]}
-    runs = pd.DataFrame([{"algorithm": name, "igd_plus": x} for name, xs in values.items() for x in xs])
-    (ax,) = figures.box_panels(runs, ["igd_plus"]).axes
-    assert ax.get_ylabel() == "IGD+ [-]"
+    values = {"a": [3.0, 1.0, 2.0, 5.0, 4.0, *[np.inf] * 4], "b": [20.0, 10.0, 30.0, *[np.inf] * 5]}
+    rows = [{"algorithm": n, "seed": seed, "igd_plus": x} for n, xs in values.items() for seed, x in enumerate(xs)]
+    (ax,) = figures.box_panels(pd.DataFrame(rows), ["igd_plus"], "N = 20").axes
+    assert ax.get_ylabel() == "IGD+ [-], less is better"
     assert [label.get_text() for label in ax.get_xticklabels()] == ["a", "b"]
     medians = [
         line.get_ydata()[0] for line in ax.lines if line.get_color() == "black" and len(line.get_xdata()) == 2
@@ -100,18 +100,11 @@ def test_panels_are_as_many_as_asked_for():
 def test_anytime_panels_are_sets_by_evaluations_and_seconds(quality, ax):
     table = pd.concat([quality.assign(set=name, population=20) for name in ("population", "archive")])
     figure = figures.anytime_panels(table, ["population", "archive"])
-    assert [panel.get_title() for panel in figure.axes] == ["population, N = 20"] * 2 + ["archive, N = 20"] * 2
+    assert [panel.get_title() for panel in figure.axes] == ["population"] * 2 + ["archive"] * 2
+    assert figure.get_suptitle() == "N = 20, median and quartiles of 9 runs each"
     assert [panel.get_xlabel() for panel in figure.axes] == ["evaluations [-]", "time [s]"] * 2
     figures.anytime(ax, quality, "seconds")
     np.testing.assert_array_equal(figure.axes[3].lines[1].get_xydata(), ax.lines[1].get_xydata())
-
-
-def test_box_panels_are_one_per_indicator(quality):
-    figure = figures.box_panels(quality.assign(spread=2.0), ["relative_hypervolume", "spread"])
-    assert [panel.get_ylabel() for panel in figure.axes] == [
-        "hypervolume / reference [-]",
-        "generalised spread [-]",
-    ]
 
 
 def test_hostile_names_are_no_formulas_and_stand_in_the_legends(quality):
@@ -120,10 +113,14 @@ def test_hostile_names_are_no_formulas_and_stand_in_the_legends(quality):
     anytime = figures.anytime_panels(sets[0], ("s",))
     sides = [fronts(shift, SEEDS).rename(columns={"SWS [m]": name}) for shift in (0.0, 0.2)]
     attained = figures.attainment_panels(*sides, [name, "DTL [N]"], (name, "b"))
-    boxes = figures.box_panels(sets[0], ["seconds"])
-    for figure in (anytime, attained, boxes):
+    boxes = figures.box_panels(sets[0], ["seconds"], "N = 20")
+    table = populations().replace({"algorithm": {"a": name}}).rename(columns={"DTL [N]": f"{name} [N]"})
+    populated = figures.final_populations(table, "SWS [m]", [f"{name} [N]"])
+    for figure in (anytime, attained, boxes, populated):
         FigureCanvasAgg(figure).draw()
-    assert anytime.axes[0].get_legend().get_texts()[0].get_text() == escaping.figure(name)
+    for figure in (anytime, populated):
+        assert figure.legends[0].get_texts()[0].get_text() == escaping.figure(name)
+    assert populated.subfigs[0].axes[0].yaxis.label.get_text() == escaping.figure(f"{name} [kN]")
     assert [attained.axes[0].get_xlabel(), boxes.axes[0].get_xticklabels()[0].get_text()] == [
         escaping.figure(name)
     ] * 2
@@ -136,5 +133,86 @@ def test_attainment_panels_are_of_every_two_objectives():
     figure = figures.attainment_panels(*sides, names, ALGORITHMS)
     *panels, bar = figure.axes
     pairs = [(panel.get_xlabel(), panel.get_ylabel()) for panel in panels]
-    assert pairs == [("SWS [m]", "DTL [N]"), ("SWS [m]", "ACC [m/s^2]"), ("DTL [N]", "ACC [m/s^2]")]
-    assert bar.get_ylabel() == "share of runs attaining: a less b"
+    assert pairs == [("SWS [mm]", "DTL [kN]"), ("SWS [mm]", "ACC [m/s²]"), ("DTL [kN]", "ACC [m/s²]")]
+    assert bar.get_ylabel() == "a less b [-]"
+    assert figure.get_suptitle().startswith("Share of 9 runs each that attain a point or better, a less b\n")
+    xs = np.concatenate([path.vertices[:, 0] for path in panels[0].collections[0].get_paths()])
+    both = pd.concat(sides)
+    assert 1e3 * both["SWS [m]"].min() <= xs.min() < xs.max() <= 1e3 * both["SWS [m]"].max()
+
+
+def populations() -> pd.DataFrame:
+    rows = [
+        {"algorithm": name, "population": n, "iterations": 5, "SWS [m]": x, "ACC [m/s^2]": y, "DTL [N]": z}
+        for name in ALGORITHMS
+        for n in (10, 20)
+        for x, y, z in np.random.default_rng(3).random((n, 3)) * [0.1, 2, 3000]
+    ]
+    return pd.DataFrame(rows)
+
+
+def test_final_populations_show_every_design_in_the_units_of_its_axes():
+    table = populations()
+    figure = figures.final_populations(table, "SWS [m]", ["ACC [m/s^2]", "DTL [N]"])
+    (left, right) = figure.subfigs
+    for place, n in ((left, 10), (right, 20)):
+        upper, lower = place.axes
+        assert upper.get_title() == f"N = {n}, 5 iterations"
+        assert (upper.get_ylabel(), lower.get_ylabel(), lower.get_xlabel()) == (
+            "ACC [m/s²]",
+            "DTL [kN]",
+            "SWS [mm]",
+        )
+        for ax, column, factor in ((upper, "ACC [m/s^2]", 1), (lower, "DTL [N]", 1e-3)):
+            assert [marks.get_label() for marks in ax.collections] == list(ALGORITHMS)
+            for marks, name in zip(ax.collections, ALGORITHMS, strict=True):
+                part = table[(table.algorithm == name) & (table.population == n)]
+                expected = np.stack([1e3 * part["SWS [m]"], factor * part[column]], axis=1)
+                np.testing.assert_allclose(marks.get_offsets(), expected, rtol=1e-14)
+
+
+def test_final_populations_are_of_two_algorithms_at_most():
+    table = pd.concat([populations(), populations().replace({"algorithm": {"a": "c"}})])
+    with pytest.raises(ValueError, match=r"^populations must be of one or two algorithms, got \['a', 'b', 'c'\]$"):
+        figures.final_populations(table, "SWS [m]", ["DTL [N]"])
+
+
+def test_a_short_study_has_points_and_ranges():
+    """Of three runs: every value a point, the median a line; a curve between the least and the greatest."""
+    rows = [
+        {"algorithm": name, "seed": seed, "evaluations": e, "seconds": e / 100, "relative_hypervolume": value + e}
+        for name, values in (("a", (0.1, 0.7, 0.2)), ("b", (0.5, 0.4, 0.9)))
+        for seed, value in enumerate(values)
+        for e in (1, 2)
+    ]
+    runs = pd.DataFrame(rows).assign(set="population", population=20)
+    last = runs[runs.evaluations == 2]
+    figure = figures.box_panels(last, ["relative_hypervolume"], "N = 20")
+    (ax,) = figure.axes
+    assert not ax.patches
+    assert [sorted(line.get_ydata()) for line in ax.lines] == [[2.1, 2.2, 2.7], [2.4, 2.5, 2.9]]
+    assert [lines.get_segments()[0][0][1] for lines in ax.collections] == [2.2, 2.5]
+    assert figure.get_suptitle() == "N = 20\npoints and median of 3 runs each"
+    curves = figures.anytime_panels(runs, ["population"])
+    assert curves.get_suptitle() == "N = 20, median and range of 3 runs each"
+    corners = curves.axes[0].collections[0].get_paths()[0].vertices
+    assert {(1.0, 1.1), (1.0, 1.7), (2.0, 2.1), (2.0, 2.7)} <= set(map(tuple, np.round(corners, 12)))
+
+
+def test_directions_and_numbers_of_runs_are_said(quality):
+    figure = figures.box_panels(quality.assign(igd_plus=1.0, spread=1.0), ["igd_plus", "spread"], "N = 20")
+    assert [ax.get_ylabel() for ax in figure.axes] == [
+        "IGD+ [-], less is better", "generalised spread [-], less is more even",
+    ]  # fmt: skip
+    uneven = pd.concat([quality, quality.assign(seed=quality.seed + 10)])
+    uneven = uneven[uneven.algorithm.eq("a") | (uneven.seed < 15)]
+    figure = figures.box_panels(uneven.assign(spread=1.0), ["spread"], "N = 20")
+    assert figure.get_suptitle() == "N = 20\nboxes of median and quartiles of 14 to 18 runs"
+
+
+def test_eight_algorithms_have_lines_of_their_own(quality, ax):
+    many = pd.concat([quality[quality.algorithm == "a"].assign(algorithm=f"a{i}") for i in range(8)])
+    figures.anytime(ax, many)
+    assert len({(line.get_color(), str(line.get_linestyle())) for line in ax.lines}) == 8
+    figure = figures.anytime_panels(many.assign(set="s", population=20), ["s"])
+    assert len(figure.legends[0].get_texts()) == 8

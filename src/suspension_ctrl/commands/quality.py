@@ -58,7 +58,8 @@ def _draw(request: "Request", results: Findings, store: Mapping[str, StoredRun],
     equal = results.equal
     at_end = (equal.population == population) & (equal.iterations == max(comparison.iterations))
     last = equal[at_end & (equal.lens == lenses.EVALUATIONS) & (equal.set == study.POPULATION)]
-    write_figure(folder / f"boxes_n{population}", figures.box_panels(last, INDICATORS))
+    title = f"N = {population}, final populations at equal evaluations, {max(comparison.iterations)} iterations"
+    write_figure(folder / f"boxes_n{population}", figures.box_panels(last, INDICATORS, title))
     names = comparison.algorithms[:2]
     finals = comparison.studies()[population].finals(store).rename(columns=request.headers())
     first, second = (finals[finals.algorithm == name] for name in (names[0], names[-1]))
@@ -86,7 +87,7 @@ def say_verdict(verdict: pd.DataFrame) -> None:
     first = verdict["first"].iloc[0]
     rows = ["set", *CONFIGURATION, "second"]
     table = verdict.pivot_table("ahead", rows, "lens", "first", sort=False).reset_index()
-    title = f"Verdict: of {first} and another algorithm, the one whose hypervolume is ahead"
+    title = f"Verdict: which has more hypervolume, {first} or the other"
     terminal.show(title, table.rename(columns=SHORT | {"second": "other"}), keys=4)
     terminal.note(
         f"Ahead: p < {inference.SIGNIFICANCE:g} by two-sided Mann-Whitney tests, adjusted by Holm for all tests, "

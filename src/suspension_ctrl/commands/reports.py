@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from ..paper import experiment, figures
+from ..paper import experiment
 from ..paper import tables as printed
 from ..quantities import column_headers
 from ..search.moead_dra import MoeadDra
-from ..study import timing
+from ..study import figures, timing
 from ..study.reference import Reference
 from ..study.store import StoredRun
 from ..tables import write_csv, write_figure, write_table

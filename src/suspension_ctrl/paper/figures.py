@@ -4,18 +4,16 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import pandas as pd
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from .. import escaping
-from ..quantities import Real, column_headers, signal_unit
+from ..quantities import Real, signal_unit
 from ..response.curves import DesignCurves, weighted_name
 from ..response.responses import phase_degrees
 from ..response.weightings import BANDS, by_name
-from ..study.comparison import CONFIGURATION
 from ..study.figures import COLOURS
 
 _MOST_IN_LEGEND = 12  # a legend of more designs would cover the curves; curves.csv names all
@@ -37,34 +35,6 @@ def weighting_factors(ax: Axes, filters: Sequence[str], tables: Sequence[str]) -
     ax.set(xlabel="frequency [Hz]", ylabel="weighting factor [-]")
     ax.grid(which="both", alpha=0.3)
     ax.legend(frameon=False)
-
-
-def final_populations(populations: pd.DataFrame, across: str, up: Sequence[str]) -> Figure:
-    """Draw Figure 5: columns `up` over column `across` of one or two algorithms, rings and dots."""
-    ring: dict[str, Any] = {"s": 22, "facecolors": "none", "edgecolors": COLOURS[0], "linewidths": 0.5}
-    mark: dict[str, Any] = {"s": 4, "color": COLOURS[1], "linewidths": 0}
-    names = populations.algorithm.unique().tolist()
-    if len(names) > 2:
-        raise ValueError(f"populations must be of one or two algorithms, got {names}")
-    styles = dict(zip(names, (ring, mark), strict=False))
-    panels = list(populations.groupby(CONFIGURATION))
-    columns = min(2, len(panels))
-    rows = -(-len(panels) // columns)
-    figure = Figure(figsize=(5.0 * columns, 2.2 * len(up) * rows + 0.4), layout="constrained")
-    places = figure.subfigures(rows, columns, squeeze=False).flat
-    for place, ((population, iterations), part) in zip(places, panels, strict=False):
-        axes = place.subplots(len(up), 1, sharex=True, squeeze=False)[:, 0]
-        for ax, objective in zip(axes, up, strict=True):
-            (below, width), (beside, height) = _axis(across), _axis(objective)
-            for algorithm, group in part.groupby("algorithm", sort=False):
-                label = escaping.figure(str(algorithm))
-                ax.scatter(group[across] * width, group[objective] * height, label=label, **styles[algorithm])
-            ax.set_ylabel(beside)
-        axes[-1].set_xlabel(below)
-        axes[0].set_title(f"N = {population}, {iterations} iterations", fontsize=10)
-    handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=len(labels), markerscale=2, frameon=False)
-    return figure
 
 
 def bode(designs: Sequence[DesignCurves]) -> Figure:
@@ -104,13 +74,6 @@ def _colours(count: int) -> Sequence[Any]:
 def _shown(unit: str) -> tuple[str, float]:
     """Return the unit of an axis for data in a unit, and the factor to it."""
     return ("kN", 1e-3) if unit == "N" else (unit.replace("^2", "²"), 1.0)
-
-
-def _axis(header: str) -> tuple[str, float]:
-    """Return the label of an axis for a column with this header, and the factor of its values."""
-    name, _, unit = header.removesuffix("]").partition(" [")
-    shown, factor = _shown(unit)
-    return escaping.figure(column_headers([name], {name: shown})[0]), factor
 
 
 def _title(response: str) -> str:
