@@ -49,7 +49,7 @@ SETTINGS: dict[str, Any] = {
     "cold_repeats": 5,
 }
 QUICK = SETTINGS | {
-    "repeats": 2,
+    "repeats": 1,
     "sample": 2,
     "designs": (1, 10, 1000),
     "evaluation_limit": 1.0,
@@ -60,11 +60,11 @@ QUICK = SETTINGS | {
     "repeat_limit": 1.0,
     "moead_population": 100,
     "target_populations": (500,),
-    "target_repeats": 2,
+    "target_repeats": 1,
     "target_limit": 0.1,
     "grid": 100,
     "compare": ["--quick"],
-    "import_repeats": 2,
+    "import_repeats": 1,
     "cold_repeats": 1,
 }
 
@@ -72,7 +72,7 @@ QUICK = SETTINGS | {
 def main(
     out: Annotated[Path | None, Option(help="Folder for the results, absent or empty.")] = None,
     docs: Annotated[Path | None, Option(help="Folder that gets page and picture too.")] = None,
-    quick: Annotated[bool, Option("--quick", help="Short form: small sizes, two repeats.")] = False,
+    quick: Annotated[bool, Option("--quick", help="Short form: small sizes, one repeat.")] = False,
 ) -> None:
     """Measure the speed of this package and of other libraries on the same work."""
     if docs and not docs.is_dir():

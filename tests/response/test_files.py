@@ -214,17 +214,17 @@ def test_only_the_third_case_of_the_full_car_is_loaded(full_car):
 
 
 def front_of(problem: RideProblem, optimiser: object) -> np.ndarray:
-    """Feasible objectives of the population after 50 iterations."""
-    run = minimise(problem, optimiser, iterations=50, seed=0)
+    """Feasible objectives of the population after 20 iterations."""
+    run = minimise(problem, optimiser, iterations=20, seed=0)
     return feasible_objectives(np.hstack([run.objectives, run.constraints]), len(problem.objectives))
 
 
-def test_searches_of_the_full_car_find_more_than_25_000_random_designs(full_car):
+def test_searches_of_the_full_car_find_more_than_10_000_random_designs(full_car):
     """The hypervolume of each front against the best of all three.
 
-    Of the random designs, by 50 populations of 500 and those at the start even 25 500, the whole front counts. One
-    seed: NSGA-II finds 0.99 of the volume, MOEA/D-DRA with a fifth of the evaluations 0.92, chance 0.61; between
-    seeds they differ by some hundredths.
+    Of the random designs, by 20 populations of 500 and those at the start even 10 500, the whole front counts. One
+    seed: NSGA-II finds 0.999 of the volume, MOEA/D-DRA with a quarter of the evaluations 0.85, chance 0.59;
+    between seeds they differ by some hundredths.
     """
     fronts = {
         name: front_of(full_car, optimiser)

@@ -161,3 +161,4 @@ def write_figure(stem: Path, figure: "Figure") -> None:
     """Write a figure as PNG and as PDF, named `stem` with the ending added."""
     for suffix in (".png", ".pdf"):
         write_whole(stem.with_name(stem.name + suffix), lambda temporary: figure.savefig(temporary, dpi=160))
+        figure.set_layout_engine("none")  # where the first put its parts: a layout takes as long as the drawing
