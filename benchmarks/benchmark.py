@@ -99,7 +99,7 @@ def main(
     terminal.show("Time to the hypervolume", report.target_table(found))
     for name, reason in field.absent.items():
         terminal.console.print(f"Absent: {name} ({reason})")
-    print(folder)
+    terminal.end(folder)
 
 
 def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summary.Measurements:

@@ -140,7 +140,7 @@ def main(minutes: Minutes = 20.0, seeds: Number = 8, out: Folder = None) -> None
     terminal.show("Equivalent dampers", laws, {"c_eq [N s/m]": 0})
     digits = {"95 % [+-%]": 1, "error [%]": 1, "same roads [%]": 1}
     terminal.show(f"{minutes:g} min of driving each, {seeds} seeds", table, digits, 2)
-    print(folder)
+    terminal.end(folder)
 
 
 if __name__ == "__main__":

@@ -161,7 +161,7 @@ def fronts(
     }).reset_index()  # fmt: skip
     files.write_table(folder / "fronts", summary)
     terminal.show("Hypervolume / known front's", summary, dict.fromkeys(summary.columns[2:], 4), 2)
-    print(folder)
+    terminal.end(folder)
 
 
 @app.command()
@@ -192,7 +192,7 @@ def peers(
     shown = compared[columns].sort_values(["first", "set"])
     digits = {"median_first": 4, "median_second": 4, "p_holm": 3, "a12": 2}
     terminal.show("Hypervolume / published front's, ours and pymoo's", shown, digits, 3)
-    print(folder)
+    terminal.end(folder)
 
 
 @app.command()

@@ -75,7 +75,7 @@ def main(
     compared = statistics.pairwise(final, ["problem"], ["relative_hypervolume"], ALGORITHMS)
     files.write_table(folder / "differences", compared)
     terminal.show("Hypervolume / reference, medians", medians.reset_index(), dict.fromkeys(ALGORITHMS, 4))
-    print(folder)
+    terminal.end(folder)
     if failures:
         terminal.complain(f"{len(failures)} runs raised: see the column error of {folder / 'runs.csv'}")
         raise typer.Exit(1)

@@ -149,8 +149,29 @@ def test_tables_are_written_as_csv_markdown_and_latex(tmp_path):
     frame = pd.DataFrame({"algorithm": ["a_b"], "time [s]": [0.123456789], "runs": [31], "HV [%]": [np.nan]})
     tables.write_table(tmp_path / "table", frame)
     pd.testing.assert_frame_equal(pd.read_csv(tmp_path / "table.csv"), frame)
-    assert "| a_b         | 0.123457" in (tmp_path / "table.md").read_text()
+    assert "| a_b         |     0.1235 |     31 |          |" in (tmp_path / "table.md").read_text()
     latex = (tmp_path / "table.tex").read_text()
     assert r"\toprule" in latex
-    assert r"a\_b & 0.123457 & 31" in latex
+    assert r"a\_b & 0.1235 & 31" in latex
     assert r"HV [\%]" in latex
+
+
+def test_a_table_wider_than_a_page_stands_in_blocks_with_its_keys(tmp_path):
+    frame = pd.DataFrame(
+        {"algorithm": ["a", "b"]} | {f"a long header {n} [m/s^2]": [1.0 + n, 2.5] for n in range(7)}
+    )
+    tables.write_table(tmp_path / "table", frame)
+    markdown, latex = ((tmp_path / f"table.{ending}").read_text() for ending in ("md", "tex"))
+    assert max(map(len, markdown.splitlines())) <= 100
+    for text, title in ((markdown, "| algorithm"), (latex, "algorithm &")):
+        assert text.count(title) == 3
+        assert all(f"a long header {n} [m/s" in text for n in range(7))
+    assert latex.count(r"\bottomrule") == 3
+    assert "| a           |                       1.0 |" in markdown
+
+
+def test_texts_of_a_column_are_read_as_they_were_written(tmp_path):
+    names = ["=1+1", "knee, \x1b", "µ"]
+    tables.write_csv(tmp_path / "t.csv", pd.DataFrame({"design": names, "x": [1.0, 2.0, 3.0]}))
+    assert tables.read_texts(tmp_path / "t.csv", "design") == names
+    assert tables.read_texts(tmp_path / "t.csv", "name") == []

@@ -6,10 +6,12 @@ import pytest
 
 import garage
 from suspension_ctrl import Iso8608Road
+from suspension_ctrl.commands.bode import shown_responses
 from suspension_ctrl.paper.experiment import chosen
 from suspension_ctrl.quantities import column_headers
 from suspension_ctrl.response import weightings
 from suspension_ctrl.roads.files import load_road
+from suspension_ctrl.tables import write_csv
 from suspension_ctrl.vehicles.files import load_vehicle
 
 MEASURED = "wavenumber [cycle/m],psd [m^3]\n0.02,1e-3\n0.1,1e-4\n1,1e-6\n2,2e-7\n"
@@ -24,7 +26,7 @@ def test_bode_draws_the_papers_two_cars(script, tmp_path):
     assert done.returncode == 0, done.stderr
     names = {path.name for path in (tmp_path / "out").iterdir()}
     figures = {"figure6.png", "figure6.pdf", "figure7.png", "figure7.pdf"}
-    assert names == figures | {"curves.csv", "natural_frequencies.csv"}
+    assert names == figures | {"curves.csv", "designs.csv", "natural_frequencies.csv"}
     natural = pd.read_csv(tmp_path / "out" / "natural_frequencies.csv")["natural frequency [Hz]"]
     # The product of the undamped frequencies is det(M^-1 K)^(1/2) = (k k_t / (m_b m_w))^(1/2).
     product = (22e3 * 192e3 / (317.5 * 45.4)) ** 0.5 / (2 * np.pi) ** 2
@@ -46,13 +48,18 @@ def test_bode_draws_any_designs(called, tmp_path):
 
 
 def test_bode_draws_many_designs_and_frequencies_beyond_the_band(called, tmp_path):
-    """Without a legend, which would cover the curves, and without marks where there is no curve."""
+    """Eight of them drawn, and without marks where there is no curve; labels alike are told apart."""
     table = tmp_path / "designs.csv"
     rows = "".join(f"{k},{c}\n" for k in range(2000, 32000, 2000) for c in (500, 1500))
     table.write_text("spring [N/m],damper [N s/m]\n" + rows + "1e6,100\n1e6,100.0001\n")
     done = called("bode", "--designs", table, "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
     assert pd.read_csv(tmp_path / "out" / "curves.csv").design.nunique() == 32
+    assert pd.read_csv(tmp_path / "out" / "designs.csv").design.tolist()[-2:] == [
+        "1000 kN/m, 0.1 kN s/m",
+        "1000 kN/m, 0.1 kN s/m (32)",
+    ]
+    assert "Figures and tables show 8 of 32 designs, the files have all." in done.stdout
 
 
 def test_bode_of_a_half_car(called, tmp_path):
@@ -119,7 +126,9 @@ def test_bode_of_designs_of_six_variables(called, tmp_path):
     )
     assert done.returncode == 0, done.stderr
     curves = pd.read_csv(tmp_path / "out" / "curves.csv")
-    assert set(curves.design) == {"9000, 1500, 12000, 1800, 10000, 20000"}
+    assert set(curves.design) == {"design 1"}
+    told = pd.read_csv(tmp_path / "out" / "designs.csv").set_index("design")
+    assert told.loc["design 1", VARIABLES].tolist() == design
     problem, _ = chosen("jian_2022_full", None, None)
     assert column_headers(problem.variables, problem.units) == VARIABLES
     modes = load_vehicle("jian_2022_full").vehicle.modes(dict(zip(problem.variables, design, strict=True)))
@@ -138,3 +147,22 @@ def test_bode_on_a_measured_road_within_its_band(called, tmp_path):
     np.testing.assert_allclose(
         curves["tyre_load PSD [(N)^2/Hz]"], road * curves["tyre_load magnitude [N/m]"] ** 2, rtol=1e-9
     )
+
+
+def test_designs_of_a_file_bear_its_names_and_their_root_mean_squares(called, tmp_path, table1_problem):
+    table = pd.DataFrame(
+        {"design": ["knee", "=soft"], "spring [N/m]": [22e3, 8e3], "damper [N s/m]": [1500.0, 1e3]}
+    )
+    write_csv(tmp_path / "candidates.csv", table)
+    done = called("bode", "--designs", "candidates.csv", "--points", 20, "--out", "out")
+    assert done.returncode == 0, done.stderr
+    told = pd.read_csv(tmp_path / "out" / "designs.csv")
+    assert told.design.tolist() == ["knee: 22 kN/m, 1.5 kN s/m", "'=soft: 8 kN/m, 1 kN s/m"]
+    expected = table1_problem.evaluate([[22e3, 1500.0], [8e3, 1e3]])
+    columns = ["weighted_acceleration [m/s^2]", "suspension_travel [m]", "tyre_load [N]"]
+    np.testing.assert_allclose(told[columns], expected, rtol=1e-9)
+
+
+def test_a_vehicle_without_the_papers_responses_shows_its_first():
+    assert shown_responses(["a", "b", "c", "d"]) == ["a", "b", "c"]
+    assert shown_responses(["x_tyre_load", "y_tyre_load", "z"]) == ["x_tyre_load"]

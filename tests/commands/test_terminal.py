@@ -1,7 +1,10 @@
-"""What is printed: tables that fit the width, any encoding, progress and compiling in a terminal alone."""
+"""What is printed: the report in each of its forms, after the command, in any encoding and to a closed pipe."""
 
 import io
-import re
+import json
+import os
+import subprocess
+import sys
 
 import numpy as np
 import pandas as pd
@@ -9,6 +12,7 @@ import pytest
 from rich.console import Console
 
 from suspension_ctrl.commands import terminal
+from suspension_ctrl.commands.report import Form
 
 TABLE = pd.DataFrame(
     {"design": ["first", "second"], "a long column [N/m]": [1.5, np.nan], "another column [m/s²]": [2.25, 3e6]}
@@ -17,40 +21,94 @@ TABLE = pd.DataFrame(
 
 @pytest.fixture
 def printed(monkeypatch):
-    """A console of some width and encoding in place of the terminal's."""
+    """A console of some width and encoding in place of the terminal's, and an empty report."""
 
-    def make(width: int, encoding: str = "utf-8", **settings) -> tuple[Console, io.BytesIO]:
+    def make(width: int, encoding: str = "utf-8", form: Form = Form.TEXT, **settings) -> io.BytesIO:
         raw = io.BytesIO()
-        console = Console(
+        console = terminal.Output(
             file=io.TextIOWrapper(raw, encoding=encoding, write_through=True), width=width, **settings
         )
         monkeypatch.setattr(terminal, "console", console)
+        monkeypatch.setattr(terminal, "report", terminal.report)  # put back in the end
+        terminal.begin(form)
         return raw
 
     return make
 
 
-def test_a_table_that_fits_stands_in_one_block(printed):
-    raw = printed(80)
-    terminal.show("Title", TABLE, {"a long column [N/m]": 3})
-    lines = [line.rstrip() for line in raw.getvalue().decode().splitlines()]
-    assert lines[0] == "Title"
-    assert lines[1].split("   ") == ["design", "a long column [N/m]", "another column [m/s²]"]
-    assert re.fullmatch(r"first +1\.500 +2\.25", lines[3])
-    assert re.fullmatch(r"second +3e\+06", lines[4])
-
-
-@pytest.mark.parametrize("width", [30, 40, 60])
-def test_a_wide_table_stands_in_blocks_with_its_keys(printed, width):
-    raw = printed(width)
+def reported(folder) -> None:
+    terminal.note("A note.")
     terminal.show("Title", TABLE)
-    lines = raw.getvalue().decode().splitlines()
-    assert max(map(len, lines)) <= width
-    assert sum("design" in line for line in lines) == 2 if width < 60 else 1
-    text = raw.getvalue().decode()
-    assert "a long column [N/m]" in text
-    assert "another column [m/s²]" in text
-    assert "…" not in text
+    terminal.end(folder)
+
+
+def test_nothing_is_printed_before_it_is_said(printed, tmp_path):
+    raw = printed(80)
+    reported(tmp_path)
+    assert raw.getvalue() == b""
+    terminal.say()
+    first = raw.getvalue().decode()
+    assert first.startswith("A note.\nTitle\n")
+    assert str(tmp_path) not in first
+    terminal.note("Another.")
+    terminal.say(ended=True)
+    assert raw.getvalue().decode() == f"{first}Another.\n{tmp_path}\n"
+
+
+def test_a_quiet_command_prints_its_folder_alone(printed, tmp_path):
+    raw = printed(80, form=Form.QUIET)
+    reported(tmp_path)
+    terminal.say()
+    terminal.say(ended=True)
+    assert raw.getvalue().decode() == f"{tmp_path}\n"
+
+
+def test_json_is_one_document_at_the_end(printed, tmp_path):
+    raw = printed(40, form=Form.JSON)
+    reported(tmp_path)
+    terminal.say()
+    assert raw.getvalue() == b""
+    terminal.say(ended=True)
+    content = json.loads(raw.getvalue())
+    assert content["folder"] == str(tmp_path)
+    assert content["paragraphs"] == ["A note."]
+    assert content["tables"] == [{
+        "title": "Title",
+        "units": {"a long column": "N/m", "another column": "m/s^2"},
+        "records": [
+            {"design": "first", "a long column": 1.5, "another column": 2.25},
+            {"design": "second", "a long column": None, "another column": 3e6},
+        ],
+    }]  # fmt: skip
+
+
+def test_a_closed_pipe_ends_the_printing_alone(tmp_path):
+    """The command carries on, and ends with status 0 without a word on standard error."""
+    program = (
+        "import sys, pathlib\nfrom suspension_ctrl.commands import terminal\n"
+        "def main():\n"
+        "    for n in range(3000): terminal.note(f'line {n}')\n"
+        "    terminal.say()\n"
+        "    pathlib.Path('end').touch()\n"
+        "    terminal.end(pathlib.Path('end'))\n"
+        "terminal.run_script(main)"
+    )
+    command = [sys.executable, "-c", program]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=tmp_path) as process:
+        assert process.stdout.readline().rstrip() == b"line 0"
+        process.stdout.close()
+        assert process.stderr.read() == b""
+        assert process.wait() == 0
+    assert (tmp_path / "end").exists()
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="a device of Linux")
+def test_a_full_disk_is_an_error_in_one_line(tmp_path):
+    program = "from suspension_ctrl.commands import terminal; terminal.run_script(lambda: terminal.note('a'))"
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([sys.executable, "-c", program], stdout=full, stderr=subprocess.PIPE, text=True)
+    assert (done.returncode, done.stderr.count("\n")) == (1, 1)
+    assert done.stderr.startswith("error: ")
 
 
 @pytest.mark.parametrize("legacy", [False, True])
@@ -58,8 +116,9 @@ def test_a_legacy_console_in_cp1252_is_printed_to(printed, legacy):
     raw = printed(80, "cp1252", legacy_windows=legacy)
     terminal.show("µs", TABLE)
     terminal.note("[N/m] of a road :car:")
+    terminal.say()
     text = raw.getvalue().decode("cp1252")
-    assert "[m/s²]" in text
+    assert "[m/s^2]" in text
     assert "[N/m] of a road :car:" in text
 
 
@@ -69,6 +128,7 @@ def test_hostile_names_are_printed_as_text(printed, capsys):
     raw = printed(130)
     terminal.note(name)
     terminal.show(name, pd.DataFrame({name: [name], "n": [1.5]}))
+    terminal.say()
     assert raw.getvalue().decode().count(r"\x1b[31m[bold]x[/bold]\u202e\n") == 4
     assert "\x1b" not in raw.getvalue().decode()
     terminal.complain(f"{name} is none")

@@ -18,7 +18,7 @@ from suspension_ctrl.response.curves import DesignCurves, design_curves
 
 DESIGNS = {"soft": (12e3, 1600.0), "stiff": (26e3, 1900.0)}
 TITLES = {"SWS": "suspension_travel", "ACC": "body_acceleration", "DTL": "tyre_load"}
-PER_SI = {"m": 1.0, "m/s²": 1.0, "rad/s²": 1.0, "kN": 1e-3}
+PER_SI = {"mm": 1e3, "mm/mm": 1.0, "m/s²": 1.0, "rad/s²": 1.0, "kN": 1e-3}
 """What one of the response's SI unit is in the unit that an axis names."""
 
 
@@ -117,12 +117,41 @@ def test_weighting_factors_are_those_of_filters_and_tables():
     np.testing.assert_allclose(marks.get_xdata(), weightings.BANDS)
 
 
-def test_many_designs_have_colours_of_their_own_and_no_legend(curves):
-    for count, legends in ((2, 1), (13, 0)):
-        figure = figures.bode(curves[:1] * count)
-        colours = {line.get_color() if isinstance(line.get_color(), str) else tuple(line.get_color())
-                   for line in figure.axes[0].lines}  # fmt: skip
-        assert (len(colours), len(figure.legends)) == (count, legends)
+def test_eight_of_many_designs_are_drawn_in_colours_of_their_own_and_said_so(curves):
+    many = [replace(curves[0], label=str(n)) for n in range(15)]
+    eight = ["0", "2", "4", "6", "8", "10", "12", "14"]
+    for designs, drawn_ones, title in ((curves, ["soft", "stiff"], ""), (many, eight, "8 of 15 designs")):
+        figure = figures.bode(designs)
+        (legend,) = figure.legends
+        assert [text.get_text() for text in legend.get_texts()] == drawn_ones
+        assert legend.get_title().get_text() == title
+        assert len({line.get_color() for line in figure.axes[0].lines}) == len(drawn_ones)
+
+
+def test_root_mean_squares_stand_beside_the_spectra(curves, table1_problem):
+    """Those of the problem's measures, in the units of the axes."""
+    values = table1_problem.evaluate(list(DESIGNS.values()))
+    for (ax,) in axes_of(figures.spectra(curves, "Wk"), 1):
+        texts = [text.get_text().split(" / ")[-1] for text in ax.get_legend().get_texts()]
+        measure = table1_problem.objectives.index(ax.get_title()[:3])
+        expected = values[:, measure] * shown_in(ax, "PSD")
+        np.testing.assert_allclose([float(text) for text in texts], expected, rtol=5e-4)
+        assert (
+            ax.get_legend()
+            .get_title()
+            .get_text()
+            .endswith(f"[{ax.get_ylabel().split('[')[1].split('²/Hz')[0].strip('()')}]")
+        )
+
+
+def test_panels_of_many_responses_stand_in_rows_of_four(table1_problem):
+    names = [*table1_problem.vehicle.responses, "body_velocity", "strut_force"]
+    one = design_curves(table1_problem, "one", (22e3, 1500.0), names, 20)
+    axes = figures.bode([one]).axes
+    assert len(axes) == 2 * len(names)
+    assert [ax.get_xlabel() for ax in axes].count("frequency [Hz]") == len(names)
+    bottoms = {round(ax.get_subplotspec().rowspan.start) for ax in axes}
+    assert bottoms == {0, 1, 2, 3}
 
 
 def test_hostile_names_are_no_formulas_and_stand_in_the_legends(curves):

@@ -2,12 +2,13 @@
 
 import time
 
+import pandas as pd
 import pytest
 
 from suspension_ctrl.response.channels import channels_of
 from suspension_ctrl.response.history_files import read_accelerations
 from suspension_ctrl.roads.columns import column
-from suspension_ctrl.tables.headers import name_and_unit
+from suspension_ctrl.tables.headers import name_and_unit, readable
 
 
 @pytest.mark.parametrize(
@@ -45,3 +46,24 @@ def test_the_longest_header_takes_a_moment(tmp_path, header):
         with pytest.raises(ValueError, match=r"long.csv: [^\n]{1,500}$"):
             read(path)
     assert time.process_time() - began < 2
+
+
+def test_travel_and_forces_are_read_in_mm_and_kn():
+    table = pd.DataFrame({
+        "design": ["a"], "spring [N/m]": [22e3], "damper [N s/m]": [1500.0], "SWS [m]": [0.0287],
+        "DTL [N]": [1365.0], "ACC [m/s^2]": [2.5], "bar [N m/rad]": [2e4],
+    })  # fmt: skip
+    assert readable(table).to_dict("records") == [{
+        "design": "a", "spring [kN/m]": 22.0, "damper [kN s/m]": 1.5, "SWS [mm]": 28.7, "DTL [kN]": 1.365,
+        "ACC [m/s^2]": 2.5, "bar [N m/rad]": 2e4,
+    }]  # fmt: skip
+
+
+def test_numbers_beside_a_column_of_units_are_scaled_by_it():
+    table = pd.DataFrame(
+        {"name": ["x", "y"], "low": [0.5, 0.5], "n": [3, 4], "unit": ["m", ""], "share [%]": [1.0, 2.0]}
+    )
+    assert readable(table).to_dict("list") == {
+        "name": ["x", "y"], "low": [500.0, 0.5], "n": [3, 4], "unit": ["mm", ""], "share [%]": [1.0, 2.0],
+    }  # fmt: skip
+    assert table["low"].tolist() == [0.5, 0.5]

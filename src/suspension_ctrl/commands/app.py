@@ -1,10 +1,14 @@
 """The command line `suspension-ctrl`: its commands with examples; a command imports the library when it runs."""
 
+import inspect
 from collections.abc import Callable
+from functools import wraps
+from typing import Any
 
 from typer import Typer
 
-from . import bode, compare, exposure, optimum, ride, road, weighting
+from . import bode, compare, exposure, optimum, options, ride, road, terminal, weighting
+from .report import Form
 
 app = Typer(
     add_completion=False, pretty_exceptions_enable=False,
@@ -17,10 +21,29 @@ def suspension_ctrl() -> None:
     """Ride optimisation of vehicle suspensions."""
 
 
+def _reporting(command: Callable[..., None]) -> Callable[..., None]:
+    """Return a command with options for the form in which its report is printed."""
+
+    @wraps(command)
+    def run(*args: Any, quiet: bool, json: bool, **kwargs: Any) -> None:
+        if quiet and json:
+            raise ValueError("quiet must stand without json, got both")
+        terminal.begin(Form.QUIET if quiet else Form.JSON if json else Form.TEXT)
+        command(*args, **kwargs)
+
+    added: dict[str, Any] = {"quiet": options.Quiet, "json": options.Json}
+    kind = inspect.Parameter.KEYWORD_ONLY
+    signature = inspect.signature(command)
+    flags = [inspect.Parameter(name, kind, default=False, annotation=one) for name, one in added.items()]
+    vars(run)["__signature__"] = signature.replace(parameters=[*signature.parameters.values(), *flags])
+    run.__annotations__ = command.__annotations__ | added
+    return run
+
+
 def _add(command: Callable[..., None], *examples: str) -> None:
     """Add a command, with a paragraph of examples that is not wrapped."""
     lines = ["\b", "Examples:", *(f"  suspension-ctrl {command.__name__} {text}" for text in examples)]
-    app.command(epilog="\n".join(lines))(command)
+    app.command(epilog="\n".join(lines))(_reporting(command))
 
 
 _add(compare.compare, "--quick", "--quality --jobs 2", "--vehicle jian_2022_full --road C --repeats 1")

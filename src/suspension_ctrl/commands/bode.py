@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING
 from . import options as o
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from ..response.problem import RideProblem
 
 SHOWN = ("suspension_travel", "body_acceleration", "tyre_load")  # of the first wheel, in the paper's order
+WRITTEN = 2  # variables whose values stand in the label of a design
 
 
 def bode(
@@ -29,8 +32,8 @@ def bode(
 
     Without designs: the paper's reference car and its published optimum, or the struts of the vehicle. Under
     several wheels the Bode plot is of a road identical on all tracks, which the rear wheels meet later. Writes
-    figure6, figure7 (PNG, PDF), natural_frequencies.csv and curves.csv to a folder; its path is the last line
-    printed.
+    figure6, figure7 (PNG, PDF), designs.csv, natural_frequencies.csv and curves.csv to a folder; its path is the
+    last line printed. Of more than eight designs the figures show eight.
     """
     import pandas as pd
 
@@ -45,18 +48,30 @@ def bode(
     problem, own = experiment.chosen(vehicle, road, speed, allow_outside=allow_outside, **settings)
     labelled = labelled_designs(problem, design or [], designs, vehicle, own)
     case, (low, high) = problem.cases[0], problem.band
-    shown = response or [next(r for r in case.vehicle.responses if r.endswith(last)) for last in SHOWN]
+    shown = response or shown_responses(case.vehicle.responses)
     drawn = [curves.design_curves(problem, label, values, shown, points) for label, values in labelled.items()]
     natural = pd.concat([one.modes for one in drawn])
     folder = results.results_folder(out)
+    table, rms = design_table(problem, labelled), curves.rms_table(drawn)
+    write_csv(folder / "designs.csv", table.merge(rms, on="design"))
     write_csv(folder / "natural_frequencies.csv", natural)
     write_csv(folder / "curves.csv", pd.concat([curves.curve_table(one) for one in drawn]))
     with terminal.waiting("drawing"):
         write_figure(folder / "figure6", figures.bode(drawn))
         write_figure(folder / "figure7", figures.spectra(drawn, str(problem.weighting)))
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
-    terminal.show("Natural frequencies", natural, dict.fromkeys(natural.columns[2:], 3), keys=2)
-    print(folder)
+    if len(drawn) > (most := len(figures.spread(drawn))):
+        terminal.note(f"Figures and tables show {most} of {len(drawn)} designs, the files have all.")
+    printed = {one.label for one in figures.spread(drawn)}
+    for title, one in {"Designs": table, "Root mean squares": rms, "Natural frequencies": natural}.items():
+        terminal.show(title, one[one.design.isin(printed)], keys=2 if one is natural else 1, readable=True)
+    terminal.end(folder)
+
+
+def shown_responses(responses: Sequence[str]) -> list[str]:
+    """Return travel, body acceleration and tyre load of the first wheel, or the first responses of a plant."""
+    found = [next((name for name in responses if name.endswith(last)), None) for last in SHOWN]
+    return list(filter(None, found)) or list(responses[: len(SHOWN)])
 
 
 def labelled_designs(
@@ -66,28 +81,50 @@ def labelled_designs(
     from ..paper import experiment as paper
 
     units = [problem.units[name] for name in problem.variables]
-    designs: list[Sequence[float]] = [o.numbers("design", text, units) for text in texts]
+    designs: list[tuple[str, Sequence[float]]] = [("", o.numbers("design", text, units)) for text in texts]
     designs += [] if file is None else read_designs(file, problem)
     if not designs and vehicle is not None:
-        return {vehicle: [own[name] for name in problem.variables]}
-    if designs:
-        return {design_label(values): values for values in designs}
-    papers = {"reference car": paper.reference_design(), "published optimum": paper.optimised_design()}
-    return {f"{name}: {design_label(values)}": values for name, values in papers.items()}
+        designs = [(vehicle, [own[name] for name in problem.variables])]
+    papers = [("reference car", paper.reference_design()), ("published optimum", paper.optimised_design())]
+    return with_labels(problem, designs or papers)
 
 
-def read_designs(path: Path, problem: "RideProblem") -> list[list[float]]:
-    """Return the designs in a CSV file with a column for each variable; ValueError for another file."""
+def with_labels(
+    problem: "RideProblem", designs: Sequence[tuple[str, Sequence[float]]]
+) -> dict[str, Sequence[float]]:
+    """Return designs with names by label: the name, and the values of up to two variables; each label once."""
+    from ..tables.headers import shown_unit
+
+    shown = [shown_unit(problem.units[name]) for name in problem.variables]
+    labels: dict[str, Sequence[float]] = {}
+    for number, (name, values) in enumerate(designs, start=1):
+        texts = [
+            f"{value * factor:.4g} {unit}".rstrip() for value, (unit, factor) in zip(values, shown, strict=True)
+        ]
+        parts = [name, ", ".join(texts) if len(texts) <= WRITTEN else ""]
+        label = ": ".join(filter(None, parts)) or f"design {number}"
+        labels[f"{label} ({number})" if label in labels else label] = values
+    return labels
+
+
+def read_designs(path: Path, problem: "RideProblem") -> list[tuple[str, list[float]]]:
+    """Return the designs in a CSV file with a column for each variable, each with its name in a column ``design``.
+
+    ValueError for another file.
+    """
     from ..quantities import column_headers
-    from ..tables import read_table
+    from ..tables import read_table, read_texts
 
     _, values = read_table(path, column_headers(problem.variables, problem.units), rows=1)
-    designs: list[list[float]] = values.tolist()
-    return designs
+    names = read_texts(path, "design")
+    return list(zip(names if len(names) == len(values) else [""] * len(values), values.tolist(), strict=True))
 
 
-def design_label(values: Sequence[float]) -> str:
-    """Return the label of a design."""
-    if len(values) == 2:
-        return f"{values[0] / 1e3:.10g} kN/m, {values[1] / 1e3:.10g} kN s/m"
-    return ", ".join(f"{value:.6g}" for value in values)
+def design_table(problem: "RideProblem", labelled: Mapping[str, Sequence[float]]) -> "pd.DataFrame":
+    """Return the variables of designs: a row for each, units in the headers."""
+    import pandas as pd
+
+    from ..quantities import column_headers
+
+    rows = [[label, *values] for label, values in labelled.items()]
+    return pd.DataFrame(rows, columns=["design", *column_headers(problem.variables, problem.units)])

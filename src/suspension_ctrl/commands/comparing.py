@@ -94,7 +94,7 @@ def carry_out(request: Request, cluster: AbstractContextManager[Any] | None) -> 
         kept, planned = campaign.kept(judged=cluster is not None)
         stages.say(f"{kept} of {planned} runs are kept in {campaign.folder}; go on with --out {campaign.folder}")
         raise
-    print(campaign.folder)
+    terminal.end(campaign.folder)
     if raised:
         terminal.complain(f"{raised} runs raised: see the column error of {campaign.folder / 'runs.csv'}")
         raise typer.Exit(1)
@@ -112,6 +112,7 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
     timed = timing.tidy(campaign.comparison, store).assign(timing=True)
     reports.write_times(request, store, timed)
     reports.say_times(request, store, timed)
+    terminal.say()
     with stages.stage("reference front"):
         reference = campaign.reference(store, request.reference)
     if reference is None:
@@ -120,6 +121,7 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
     timed = timing.judged(campaign.comparison, store, timed, reference.front)
     reports.write_quality(request, timed, reference)
     reports.say_quality(request, timed, reference)
+    terminal.say()
     return 0 if cluster is None else _judge(request, cluster, store, timed, reference.front)
 
 

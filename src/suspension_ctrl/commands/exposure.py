@@ -34,7 +34,7 @@ def exposure(
     from ..response.history_files import read_accelerations
     from ..response.human_exposure import exposure_by_axis
     from ..tables import write_csv
-    from . import results
+    from . import results, terminal
 
     histories, time_step = read_accelerations(file, _axes(axes), step, columns and o.names(columns))
     found = exposure_by_axis(histories, time_step, **given({"duration": duration, "settling": settling}))
@@ -48,7 +48,7 @@ def exposure(
     for name, table in tables.items():
         write_csv(folder / f"{name}.csv", table)
     show(file, time_step, found, tables)
-    print(folder)
+    terminal.end(folder)
 
 
 def show(file: Path, time_step: float, found: "ExposureByAxis", tables: "dict[str, pd.DataFrame]") -> None:
@@ -58,17 +58,12 @@ def show(file: Path, time_step: float, found: "ExposureByAxis", tables: "dict[st
     seconds = next(iter(found.axes.values())).duration
     terminal.note(f"{file}: {seconds:g} s in steps of {1e3 * time_step:g} ms.")
     rotations = ", rotations in rad" * any(len(name.split()[1]) > 1 for name in found.axes)
-    terminal.show(f"Weighted accelerations{rotations}, offsets removed", _short(tables["exposure"]))
+    terminal.show(f"Weighted accelerations{rotations}, offsets removed", tables["exposure"])
     terminal.show("Vibration total values", tables["total_values"])
     daily = tables["daily"]
     if len(daily):
         hours = f"{found.duration / 3600:g} h"
-        terminal.show(f"Daily exposure, {hours} a day, and values of 2002/44/EC", _short(daily), keys=2)
-
-
-def _short(table: "pd.DataFrame") -> "pd.DataFrame":
-    """Return a table with four digits."""
-    return table.map(lambda value: float(f"{value:.4g}") if isinstance(value, float) else value)
+        terminal.show(f"Daily exposure, {hours} a day, and values of 2002/44/EC", daily, keys=2)
 
 
 def _axes(text: str | None) -> dict[str, str]:

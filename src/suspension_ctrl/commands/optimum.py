@@ -51,4 +51,4 @@ def optimum(
         shown = part.drop(columns="weighting").dropna(axis="columns", how="all")
         digits = {name: next((d for unit, d in DECIMALS.items() if unit in name), 4) for name in shown.columns[1:]}
         terminal.show(f"Table 5, ACC weighted by {weighting}", shown, digits)
-    print(folder)
+    terminal.end(folder)

@@ -64,10 +64,10 @@ def ride(
         write_csv(folder / f"{name}.csv", one)
     terminal.note(f"{file.name or vehicle}: {told(values, car)}.")
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
-    terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table)
+    terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table, readable=True)
     show_tables(tables, linear)
     show_certificate(certificate, folder)
-    print(folder)
+    terminal.end(folder)
 
 
 def certified(
@@ -89,9 +89,19 @@ def show_certificate(certificate: "Certificate | None", folder: Path) -> None:
     from ..tables import write_csv
     from . import terminal
 
-    if certificate is not None:
-        write_csv(folder / "certificate.csv", certificate.to_frame().reset_index())
-        terminal.note_lines(f"{certificate}\n\n")
+    if certificate is None:
+        return
+    table = certificate.to_frame().reset_index()
+    write_csv(folder / "certificate.csv", table)
+    terminal.note(certificate.title)
+    terminal.note("An asterisk marks a linearised value outside the 95 % interval of the simulated mean.")
+    table["outside"] = table["outside"].map({True: "*", False: ""})
+    terminal.show("Certificate", table.drop(columns=["case", "note"]), readable=True)
+    for line in certificate.limits:
+        terminal.note(line)
+    for name, text in dict(zip(table["measure"], table["note"], strict=True)).items():
+        if text:
+            terminal.note(f"{name}: {text}")
 
 
 def linearised_if_assembled(
@@ -155,15 +165,15 @@ def show_tables(tables: "Mapping[str, pd.DataFrame]", linear: "LinearisedVehicle
     if linear is None:
         return
     terminal.show("Modes", tables["modes"], dict.fromkeys(tables["modes"].columns[1:], 3))
-    terminal.show("Springs" + " at the working point" * bool(linear.laws), tables["springs"])
+    terminal.show("Springs" + " at the working point" * bool(linear.laws), tables["springs"], readable=True)
     if "static" in tables:
         loads = tables["static"][tables["static"]["name"].str.endswith("wheel_load")]
-        terminal.show("Static loads", loads, {"value": 1})
+        terminal.show("Static loads", loads, readable=True)
     if linear.laws:
         terminal.show("Force laws, linearised on this road: SI units", tables["laws"])
-        travel = [(strut or "strut", 1e3 * mean) for strut, mean in linear.mean_travel.items()]
-        table = pd.DataFrame(travel, columns=["strut", "mean travel [mm]"])
-        terminal.show("Mean travel", table, {"mean travel [mm]": 1})
+        travel = [(strut or "strut", mean) for strut, mean in linear.mean_travel.items()]
+        table = pd.DataFrame(travel, columns=["strut", "mean travel [m]"])
+        terminal.show("Mean travel", table, {"mean travel [mm]": 1}, readable=True)
 
 
 def chosen_vehicle(name: str | None, masses: Mapping[str, float | None], allow_outside: bool) -> "VehicleFile":

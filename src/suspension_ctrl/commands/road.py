@@ -58,7 +58,7 @@ def road(
     if parts:
         terminal.show("By segments: least, mean and largest", spread(parts), keys=1)
     terminal.note(told)
-    print(folder)
+    terminal.end(folder)
 
 
 def spectrum_of(profile: "Profile", source: str) -> "tuple[MeasuredRoad | None, str]":

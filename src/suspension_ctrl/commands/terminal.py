@@ -1,31 +1,44 @@
-"""The terminal: one-line errors, tables that fit its width, progress."""
+"""The terminal: one-line errors, progress, and the report of the command, printed after its files are written."""
 
+import os
 import sys
 import warnings
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from io import TextIOWrapper
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 import typer
 from rich import progress as bars
-from rich.box import SIMPLE_HEAD
 from rich.console import Console
-from rich.table import Table
-from rich.text import Text
 
 from .. import escaping
 from . import signals
+from .report import Form, Report, Table
 
 if TYPE_CHECKING:
     import pandas as pd
 
-console = Console(width=None if sys.stdout.isatty() else 130)
-stderr = Console(stderr=True)
-T = TypeVar("T")
 
-_PIPE = 80  # columns of a paragraph outside of a terminal
-_GAP = 3  # columns of text between two columns of a table
+class Output(Console):
+    """A console that is silent once its pipe is closed: the command carries on, and its files are written."""
+
+    def on_broken_pipe(self) -> None:
+        """Print nothing more."""
+        self.quiet = True
+        if self.file is sys.__stdout__:  # else its rest would raise at the end of the process
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.__stdout__.fileno())
+
+
+PIPE = 80
+"""Columns of text outside of a terminal."""
+
+console = Output(width=None if sys.stdout.isatty() else PIPE)
+stderr = Console(stderr=True)
+report = Report()
+"""The report of the command that runs."""
+T = TypeVar("T")
 
 
 def run(app: typer.Typer, *before: str, name: str | None = None) -> NoReturn:
@@ -38,11 +51,13 @@ def run(app: typer.Typer, *before: str, name: str | None = None) -> NoReturn:
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")  # no error for a symbol outside of the encoding
     warnings.showwarning = _warn
+    begin(Form.TEXT)
     try:
         signals.end_in_order()
         with warnings.catch_warnings():
             warnings.filterwarnings("error", "overflow|divide by zero|invalid value", RuntimeWarning)
             result = "", app([*before, *sys.argv[1:]], prog_name=name, standalone_mode=False)
+        say(ended=True)
     except BaseException as error:
         result = signals.ended() or _ending(error)
     message, status = signals.ended() or result
@@ -129,51 +144,54 @@ def compiling() -> Iterator[None]:
         yield
 
 
+def begin(form: Form) -> None:
+    """Begin the report of a command, to be printed in a form."""
+    global report
+    report = Report(form)
+
+
 def note(text: str) -> None:
-    """Print a paragraph without markup, unprintable characters escaped; in 80 columns outside of a terminal."""
-    width = console.width if console.is_terminal else min(console.width, _PIPE)
-    console.print(escaping.terminal(text), markup=False, highlight=False, emoji=False, width=width)
+    """Add a paragraph without markup to the report; unprintable characters are escaped."""
+    report.items.append(text)
 
 
 def note_lines(text: str) -> None:
-    """Print a text line by line, as `note`."""
+    """Add a text to the report line by line, as `note`."""
     for line in text.splitlines():
         note(line)
 
 
-def show(title: str, table: "pd.DataFrame", digits: dict[str, int] | None = None, keys: int = 1) -> None:
-    """Print a table; `digits` is the number of decimals by column; NaN is blank.
+def show(
+    title: str,
+    table: "pd.DataFrame",
+    digits: Mapping[str, int] | None = None,
+    keys: int = 1,
+    *,
+    readable: bool = False,
+) -> None:
+    """Add a table to the report; `digits` is the number of decimals by column; NaN is blank.
 
-    The columns of a table wider than the terminal are printed in blocks, each with the first `keys` columns.
+    The columns of a table wider than the terminal are printed in blocks, each with the first `keys` columns. A
+    `readable` table is in SI units and printed in mm, kN, kN/m and kN s/m.
     """
-    cells = {str(c): [_cell(value, (digits or {}).get(c)) for value in table[c]] for c in table.columns}
-    right = {str(c) for c in table.columns if table[c].dtype.kind in "iuf"}
-    widths = {name: max(map(len, [name, *column])) + _GAP for name, column in cells.items()}
-    console.print(Text(escaping.terminal(title), style="bold"))
-    for block in _blocks(list(cells)[:keys], list(cells)[keys:], widths):
-        shown = Table(box=SIMPLE_HEAD, pad_edge=False, show_edge=False)
-        for name in block:  # as Text: units in brackets are no markup
-            shown.add_column(
-                Text(escaping.terminal(name)), justify="right" if name in right else "left", no_wrap=True
-            )
-        for row in zip(*(cells[name] for name in block), strict=True):
-            if any(row[keys:]):
-                shown.add_row(*map(Text, row))
-        console.print(shown)
-        console.print()
+    report.items.append(Table(title, table, digits or {}, keys, readable))
 
 
-def _blocks(keys: list[str], others: list[str], widths: dict[str, int]) -> list[list[str]]:
-    """Return the columns in blocks that fit the terminal, each with one of the `others` at least."""
-    blocks: list[list[str]] = []
-    for name in others:
-        if not blocks or sum(widths[c] for c in [*blocks[-1], name]) > console.width:
-            blocks.append(list(keys))
-        blocks[-1].append(name)
-    return blocks or [keys]
+def end(folder: Path) -> None:
+    """Name the folder of the results, the last line printed."""
+    report.folder = folder
 
 
-def _cell(value: Any, digits: int | None) -> str:
-    if not isinstance(value, float):  # numpy's are floats
-        return escaping.terminal(str(value))
-    return "" if value != value else f"{value:.6g}" if digits is None else f"{value:.{digits}f}"
+def say(*, ended: bool = False) -> None:
+    """Print the report so far, if it is text: a long command shows its first tables before the last are there.
+
+    `run` prints the rest once a command has `ended`, in any form.
+    """
+    if report.form is Form.TEXT:
+        for line, title in report.text(console.width, plain=not console.is_terminal):
+            console.out(line, style="bold" if title else None, highlight=False)
+        report.items.clear()
+    elif report.form is Form.JSON and ended:
+        console.out(report.document(), highlight=False)
+    if ended and report.folder is not None and report.form is not Form.JSON:
+        console.out(str(report.folder), highlight=False)

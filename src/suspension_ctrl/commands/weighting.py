@@ -15,7 +15,7 @@ def weighting(out: o.Out = None) -> None:
     from ..paper import figures
     from ..response import weightings
     from ..tables import write_csv, write_figure
-    from . import results
+    from . import results, terminal
 
     f = weightings.BANDS
     every = weightings.filters() + weightings.TABLES
@@ -25,4 +25,4 @@ def weighting(out: o.Out = None) -> None:
     figure = Figure(figsize=(7, 4.6), layout="constrained")
     figures.weighting_factors(figure.add_subplot(), ("Wk", "Wb"), ("Wk-table", "Wb-table"))
     write_figure(folder / "figure2", figure)
-    print(folder)
+    terminal.end(folder)

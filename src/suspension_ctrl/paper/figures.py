@@ -4,9 +4,10 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 from numpy.typing import NDArray
 
 from .. import escaping
@@ -15,8 +16,9 @@ from ..response.curves import DesignCurves, weighted_name
 from ..response.responses import phase_degrees
 from ..response.weightings import BANDS, by_name
 from ..study.figures import COLOURS
+from ..tables.headers import shown_unit
 
-_MOST_IN_LEGEND = 12  # a legend of more designs would cover the curves; curves.csv names all
+_ACROSS = 4  # panels in a row
 _TITLES = {
     "suspension_travel": "SWS: suspension travel",
     "body_acceleration": "ACC: body acceleration",
@@ -39,55 +41,87 @@ def weighting_factors(ax: Axes, filters: Sequence[str], tables: Sequence[str]) -
 
 def bode(designs: Sequence[DesignCurves]) -> Figure:
     """Draw Figure 6: magnitude and phase of the responses to the road, a line per design."""
-    figure, axes = _columns(designs, 2)
-    for (magnitude, phase), response in zip(axes.T, designs[0].responses, strict=True):
-        unit, scale = _shown(signal_unit(response))
-        for colour, design in zip(_colours(len(designs)), designs, strict=False):
+    figure, panels = _panels(designs, 2)
+    for (magnitude, phase), response in zip(panels, designs[0].responses, strict=True):
+        unit, scale = _magnitude(signal_unit(response))
+        for colour, design in zip(COLOURS, spread(designs), strict=False):
             h = design.responses[response] * scale
             _marked_line(magnitude, design, np.abs(h), colour)
             _marked_line(phase, design, phase_degrees(h), colour)
-        magnitude.set(yscale="log", ylabel=f"magnitude [{unit}/m]")
+        magnitude.set(yscale="log", ylabel=f"magnitude [{unit}]")
         phase.set(ylabel="phase [deg]")
-    return _finished(figure, axes)
+    return _finished(figure, panels, designs)
 
 
 def spectra(designs: Sequence[DesignCurves], weighting: str) -> Figure:
-    """Draw Figure 7: spectra of the responses, a line per design; weighted accelerations are dashed."""
-    figure, axes = _columns(designs, 1)
-    for ax, response in zip(axes[0], designs[0].responses, strict=True):
+    """Draw Figure 7: spectra of the responses, a line per design, and its root mean squares beside.
+
+    Weighted accelerations are dashed.
+    """
+    figure, panels = _panels(designs, 1)
+    for (ax,), response in zip(panels, designs[0].responses, strict=True):
         unit, scale = _shown(signal_unit(response))
         weighted = weighted_name(response)
-        for colour, design in zip(_colours(len(designs)), designs, strict=False):
+        for colour, design in zip(COLOURS, spread(designs), strict=False):
             _marked_line(ax, design, design.densities[response] * scale**2, colour)
             if weighted in design.densities:
                 ax.plot(design.f, design.densities[weighted], "--", color=colour, lw=1.2)
                 ax.set_title(f"{_title(response)} (dashed: {escaping.figure(weighting)})")
         ax.set(yscale="log", ylabel=f"PSD [{f'({unit})' if '/' in unit else unit}²/Hz]")
-    return _finished(figure, axes)
+        _write_root_mean_squares(ax, spread(designs), response, scale, unit)
+    return _finished(figure, panels, designs)
 
 
-def _colours(count: int) -> Sequence[Any]:
-    """Return `count` colours: of a palette up to four, of a colour map beyond."""
-    return COLOURS if count <= 4 else list(colormaps["viridis"](np.linspace(0, 0.9, count)))
+def spread(designs: Sequence[DesignCurves]) -> list[DesignCurves]:
+    """Return the designs that are drawn: all, or as many as there are colours, even in their order."""
+    places = np.linspace(0, len(designs) - 1, min(len(designs), len(COLOURS))).round().astype(int)
+    return [designs[place] for place in places]
+
+
+def _write_root_mean_squares(
+    ax: Axes, designs: Sequence[DesignCurves], response: str, scale: float, unit: str
+) -> None:
+    """Write the root mean square of each design in its colour, of a weighted acceleration behind it."""
+    names = [name for name in (response, weighted_name(response)) if name in designs[0].rms]
+    texts = [" / ".join(f"{scale * design.rms[name]:.4g}" for name in names) for design in designs]
+    handles = [Line2D([], [], color=colour) for colour, _ in zip(COLOURS, designs, strict=False)]
+    title = f"r.m.s.{' / weighted' * (len(names) > 1)} [{unit}]"
+    style: dict[str, Any] = {"fontsize": 7, "title_fontsize": 7, "handlelength": 1.0, "framealpha": 0.7}
+    ax.legend(handles, [text.replace("nan", "-") for text in texts], title=title, loc="lower left", **style)
+
+
+def _magnitude(unit: str) -> tuple[str, float]:
+    """Return the unit of a magnitude for data in a unit per metre of the road, and the factor to it."""
+    if unit == "m":
+        return "mm/mm", 1.0
+    shown, factor = _shown(unit)
+    return f"({shown})/m" if "/" in shown else f"{shown}/m", factor
 
 
 def _shown(unit: str) -> tuple[str, float]:
     """Return the unit of an axis for data in a unit, and the factor to it."""
-    return ("kN", 1e-3) if unit == "N" else (unit.replace("^2", "²"), 1.0)
+    shown, factor = shown_unit(unit)
+    return shown.replace("^2", "²"), factor
 
 
 def _title(response: str) -> str:
     return _TITLES.get(response, escaping.figure(response.replace("_", " ")))
 
 
-def _columns(designs: Sequence[DesignCurves], rows: int) -> tuple[Figure, NDArray[Any]]:
-    """Return a figure with a column of `rows` Axes for each response, and the Axes."""
-    columns = len(designs[0].responses)
-    figure = Figure(figsize=(0.5 + 3.5 * columns, 1.4 + 2.6 * rows), layout="constrained")
-    axes = figure.subplots(rows, columns, sharex=True, squeeze=False)
-    for ax, response in zip(axes[0], designs[0].responses, strict=True):
-        ax.set_title(_title(response))
-    return figure, axes
+def _panels(designs: Sequence[DesignCurves], rows: int) -> tuple[Figure, NDArray[Any]]:
+    """Return a figure with a panel of `rows` Axes for each response, and the Axes (responses, rows)."""
+    count = len(designs[0].responses)
+    columns = min(_ACROSS, count)
+    down = -(-count // columns)
+    size = (0.5 + 3.5 * columns, 0.8 + down * (0.6 + 2.6 * rows))
+    figure = Figure(figsize=size, layout="constrained")
+    axes = figure.subplots(down * rows, columns, sharex=True, squeeze=False)
+    panels = axes.reshape(down, rows, columns).swapaxes(1, 2).reshape(-1, rows)
+    for spare in panels[count:].flat:
+        spare.remove()
+    for panel, response in zip(panels, designs[0].responses, strict=False):
+        panel[0].set_title(_title(response))
+    return figure, panels[:count]
 
 
 def _marked_line(ax: Axes, design: DesignCurves, values: Real, colour: str) -> None:
@@ -98,14 +132,21 @@ def _marked_line(ax: Axes, design: DesignCurves, values: Real, colour: str) -> N
     ax.plot(shown, np.interp(shown, design.f, values), "o", color=colour, ms=4)
 
 
-def _finished(figure: Figure, axes: NDArray[Any]) -> Figure:
-    for ax in axes.flat:
+def _finished(figure: Figure, panels: NDArray[Any], designs: Sequence[DesignCurves]) -> Figure:
+    """Return the figure with axes of frequency and a legend; it says if not all designs are drawn."""
+    for ax in panels.flat:
         ax.set_xscale("log")
+        ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        ax.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        ax.xaxis.set_minor_formatter(NullFormatter())
         ax.title.set_fontsize(10)
         ax.grid(which="both", alpha=0.25)
-    for ax in axes[-1]:
+    for ax in panels[:, -1]:
         ax.set_xlabel("frequency [Hz]")
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    if len(labels) <= _MOST_IN_LEGEND:
-        figure.legend(handles, labels, loc="outside upper center", ncols=3, frameon=False)
+        ax.tick_params(labelbottom=True)
+    handles, labels = panels[0, 0].get_legend_handles_labels()
+    drawn = len(spread(designs))
+    title = f"{drawn} of {len(designs)} designs" if drawn < len(designs) else None
+    columns = max(1, 3 * len(panels) // 4) if len(panels) < _ACROSS else 4
+    figure.legend(handles, labels, title=title, loc="outside upper center", ncols=columns, frameon=False)
     return figure

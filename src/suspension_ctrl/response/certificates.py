@@ -4,7 +4,7 @@ import html
 import textwrap
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from itertools import groupby
+from itertools import chain, groupby
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..quantities import Record, unit
@@ -75,7 +75,9 @@ class Certificate(Record):
         return table.set_index(["case", "measure"])
 
     def __repr__(self) -> str:
-        return "\n".join(line[:_COLUMNS].rstrip() for line in self._lines())
+        lines = "\n".join(self._lines()).split("\n")
+        fitted = (_wrapped(line) if len(line) > _COLUMNS else [line.rstrip()] for line in lines)
+        return "\n".join(chain.from_iterable(fitted))
 
     def _repr_html_(self) -> str:
         table = self.to_frame().reset_index().to_html(index=False, float_format="{:.4g}".format, na_rep="")
@@ -114,9 +116,10 @@ def _number(value: float) -> str:
 
 
 def _line(cells: tuple[str, ...] | list[str]) -> str:
-    """Return a line of the table, names to the left, units and numbers to the right."""
+    """Return a line of the table, names to the left, units and numbers to the right; a long name on its own."""
     name, unit, *numbers = cells
     room = _NAME - len(unit) - 1
-    name = name if len(name) <= room else f"{name[: room - 3]}..."
-    start = name.ljust(_NAME - len(unit)) + unit
-    return start + "".join(cell.rjust(one) for cell, one in zip(numbers, _NUMBERS, strict=True))
+    first, rest = (name, "") if len(name) > room else ("", name)
+    start = rest.ljust(_NAME - len(unit)) + unit
+    line = start + "".join(cell.rjust(one) for cell, one in zip(numbers, _NUMBERS, strict=True))
+    return f"{first}\n{line}" if first else line

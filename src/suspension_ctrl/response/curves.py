@@ -1,18 +1,22 @@
 """Curves of one design over frequency: its responses to the road and their spectra, for figures and tables."""
 
-from collections.abc import Mapping, Sequence
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 
-from ..quantities import Complex, Real, signal_unit
+from ..quantities import Complex, Real, column_headers, signal_unit
 from ..vehicles.modes import DAMPED, FREQUENCY, RATIO
+from ..vehicles.unit_slips import UnitSlipWarning
 from ..vehicles.vehicle import AssembledVehicle, Setting, Vehicle, coefficients_by_name
 from . import weightings
 from .linearisation import linear_at
+from .measures.terms import Term
+from .measures.vibration import RootSumSquare
 from .problem import RideProblem
-from .responses import frequency_responses, phase_degrees, response_psds
+from .responses import frequency_responses, phase_degrees, response_psds, ride
 
 
 @dataclass(frozen=True)
@@ -24,6 +28,7 @@ class DesignCurves:
     responses: Mapping[str, Complex]  # H(w) (n,) from the road
     densities: Mapping[str, Real]  # spectra (n,) on the road, also of weighted accelerations (`weighted_name`)
     modes: pd.DataFrame  # design, mode, natural frequency, damped frequency, damping ratio
+    rms: Mapping[str, float]  # root mean squares by name of the spectra; NaN where the integral diverges
 
 
 def weighted_name(response: str) -> str:
@@ -59,7 +64,33 @@ def design_curves(
                 densities[weighted_name(name)] = densities[name] * factor**2
     x = case.vehicle.contact_points[:, 0]
     h = frequency_responses(closed, f, (x.max() - x) / case.speed)
-    return DesignCurves(label, f, h, densities, _modes(vehicle, setting, label))
+    rms = _root_mean_squares(problem, design, densities)
+    return DesignCurves(label, f, h, densities, _modes(vehicle, setting, label), rms)
+
+
+def _root_mean_squares(problem: RideProblem, design: Sequence[float], names: Iterable[str]) -> dict[str, float]:
+    """Return the root mean squares over the band of spectra in the first load case, by their names."""
+    case = problem.cases[0]
+    weighted = {weighted_name(name): name for name in case.vehicle.meanings}
+    measures = [
+        RootSumSquare([Term(weighted[name], problem.weighting)], name=name)
+        if name in weighted
+        else RootSumSquare([Term(name)])
+        for name in names
+    ]
+    setting, band = setting_of(problem, design), problem.band
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UnitSlipWarning)  # a design at the edge of the bounds may look like one
+        table = ride(case.vehicle, setting, case.road, case.speed, weighting=None, band=band, measures=measures)
+    return {name: float(table.value[name]) for name in names}
+
+
+def rms_table(curves: Sequence[DesignCurves]) -> pd.DataFrame:
+    """Return the root mean squares of designs: a row for each design, units in the headers."""
+    names = list(curves[0].rms)
+    units = [signal_unit(name) for name in names]
+    rows = [[one.label, *(one.rms[name] for name in names)] for one in curves]
+    return pd.DataFrame(rows, columns=["design", *column_headers(names, dict(zip(names, units, strict=True)))])
 
 
 def curve_table(curves: DesignCurves) -> pd.DataFrame:

@@ -17,8 +17,10 @@ import numpy as np
 from .. import checks, escaping
 from ..documents import naming
 from ..quantities import Real, quantity
+from .blocks import blocks
 from .headers import name_and_unit
 from .layouts import HEAD, Layout
+from .rounding import rounded
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -29,6 +31,9 @@ UNFINISHED = ".unfinished-"
 
 MEGABYTES = 100
 """Largest size of a file of numbers [MB]."""
+
+PAGE = 90
+"""Characters across a page of Markdown or LaTeX."""
 
 _DEVICES = r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)"  # reserved names of Windows, with any ending
 
@@ -64,6 +69,12 @@ def read_table(
         if len(values) < rows:
             raise ValueError(f"rows of numbers must be {rows} or more, got {len(values)}")
         return [layout.names[i] for i in wanted if layout.names], values
+
+
+def read_texts(path: str | PathLike[str], column: str) -> list[str]:
+    """Return the texts of a column of a table by `write_csv`; none if it has no such column."""
+    with naming(path), reading(path) as file:
+        return [escaping.from_csv(row[column]) for row in csv.DictReader(file) if row.get(column) is not None]
 
 
 def read_columns(path: str | PathLike[str], units: Mapping[str, str], most: int) -> dict[str, Real]:
@@ -144,17 +155,36 @@ def write_json(path: Path, content: Mapping[str, Any]) -> None:
     write_text(path, json.dumps(dict(content), indent=2) + "\n")
 
 
-def write_table(stem: Path, frame: "pd.DataFrame") -> None:
-    """Write a table as CSV with all digits, and as Markdown and LaTeX (booktabs) with six."""
+def write_table(stem: Path, frame: "pd.DataFrame", keys: int = 1) -> None:
+    """Write a table as CSV with all digits, and rounded as Markdown and LaTeX (booktabs) at the width of a page.
+
+    The columns of a wide table stand in blocks, each with the first `keys` columns.
+    """
+    import pandas as pd
+
     write_csv(stem.with_suffix(".csv"), frame)
-    markdown, latex = (_shown(frame, medium) for medium in (escaping.markdown, escaping.latex))
-    write_text(stem.with_suffix(".md"), markdown.to_markdown(index=False, disable_numparse=True) + "\n")
-    write_text(stem.with_suffix(".tex"), latex.style.hide(axis="index").to_latex(hrules=True))
+    texts = pd.DataFrame({str(name): rounded(frame[name].tolist()) for name in frame})
+    sides = {str(name): "right" if frame[name].dtype.kind in "iuf" else "left" for name in frame}
+    markdown, latex = (_page(texts, keys, medium) for medium in (escaping.markdown, escaping.latex))
+    parts = [
+        one.to_markdown(index=False, disable_numparse=True, colalign=[sides[name] for name in names])
+        for names, one in markdown
+    ]
+    write_text(stem.with_suffix(".md"), "\n\n".join(parts) + "\n")
+    parts = [
+        one.style.hide(axis="index").to_latex(hrules=True, column_format="".join(sides[name][0] for name in names))
+        for names, one in latex
+    ]
+    write_text(stem.with_suffix(".tex"), "\n\\medskip\n\n".join(parts))
 
 
-def _shown(frame: "pd.DataFrame", medium: Callable[[str], str]) -> "pd.DataFrame":
-    texts = escaping.frame(frame, medium)
-    return texts.map(lambda value: f"{value:.6g}" if isinstance(value, float) else value)
+def _page(
+    texts: "pd.DataFrame", keys: int, medium: Callable[[str], str]
+) -> "list[tuple[list[str], pd.DataFrame]]":
+    """Return a table of texts in blocks of the width of a page: names of columns, and the block escaped."""
+    widths = {str(name): max(map(len, [str(name), *texts[name]])) for name in texts}
+    parts = blocks(list(widths), keys, widths, PAGE, gap=3)
+    return [(names, escaping.frame(texts[names], medium)) for names in parts]
 
 
 def write_figure(stem: Path, figure: "Figure") -> None:

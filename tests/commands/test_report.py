@@ -1,0 +1,46 @@
+"""The report of a command as text and as a document."""
+
+import json
+
+import numpy as np
+import pandas as pd
+
+from suspension_ctrl.commands.report import Report, Table
+
+RIDE = pd.DataFrame({"name": ["SWS", "DTL"], "value": [0.0287, 1365.255], "unit": ["m", "N"]})
+
+
+def text(report: Report, room: int = 80, *, plain: bool = True) -> list[str]:
+    return [line for line, _ in report.text(room, plain=plain)]
+
+
+def test_a_readable_table_is_printed_in_mm_and_kn_and_recorded_in_si_units():
+    report = Report(items=[Table("Ride", RIDE, {}, 1, True)])
+    assert [line.split() for line in text(report)[3:5]] == [["SWS", "28.7", "mm"], ["DTL", "1.365", "kN"]]
+    records = json.loads(report.document())["tables"][0]["records"]
+    assert records == [
+        {"name": "SWS", "value": 0.0287, "unit": "m"},
+        {"name": "DTL", "value": 1365.255, "unit": "N"},
+    ]
+
+
+def test_plain_lines_have_ascii_signs_alone():
+    frame = pd.DataFrame({"time [µs]": [1.5], "a [m/s²]": [2.5]})
+    report = Report(items=["Area in m² ± 1 µm", Table("µ", frame, {}, 1, False)])
+    assert "".join(text(report)).isascii()
+    assert not "".join(text(report, plain=False)).isascii()
+    assert text(report)[0] == "Area in m^2 +- 1 um"
+
+
+def test_titles_are_marked_and_paragraphs_wrapped():
+    lines = list(Report(items=["word " * 30, Table("Title", RIDE, {}, 1, False)]).text(40, plain=True))
+    assert [line for line, title in lines if title] == ["Title"]
+    assert max(len(line) for line, _ in lines) <= 40
+
+
+def test_a_document_has_no_nan_and_names_columns_once():
+    frame = pd.DataFrame({"ACC [m/s^2]": [np.nan], "ACC [%]": [np.inf], "n": [np.int64(3)], "held": [True]})
+    table = json.loads(Report(items=[Table("t", frame, {}, 1, False)]).document())["tables"][0]
+    assert table["records"] == [{"ACC [m/s^2]": None, "ACC [%]": None, "n": 3, "held": True}]
+    assert table["units"] == {"ACC [m/s^2]": "m/s^2", "ACC [%]": "%"}
+    assert json.loads(Report().document()) == {"folder": None, "paragraphs": [], "tables": []}
