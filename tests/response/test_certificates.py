@@ -26,7 +26,7 @@ def test_the_text_has_80_columns_and_marks_what_is_outside():
     assert max(map(len, lines)) <= 80
     assert lines[0] == "3 random roads"
     at = next(n for n, line in enumerate(lines) if line.startswith("Wk driver"))
-    assert lines[at] == "Wk driver_acceleration"  # too long for a row with its numbers
+    assert lines[at] == "Wk driver_acceleration + 0.63 We roll_acceleration"  # too long for a row with its numbers
     assert lines[at + 1].split() == ["m/s^2", "3*", "2", "1.9", "2.1", "2"]
     assert next(line for line in lines if line.startswith("ACC ")).split()[2] == "2.26"
     assert next(line for line in lines if line.startswith("price")).split() == ["price", "-", "5"]

@@ -55,7 +55,7 @@ def test_travel_and_forces_are_read_in_mm_and_kn():
     })  # fmt: skip
     assert readable(table).to_dict("records") == [{
         "design": "a", "spring [kN/m]": 22.0, "damper [kN s/m]": 1.5, "SWS [mm]": 28.7, "DTL [kN]": 1.365,
-        "ACC [m/s^2]": 2.5, "bar [N m/rad]": 2e4,
+        "ACC [m/s^2]": 2.5, "bar [kN m/rad]": 20.0,
     }]  # fmt: skip
 
 

@@ -9,6 +9,7 @@ from . import options as o
 if TYPE_CHECKING:
     import pandas as pd
 
+    from ..response.curves import DesignCurves
     from ..response.problem import RideProblem
 
 SHOWN = ("suspension_travel", "body_acceleration", "tyre_load")  # of the first wheel, in the paper's order
@@ -60,12 +61,22 @@ def bode(
         write_figure(folder / "figure6", figures.bode(drawn))
         write_figure(folder / "figure7", figures.spectra(drawn, str(problem.weighting)))
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
-    if len(drawn) > (most := len(figures.spread(drawn))):
-        terminal.note(f"Figures and tables show {most} of {len(drawn)} designs, the files have all.")
-    printed = {one.label for one in figures.spread(drawn)}
-    for title, one in {"Designs": table, "Root mean squares": rms, "Natural frequencies": natural}.items():
-        terminal.show(title, one[one.design.isin(printed)], keys=2 if one is natural else 1, readable=True)
+    show_tables(
+        {"Designs": table, "Root mean squares": rms, "Natural frequencies": natural}, figures.spread(drawn)
+    )
     terminal.end(folder)
+
+
+def show_tables(tables: "Mapping[str, pd.DataFrame]", shown: "Sequence[DesignCurves]") -> None:
+    """Print the rows of the designs that the figures show."""
+    from . import terminal
+
+    labels = [one.label for one in shown]
+    if (count := tables["Designs"].design.nunique()) > len(labels):
+        terminal.note(f"Figures and tables show {len(labels)} of {count} designs, the files have all.")
+    for title, table in tables.items():
+        keys = 2 if "mode" in table else 1
+        terminal.show(title, table[table.design.isin(labels)], keys=keys, readable=True)
 
 
 def shown_responses(responses: Sequence[str]) -> list[str]:

@@ -1,5 +1,15 @@
 """Headers of columns: a name, and a unit in brackets."""
 
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+_SHOWN = {
+    "m": ("mm", 1e3), "N": ("kN", 1e-3), "N/m": ("kN/m", 1e-3), "N s/m": ("kN s/m", 1e-3),
+    "N m/rad": ("kN m/rad", 1e-3),
+}  # fmt: skip
+
 
 def name_and_unit(header: str) -> tuple[str, str]:
     """Return name and unit of a header such as ``z [m/s^2]`` or ``z (m/s²)``, no unit where there is none.
@@ -12,12 +22,6 @@ def name_and_unit(header: str) -> tuple[str, str]:
         if found and text.endswith(closing):
             return name.strip(), " ".join(unit.split()).replace("²", "^2").replace("**", "^")
     return text, ""
-
-
-_SHOWN = {
-    "m": ("mm", 1e3), "N": ("kN", 1e-3), "N/m": ("kN/m", 1e-3), "N s/m": ("kN s/m", 1e-3),
-    "N m/rad": ("kN m/rad", 1e-3),
-}  # fmt: skip
 
 
 def shown_unit(unit: str) -> tuple[str, float]:
@@ -36,3 +40,21 @@ def shown_header(header: str) -> tuple[str, float]:
     name, unit = name_and_unit(header)
     shown, factor = shown_unit(unit)
     return (f"{name} [{shown}]", factor) if factor != 1 else (header, 1.0)
+
+
+def readable(table: "pd.DataFrame") -> "pd.DataFrame":
+    """Return a table in mm, kN, kN/m and kN s/m: columns by their headers, numbers by a column ``unit``."""
+    import pandas as pd
+
+    rows = [shown_unit(unit) for unit in table.get("unit", ())]
+    columns = {}
+    for header, column in table.items():
+        shown, factor = shown_header(str(header))
+        of_rows = rows and not name_and_unit(shown)[1]
+        if column.dtype.kind == "f":
+            columns[shown] = column * ([one for _, one in rows] if of_rows else factor)
+        else:
+            columns[str(header)] = column
+    if rows:
+        columns["unit"] = pd.Series([unit for unit, _ in rows], index=table.index)
+    return pd.DataFrame(columns)
