@@ -41,6 +41,7 @@ PUBLIC = {
     "FailureWarning", "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run",
     "Sampling", "minimise", "non_dominated", "Study", "as_pymoo", "as_scipy",
     "candidates", "knee", "pick",
+    "export", "supplier_sheet", "vehicle_file",
 }  # fmt: skip
 
 COMMANDS = {"commands/exposure.py", "commands/ride.py", "commands/weighting.py"}

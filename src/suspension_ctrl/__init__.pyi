@@ -1,6 +1,9 @@
 from .desk.candidate_table import candidates as candidates
 from .desk.choosing import knee as knee
 from .desk.choosing import pick as pick
+from .desk.designs import vehicle_file as vehicle_file
+from .desk.exporting import export as export
+from .desk.supplier import supplier_sheet as supplier_sheet
 from .response.certifying import certify as certify
 from .response.correlation import correlate as correlate
 from .response.correlation import correlation_figure as correlation_figure

@@ -108,16 +108,16 @@ def candidates(
     return whole.set_axis(pd.RangeIndex(first, first + len(whole), name="candidate"))
 
 
-def design_of(problem: Minimisable, present: Present) -> Real:
-    """Return the present design (d,)."""
+def design_of(problem: Minimisable, present: Present, name: str = "present") -> Real:
+    """Return the present design (d,), or another of this name; ValueError unless it has all variables."""
     names = list(problem.variables)
     if isinstance(present, Mapping):
-        if missing := [name for name in names if name not in present]:
-            raise ValueError(f"present must have {', '.join(names)}, got none for {', '.join(missing)}")
-        present = [present[name] for name in names]
-    values = checks.reals("present must be", present)
+        if missing := [one for one in names if one not in present]:
+            raise ValueError(f"{name} must have {', '.join(names)}, got none for {', '.join(missing)}")
+        present = [present[one] for one in names]
+    values = checks.reals(f"{name} must be", present)
     if values.shape != (len(names),) or not np.isfinite(values).all():
-        raise ValueError(f"present must be finite values of {', '.join(names)}, got {checks.shown(present)}")
+        raise ValueError(f"{name} must be finite values of {', '.join(names)}, got {checks.shown(present)}")
     return values
 
 

@@ -21,6 +21,7 @@ from .matrices import LETTERS, MEGABYTES, labels_of, matrices_of, state_space
 from .signals import SIGNALS, units_of
 
 _NAMES = {kind: f"{signal}Name" for kind, signal in SIGNALS.items()}
+_HEAD, _TEXT = b"MATLAB 5.0 MAT-file, written by suspension_ctrl", 116  # without the time, and its length
 _DYMOLA = {"ABCD", "nx"}
 _READ = {*LETTERS, *LETTERS.lower(), *("E", "Ts", "dt", "xuyName"), *_DYMOLA, *_NAMES.values()}
 
@@ -63,4 +64,4 @@ def write_mat(path: Path, system: System) -> None:
         for what, texts in (("Name", names), ("Unit", units_of(system)[kind])):
             variables[SIGNALS[kind] + what] = np.array(texts, dtype=object)[:, None]
     io.savemat(content, variables)
-    write_bytes(path, content.getvalue())
+    write_bytes(path, _HEAD.ljust(_TEXT) + content.getvalue()[_TEXT:])
