@@ -53,13 +53,13 @@ def test_a_laden_vehicle_has_files_of_its_own(tmp_path):
 
 
 def test_a_vehicle_of_frequency_responses_has_a_table(tmp_path):
-    f = np.arange(0.4, 21.0, 0.02)
+    f = np.arange(0.4, 21.0, 0.1)
     plant = QUARTER.plant()
     measured = control.frd(
         plant(2j * np.pi * f), 2 * np.pi * f, inputs=plant.input_labels, outputs=plant.output_labels
     )
     bounds = {"spring": (20e3, 30e3), "damper": (2500.0, 4000.0)}
-    problem = RideProblem(Plant(measured), ROAD, speed=SPEED, bounds=bounds, band=(0.5, 20.0), nodes=2048)
+    problem = RideProblem(Plant(measured), ROAD, speed=SPEED, bounds=bounds, band=(5.0, 20.0))
     assert names(export(problem, [25e3, 3000.0], tmp_path)) == ["design.csv", "design.json", "design.pdf"]
     assert load_system(tmp_path / "design.csv").output_labels[0] == "body_acceleration"
 
