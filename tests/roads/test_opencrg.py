@@ -118,7 +118,7 @@ def test_a_track_beyond_the_edge_of_the_road_is_refused(tmp_path):
         (b"D:long section", b"D:friction", "long sections must be all at a v, ascending, or numbered"),
         (b"at v = -1.5,", b"at v = 9,", "long sections must be all at a v, ascending, or numbered"),
         (b"END_U = 120.0", b"END_U = 121.0", "road data must have 43 rows as u says, got 41"),
-        (b"\r\n", b"", "road data must be a multiple of 2 lines of 80 characters at most, got 81 lines"),
+        (b"\r\n", b"", "road data must be a multiple of 2 lines of 80 characters at most, got 81 lines of 6"),
         (b"20$$$$$$$\n ", b"20$$$$$$$\nx", "channel 1 must be numbers or *missing*, got others"),
     ],
 )  # fmt: skip
@@ -131,6 +131,48 @@ def test_a_mistake_is_one_line(tmp_path, old, new, message):
         load_profile(path, tracks=[-1.5])
     if b"friction" not in new:
         assert str(error.value).startswith(f"{path}: {message}")
+
+
+def test_the_left_edge_may_stand_in_place_of_the_increment(tmp_path):
+    path = write_crg(tmp_path / "r.crg", GRID, V, "KDBI", numbered=True)
+    path.write_bytes(path.read_bytes().replace(b"LONG_SECTION_V_INCREMENT = 0.25", b"LONG_SECTION_V_LEFT = 1.5"))
+    found = load_profile(path, tracks=[1.5, 0.5])
+    np.testing.assert_array_equal(found.height, GRID[:, [12, 8]])
+
+
+@pytest.mark.parametrize("end", [True, False])
+def test_padding_of_the_last_record_is_no_row(tmp_path, end):
+    """Of 64 numbers of 4 bytes in records of 20; a last row with one number missing is a row."""
+    grid = GRID[:32, :2].copy()
+    grid[-1, 0] = np.nan
+    assert int((103.1 - 100) / 0.1) == 30  # of the steps of the header, 31
+    path = write_crg(tmp_path / "r.crg", grid, V[:2], "KRBI", end=end, increment=0.1)
+    np.testing.assert_allclose(load_profile(path, tracks=[V[1]]).height[:, 0], grid[:, 1], atol=1e-8)
+
+
+def test_numbers_that_are_missing_are_told(tmp_path):
+    banking = BANKING.copy()
+    banking[5] = np.nan
+    path = write_crg(tmp_path / "r.crg", GRID, V, "KDBI", banking=banking)
+    with pytest.raises(ValueError, match=r"line banking must be numbers up to 1000 from the second"):
+        load_profile(path, tracks=[0.5])
+    for form, rest in (("KDBI", "have a row or more, got none"), ("LDFI", "be a multiple of 4 lines of 80 ch")):
+        path = write_crg(tmp_path / "r.crg", GRID[:0], V, form, end=False)
+        with pytest.raises(ValueError, match=f": road data must {rest}"):
+            load_profile(path, tracks=[0.5])
+
+
+def test_many_short_lines_and_one_long_line_are_refused(tmp_path):
+    """A million lines of a character would be padded to 80 each."""
+    path = write_crg(tmp_path / "r.crg", GRID, V)
+    header = path.read_bytes().partition(b"$$$$$20$$$$$$$\n")
+    for lines, message in (
+        (b"1\n" * 1_000_000, "a multiple of 2 lines of 80 characters at most, got 1000000 lines of 1$"),
+        (b" " * 70 + b"1" * 11 + b"\n" + b"1" * 60, "lines of 80 characters at most, got 81$"),
+    ):
+        path.write_bytes(header[0] + header[1] + lines)
+        with pytest.raises(ValueError, match=f": road data must be {message}"):
+            load_profile(path, tracks=[0.5])
 
 
 @pytest.mark.parametrize(

@@ -83,6 +83,12 @@ def test_what_cannot_be_written_is_one_line_and_no_file(tmp_path, path, system, 
     assert not list(tmp_path.iterdir())
 
 
+def test_endings_count_in_any_case(tmp_path):
+    plant = QUARTER.plant()
+    save_system(tmp_path / "car.NPZ", plant)
+    np.testing.assert_array_equal(load_system(tmp_path / "car.NPZ").A, plant.A)
+
+
 def test_lines_of_a_table_ascend(tmp_path):
     with pytest.raises(ValueError, match=r"^frequency must be finite, above zero and ascend, got 1.0 in row 2$"):
         save_system(tmp_path / "car.csv", QUARTER.plant(), [2.0, 1.0])

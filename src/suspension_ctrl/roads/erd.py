@@ -25,6 +25,7 @@ from ..tables.layouts import HEAD, LARGEST, Layout
 from .columns import UNITS, kind_of
 
 _TEXT, _BINARY = 5, 1
+_JUDGED = 100_000  # numbers, at least, by which the byte order is judged
 _CODES = "5 for text or 1 for 32-bit binary"
 
 
@@ -119,9 +120,12 @@ def _binary(path: Path, header: Header) -> Real:
     size = beside.stat().st_size // (4 * header.channels)
     count = size if header.samples == -1 else min(header.samples, size)
     with np.errstate(invalid="ignore"):  # signalling NaN
-        found = [np.fromfile(beside, f"{order}f4", count * header.channels).astype(float) for order in "<>"]
-        values = min(found, key=_scatter)
-    if not (np.abs(values) <= LARGEST).all():
+        raw = np.fromfile(beside, "<f4", count * header.channels)
+        some = raw[raw != 0]
+        some = some[:: max(1, some.size // _JUDGED)]
+        kind = min(("<f4", ">f4"), key=lambda kind: _scatter(some.view(kind).astype(float)))
+        values = raw.view(kind).astype(float)
+    if values.size and not (values.min() >= -LARGEST and values.max() <= LARGEST):
         raise ValueError(f"numbers must be up to {LARGEST:g}, got others in {beside.name!r}")
     return values.reshape(count, header.channels)
 

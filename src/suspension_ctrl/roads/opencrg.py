@@ -8,6 +8,7 @@ distance of a track is u; curvature of the line and modifiers of the data are no
 
 import re
 from collections.abc import Mapping, Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import Any, NamedTuple, Self
 
@@ -24,6 +25,7 @@ Cells = NDArray[Any]  # numbers as texts or big-endian
 _FORMATS = {"LRFI": "S10", "LDFI": "S20", "KRBI": ">f4", "KDBI": ">f8"}  # type of a number, as text or binary
 _RECORD = 80  # bytes
 _MOST = 1_000_000  # bytes of the header
+_SHORT = 2  # a mean line has at least a cell over this
 _SECTION = re.compile(r"\$([A-Z]\w*)", re.ASCII)
 _SETTING = re.compile(r"\s*(\w+)\s*=\s*(\S+)\s*", re.ASCII)
 _AT = re.compile(r"long section at v\s*=\s*(\S+)", re.IGNORECASE)
@@ -141,15 +143,18 @@ def _across(names: Sequence[str], values: Mapping[str, float]) -> Real:
 def _texts(data: memoryview, grid: Grid) -> Cells:
     """Return numbers (n, c) as bytes, from lines of fixed width; each row begins a line."""
     kind = np.dtype(_FORMATS[grid.form])
-    lines = [line.rstrip(b"\r") for line in bytes(data).split(b"\n")]
-    while lines and not lines[-1].strip():
-        lines.pop()
-    per_row = -(-len(grid.channels) * kind.itemsize // _RECORD)
-    if not lines or len(lines) % per_row or max(map(len, lines)) > _RECORD:
+    text, width = bytes(data).rstrip(), len(grid.channels) * kind.itemsize
+    count, per_row = text.count(b"\n") + bool(text), -(-width // _RECORD)
+    if not text or count % per_row or count * kind.itemsize > _SHORT * len(text):
         needed = f"a multiple of {per_row} lines of {_RECORD} characters at most"
-        raise ValueError(f"road data must be {needed}, got {len(lines)} lines")
-    cells = np.frombuffer(b"".join(line.ljust(_RECORD) for line in lines), dtype=kind)
-    return cells.reshape(len(lines) // per_row, -1)[:, : len(grid.channels)]
+        raise ValueError(f"road data must be {needed}, got {count} lines of {len(text) // max(count, 1)}")
+    rows = bytearray()  # no list of lines: memory
+    for i, line in enumerate(BytesIO(text)):
+        bare = line.rstrip(b"\r\n")
+        if len(bare) > _RECORD:
+            raise ValueError(f"road data must be lines of {_RECORD} characters at most, got {len(bare)}")
+        rows += bare.ljust(_RECORD)[: width - i % per_row * _RECORD]
+    return np.frombuffer(rows, dtype=kind).reshape(-1, len(grid.channels))
 
 
 def _binary(data: memoryview, grid: Grid) -> Cells:
