@@ -15,8 +15,8 @@ NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]\d+)?")
 SHORT = {
     r"data/": f"{CHECKOUT}/data/",
     r" --(populations|iterations|repeats|jobs) \S+": "",
-    r"^(compare.*--quality.*)": r"\1 --quick",
-    r"^(compare(?!.*--quality).*)": r"\1 --populations 40 --iterations 2 --repeats 1",
+    r"(--algorithms [\w-]+,[\w-]+),\S+": r"\1",
+    r"^(compare.*)": r"\1 --quick",
     r"^(optimum --vehicle.*)": r"\1 --population 40 --iterations 2",
 }
 """Replacements that make a command short: its work is tested elsewhere, here that it is a command."""
