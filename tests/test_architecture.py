@@ -38,6 +38,7 @@ PUBLIC = {
     "save_problem", "certify", "correlate", "correlation_figure", "LiftOffWarning",
     "linearised", "response_psds", "ride", "simulate",
     "UnitSlipWarning", "weighted_rms", "weighting",
+    "SearchSettings", "StudyFile", "load_study", "save_study",
     "FailureWarning", "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run",
     "Sampling", "minimise", "non_dominated", "Study", "as_pymoo", "as_scipy",
     "candidates", "knee", "pick",

@@ -23,9 +23,11 @@ from suspension_ctrl import (
     VehicleFile,
     load_problem,
     load_road,
+    load_study,
     load_vehicle,
     save_problem,
     save_road,
+    save_study,
     save_vehicle,
     weighting,
 )
@@ -118,9 +120,8 @@ def test_a_seat_that_does_not_fit_hides_no_other_mistake_of_a_problem(tmp_path):
 
 def test_mistakes_of_a_file_that_a_problem_names_have_both_places(tmp_path):
     (tmp_path / "car.toml").write_text(changed(changed(FILES["vehicle"], "1040", "-1"), "1580", "-2"))
-    first = 'vehicle = "jian_2022_full"\nroad = "C"\nspeed_m_per_s = 10.0'
-    text = changed(FILES["problem"], first, 'vehicle = "car.toml"\nroad = "C"\nspeed = "36km/h"')
-    car = f":38: cases[1].vehicle: {tmp_path / 'car.toml'}"
+    text = changed(FILES["problem"], "speed_m_per_s = 10.0", 'vehicle = "car.toml"\nspeed = "36km/h"')
+    car = f":45: cases[1].vehicle: {tmp_path / 'car.toml'}"
     assert said(tmp_path, "problem", text) == [
         f"{car}:9: body_mass_kg must be finite and > 0 kg, got -1.0",
         f"{car}:11: pitch_inertia_kg_m2 must be finite and > 0 kg m^2, got -2.0",
@@ -131,7 +132,7 @@ SHIPPED = [(folder, stem) for folder in ("vehicles", "roads", "studies") for ste
 SAVERS: dict[str, tuple[Callable, Callable]] = {
     "vehicles": (load_vehicle, save_vehicle),
     "roads": (load_road, save_road),
-    "studies": (load_problem, save_problem),
+    "studies": (load_study, save_study),
 }
 
 

@@ -145,9 +145,8 @@ BOUNDS = (["--vehicle", "cantero_2022_half"], "vehicle must be a file with bound
 OF = {
     "compare": [
         BOUNDS,
-        (["--problem", "no.toml"], "No such file or directory: 'no.toml'", 1),
-        (["--problem", "x.toml", "--speed", "3"], "problem must stand without weighting, vehicle, ", 2),
-        (["--problem", "x.toml", "--weighting", ""], "problem must stand without weighting, vehicle, ", 2),
+        (["--study", "no.toml"], "No such file or directory: 'no.toml'", 1),
+        (["--study", "mine"], "study must be one of damper_curve, full_car, half_car, ", 2),
         (["--weighting", ""], "weighting must be one of Wk, ", 2),
         (["--weighting", "Wz"], "weighting must be one of Wk, ", 2),
         (["--populations", "3"], "population must be a whole number >= 4, got 3", 2),
@@ -239,7 +238,7 @@ def test_bad_input_is_one_line(refused, tmp_path, name, arguments, message, stat
 
 def test_every_mistake_of_a_file_is_a_line(called, tmp_path):
     (tmp_path / "bad.toml").write_text('kind = "sledge"\nmeasures = ["ACC"]\nband = "0.5 Hz"')
-    done = called("compare", "--problem", "bad.toml")
+    done = called("compare", "--study", "bad.toml")
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.splitlines() == [
         "error: bad.toml:1: kind must be a known key, got 'sledge': did you mean kinds?",
@@ -266,7 +265,7 @@ def test_a_script_itself_ends_so(script, tmp_path):
     path = tmp_path / "study.toml"
     case = '[[cases]]\nvehicle = "minaker_half"\nroad = "C"\nspeed_m_per_s = 15\n'
     path.write_text(f'measures = ["ACC", "SWS"]\nconstraints = ["SWS"]\n{case}', encoding="utf-8")
-    done = script("compare", "--problem", path)
+    done = script("compare", "--study", path)
     assert done.returncode == 2
     assert done.stdout == ""
     assert done.stderr.count("\n") == 1

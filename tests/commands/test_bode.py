@@ -7,7 +7,7 @@ import pytest
 import garage
 from suspension_ctrl import Iso8608Road
 from suspension_ctrl.commands.bode import shown_responses
-from suspension_ctrl.paper.experiment import chosen
+from suspension_ctrl.commands.studies import chosen_study
 from suspension_ctrl.quantities import column_headers
 from suspension_ctrl.response import weightings
 from suspension_ctrl.roads.files import load_road
@@ -26,7 +26,7 @@ def test_bode_draws_the_papers_two_cars(script, tmp_path):
     assert done.returncode == 0, done.stderr
     names = {path.name for path in (tmp_path / "out").iterdir()}
     figures = {"figure6.png", "figure6.pdf", "figure7.png", "figure7.pdf"}
-    assert names == figures | {"curves.csv", "designs.csv", "natural_frequencies.csv"}
+    assert names == figures | {"curves.csv", "designs.csv", "natural_frequencies.csv", "study.toml"}
     natural = pd.read_csv(tmp_path / "out" / "natural_frequencies.csv")["natural frequency [Hz]"]
     # The product of the undamped frequencies is det(M^-1 K)^(1/2) = (k k_t / (m_b m_w))^(1/2).
     product = (22e3 * 192e3 / (317.5 * 45.4)) ** 0.5 / (2 * np.pi) ** 2
@@ -129,7 +129,7 @@ def test_bode_of_designs_of_six_variables(called, tmp_path):
     assert set(curves.design) == {"design 1"}
     told = pd.read_csv(tmp_path / "out" / "designs.csv").set_index("design")
     assert told.loc["design 1", VARIABLES].tolist() == design
-    problem, _ = chosen("jian_2022_full", None, None)
+    problem = chosen_study(vehicle="jian_2022_full").problem
     assert column_headers(problem.variables, problem.units) == VARIABLES
     modes = load_vehicle("jian_2022_full").vehicle.modes(dict(zip(problem.variables, design, strict=True)))
     assert_natural(tmp_path / "out", modes)

@@ -31,7 +31,7 @@ def test_writes_everything(quick):
     tables = {f"{n}{e}" for n in ("table2", "table3", "table4", "hypervolume") for e in (".csv", ".md", ".tex")}
     others = ("", "_moead-dra", "_moead-dra-raw")  # the first algorithm beside each of the others
     pictures = {f"figure5{other}.{ending}" for other in others for ending in ("png", "pdf")}
-    files = {"runs.csv", "reference.csv", "environment.json", "reference", "fronts", "timed"}
+    files = {"runs.csv", "reference.csv", "environment.json", "study.toml", "reference", "fronts", "timed"}
     assert names == tables | pictures | files
     runs = pd.read_csv(out / "runs.csv")
     assert runs.timing.all()

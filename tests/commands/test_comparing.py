@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from suspension_ctrl import Iso8608Road, RideProblem, escaping, load_vehicle, save_system
-from suspension_ctrl.paper.experiment import chosen
+from suspension_ctrl.commands.studies import chosen_study
 
 TINY = ("--populations", "20,25", "--iterations", 2, "--repeats", 1)
 PICTURES = {"populations.png", "populations.pdf"}
@@ -39,7 +39,7 @@ def test_compare_on_another_vehicle(called, tmp_path):
     assert done.returncode == 0, done.stderr
     out = tmp_path / "out"
     assert {path.name for path in out.glob("[!.]*")} == TABLES | PICTURES | {
-        "runs.csv", "environment.json", "fronts", "timed", "reference", "reference.csv",
+        "runs.csv", "environment.json", "study.toml", "fronts", "timed", "reference", "reference.csv",
     }  # fmt: skip
     assert_nothing_of_the_paper(done, out)
     assert "Case 1, share 1: ISO 8608 class C, geometric mean" in done.stdout
@@ -48,7 +48,7 @@ def test_compare_on_another_vehicle(called, tmp_path):
     assert "The reference front is of all timed runs (no grid within 20,000,000 designs and 120 s has" in said
     front = pd.read_csv(out / "fronts" / "nsga2_n25_i2_r1.csv")
     assert list(front.columns) == [*VARIABLES, "ACC [m/s^2]", "SWS [m]", "DTL [N]"]
-    problem, _ = chosen("jian_2022_full", "C", 20.0)
+    problem = chosen_study(vehicle="jian_2022_full", road="C", speed=20.0).problem
     np.testing.assert_allclose(
         front.iloc[:, 6:], problem.evaluate(front.iloc[:, :6].to_numpy()), rtol=1e-12
     )  # by another number of threads
@@ -71,7 +71,7 @@ def test_another_speed_with_a_given_reference_front_is_not_beside_the_paper(call
 def test_compare_on_a_study_goes_on_and_judges_quality(called, checkout, tmp_path):
     """Eight variables, three cases and limits; then the same with `--quality` in the same folder, then another."""
     path = checkout / "data/studies/full_car.toml"
-    command = ("compare", "--problem", path, *TINY, "--out", "out")
+    command = ("compare", "--study", path, *TINY, "--out", "out")
     done = called(*command)
     assert done.returncode == 0, done.stderr
     out = tmp_path / "out"
@@ -99,9 +99,9 @@ def test_compare_on_a_study_goes_on_and_judges_quality(called, checkout, tmp_pat
     assert not (out / "verdict.csv").exists()
 
     other = study(tmp_path, 'measures = ["ACC", "SWS", "DTL"]\n')
-    refused = called("compare", "--problem", other, *TINY, "--out", "out")
+    refused = called("compare", "--study", other, *TINY, "--out", "out")
     assert refused.returncode == 2
-    assert refused.stderr.startswith("error: problem.cases must be ")
+    assert refused.stderr.startswith("error: problem.")
     assert refused.stderr.count("\n") == 1
 
 
@@ -109,7 +109,7 @@ def test_compare_on_a_study_goes_on_and_judges_quality(called, checkout, tmp_pat
 def test_compare_takes_any_number_of_objectives(called, tmp_path, measures):
     path = study(tmp_path, f"measures = {measures}\n")
     sizes = ("--populations", 40, "--iterations", 1, "--repeats", 1, "--quality", "--seeds", 2)
-    done = called("compare", "--problem", path, "--algorithms", "nsga2,random", *sizes, "--out", "out")
+    done = called("compare", "--study", path, "--algorithms", "nsga2,random", *sizes, "--out", "out")
     assert done.returncode == 0, done.stderr
     assert "ACC is weighted with Wk" in done.stdout
     assert (tmp_path / "out" / "attainment_n40.png").exists()
@@ -120,12 +120,13 @@ def test_limits_that_leave_no_front_leave_times_without_quality(called, tmp_path
     """With limits near the least travel that 20 designs have: none within them; two, alike in one objective."""
     path = study(tmp_path, f'measures = ["ACC", "SWS", "DTL"]\nconstraints = ["SWS <= {limit}"]\n')
     sizes = ("--populations", 20, "--iterations", 2, "--repeats", 1, "--quality")
-    done = called("compare", "--problem", path, *sizes, "--out", "out")
+    done = called("compare", "--study", path, *sizes, "--out", "out")
     assert done.returncode == 0, done.stderr
     assert "Quality is not judged: no two designs found within the limits differ" in " ".join(done.stdout.split())
     assert "Times: the ratio" in done.stdout
     assert {path.name for path in (tmp_path / "out").glob("[!.]*")} == PICTURES | {
         *("times.csv", "times.md", "times.tex", "runs.csv", "environment.json", "fronts", "timed", "reference"),
+        "study.toml",
     }  # fmt: skip
 
 
@@ -133,7 +134,7 @@ def test_runs_without_a_feasible_design_are_counted(called, tmp_path):
     """Just above the least travel some runs find designs within the limits and some do not."""
     path = study(tmp_path, 'measures = ["ACC", "SWS", "DTL"]\nconstraints = ["SWS <= 0.0071"]\n')
     sizes = ("--populations", 20, "--iterations", 2, "--repeats", 1)
-    done = called("compare", "--problem", path, *sizes, "--out", "out")
+    done = called("compare", "--study", path, *sizes, "--out", "out")
     assert done.returncode == 0, done.stderr
     empty = sum(pd.read_csv(path).empty for path in (tmp_path / "out" / "fronts").iterdir())
     assert 0 < empty < 3
@@ -146,7 +147,7 @@ def test_hostile_names_are_harmless_in_all_that_is_written_and_printed(called, t
     measures = [f"{name} = {kind}" for name, kind in zip(names, ("ACC", "SWS", "DTL"), strict=True)]
     case = 'vehicle = "minaker_half"\nroad = "C"\nspeed_m_per_s = 20'
     (tmp_path / "p.toml").write_text(f"measures = {json.dumps(measures)}\n[[cases]]\n{case}", encoding="utf-8")
-    command = ("compare", "--problem", "p.toml", "--populations", 20, "--iterations", 2, "--repeats", 1,
+    command = ("compare", "--study", "p.toml", "--populations", 20, "--iterations", 2, "--repeats", 1,
                "--algorithms", "sobol,random", "--out", "out")  # fmt: skip
     first, again = called(*command), called(*command)
     assert first.returncode == 0
@@ -173,7 +174,7 @@ def test_compare_on_a_problem_of_a_plant_of_another_program(called, tmp_path):
         "[bounds]\nspring_N_per_m = [15e3, 30e3]\ndamper_N_s_per_m = [500, 4000]\n"
         '[[cases]]\nvehicle = "plant.toml"\nroad = "C"\nspeed_m_per_s = 20\n'
     )
-    done = called("compare", "--problem", "p.toml", *TINY, "--reference", "front.csv", "--out", "out")
+    done = called("compare", "--study", "p.toml", *TINY, "--reference", "front.csv", "--out", "out")
     assert done.returncode == 0, done.stderr
     assert "Limits: SWS <= 0.03" in done.stdout
     assert_nothing_of_the_paper(done, tmp_path / "out")

@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from suspension_ctrl import load_vehicle, save_system
-from suspension_ctrl.paper.experiment import chosen
+from suspension_ctrl.commands.studies import chosen_study
 
 VARIABLES = [
     "front.spring [N/m]", "front.damper [N s/m]", "rear.spring [N/m]", "rear.damper [N s/m]",
@@ -63,9 +63,10 @@ def test_optimum_of_another_vehicle(called, tmp_path):
     assert table.filter(like="published").isna().all(axis=None)
     for weighting in ("Wk", "Wb", "Wb-table"):
         part = table.loc[weighting]
-        problem, struts = chosen("jian_2022_full", "C", None, weighting=weighting)
+        study = chosen_study(vehicle="jian_2022_full", road="C", weighting=weighting)
+        problem = study.problem
         own = part.loc["its own struts"]
-        assert own[VARIABLES].tolist() == [struts[name] for name in problem.variables]
+        assert own[VARIABLES].tolist() == list(study.present.values())
         found = part[["ACC [m/s^2]", "SWS [m]", "DTL [N]"]]
         np.testing.assert_allclose(found, problem.evaluate(part[VARIABLES].to_numpy(float)), rtol=1e-9)
         within = part.drop("its own struts")
@@ -99,6 +100,6 @@ def test_optimum_of_a_plant_of_another_program_is_on_its_quarter_car(called, tmp
     part = table.loc["Wb"]
     struts = part[["spring [N/m]", "damper [N s/m]"]]
     assert struts.loc["its own struts"].tolist() == [22e3, 1500.0]
-    problem, _ = chosen("yuen_ramli_2010", "C", None, weighting="Wb")
+    problem = chosen_study(vehicle="yuen_ramli_2010", road="C", weighting="Wb").problem
     found = part[["ACC [m/s^2]", "SWS [m]", "DTL [N]"]]
     np.testing.assert_allclose(found, problem.evaluate(struts.to_numpy(float)), rtol=1e-9)

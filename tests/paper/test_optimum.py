@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 from suspension_ctrl import ACC, DTL, Measure, MoeadDra, RideProblem, minimise
+from suspension_ctrl.commands.studies import chosen_study
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.paper import optimum
 
@@ -119,7 +120,7 @@ def test_no_picked_design_is_better_than_the_exact_one():
 @pytest.mark.parametrize("objective", [ACC(), DTL()])
 def test_nothing_near_the_best_of_a_full_car_is_better(objective):
     """Where front and rear are equal the largest of them has a kink, which stops a plain descent."""
-    problem, _ = paper.chosen("jian_2022_full", "C", None)
+    problem = chosen_study(vehicle="jian_2022_full", road="C").problem
     lower, width = np.array(problem.lower), np.subtract(problem.upper, problem.lower)
     starts = lower + np.random.default_rng(0).random((4, 6)) * width
     best = np.array(optimum.least_within_limit(problem, 0.01, objective, starts))

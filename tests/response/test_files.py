@@ -3,7 +3,6 @@
 import re
 import tomllib
 from copy import deepcopy
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -31,7 +30,6 @@ from suspension_ctrl import (
     ride,
 )
 from suspension_ctrl.paper import experiment as paper
-from suspension_ctrl.paper.experiment import chosen
 from suspension_ctrl.response import problem as objectives
 from suspension_ctrl.response.files import load_problem, save_problem
 from suspension_ctrl.search.constraints import feasible_objectives
@@ -100,67 +98,6 @@ def inside(problem: RideProblem, count: int = 5) -> np.ndarray:
     """Some designs (count, d) within the bounds."""
     lower, upper = np.asarray(problem.lower), np.asarray(problem.upper)
     return lower + (upper - lower) * np.random.default_rng(1).random((count, lower.size))
-
-
-def test_without_choice_it_is_the_papers_problem():
-    problem, struts = chosen(None, None, None)
-    assert problem == paper.ride_problem()
-    assert tuple(struts.values()) == paper.reference_design()
-    assert tuple(struts) == problem.variables
-    assert chosen(None, None, None, weighting="Wb", band=(0.5, 10.0))[0] == paper.ride_problem(
-        weighting="Wb", band=(0.5, 10.0)
-    )
-
-
-def test_the_papers_vehicle_by_name_has_the_papers_values():
-    problem, struts = chosen("yuen_ramli_2010", None, None)
-    assert tuple(struts.values()) == paper.reference_design()
-    designs = inside(problem)
-    np.testing.assert_array_equal(problem.evaluate(designs), paper.ride_problem().evaluate(designs))
-
-
-@pytest.mark.parametrize("name", ["jian_2022_full", "minaker_half", "yuen_ramli_2010"])
-def test_vehicles_of_the_package(name):
-    file = load_vehicle(name)
-    problem, struts = chosen(name, "C-upper", 12.0, weighting="Wd")
-    assert problem == replace(
-        paper.ride_problem(),
-        vehicle=file.vehicle,
-        road=Iso8608Road("C", level="upper"),
-        speed=12.0,
-        bounds=file.bounds,
-        lower=(),
-        upper=(),
-        struts=problem.struts,
-        weighting="Wd",
-    )
-    assert problem.variables == tuple(file.bounds)
-    assert struts == file.vehicle.coefficients(file.setting)
-    assert struts == {**problem.struts, **{name: struts[name] for name in problem.variables}}
-    assert np.isfinite(problem.evaluate([[struts[name] for name in problem.variables]])).all()
-
-
-def test_coefficients_without_bounds_stay_those_of_the_file(tmp_path):
-    path = written(tmp_path, CAR + "[bounds]\nspring_N_per_m = [1e4, 3e4]", "car.toml")
-    problem, _ = chosen(str(path), None, None)
-    assert (problem.variables, problem.struts) == (("spring",), {"damper": 1e3})
-
-
-@pytest.mark.parametrize(
-    ("vehicle", "road", "speed", "message"),
-    [
-        (None, None, 0.0, "speed must be finite and > 0 m/s, got 0.0"),
-        ("minaker_half", None, 0.0, "speed must be finite and > 0 m/s, got 0.0"),
-        (None, None, -1.0, "speed must be finite and > 0 m/s, got -1.0"),
-        (None, None, float("nan"), "speed must be finite and > 0 m/s, got nan"),
-        (None, "", None, "road must be a class of ISO 8608 .* got ''"),
-        ("", None, None, "vehicle must be one of bmw_320i_full, .* got ''"),
-        ("cantero_2022_half", None, None, "vehicle must be a file with bounds, got 'cantero_2022_half'"),
-    ],
-)
-def test_bad_choices_are_one_line(vehicle, road, speed, message):
-    with pytest.raises(ValueError, match=rf"^{message}$"):
-        chosen(vehicle, road, speed)
 
 
 @pytest.fixture(scope="module")

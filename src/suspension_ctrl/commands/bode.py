@@ -1,6 +1,6 @@
 """Figures 6 and 7: Bode plots and spectra of responses to the road, of the paper's car or any other vehicle."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,6 +9,7 @@ from . import options as o
 if TYPE_CHECKING:
     import pandas as pd
 
+    from ..desk.study_files import StudyFile
     from ..response.curves import DesignCurves
     from ..response.problem import RideProblem
 
@@ -19,6 +20,7 @@ WRITTEN = 2  # variables whose values stand in the label of a design
 def bode(
     design: o.Design = None,
     designs: o.Designs = None,
+    study: o.Study = None,
     vehicle: o.Vehicle = None,
     road: o.Road = None,
     allow_outside: o.AllowOutside = False,
@@ -39,20 +41,23 @@ def bode(
     import pandas as pd
 
     from .. import checks
-    from ..paper import experiment, figures
+    from ..paper import figures
     from ..response import curves
     from ..tables import write_csv, write_figure
-    from . import results, terminal
+    from . import results, studies, terminal
 
     checks.at_least("points", points, 2)
-    settings = o.settings(weighting, band)
-    problem, own = experiment.chosen(vehicle, road, speed, allow_outside=allow_outside, **settings)
-    labelled = labelled_designs(problem, design or [], designs, vehicle, own)
+    chosen = studies.chosen_study(
+        study=study, vehicle=vehicle, road=road, speed=speed, band=band, weighting=weighting,
+        allow_outside=allow_outside,
+    )  # fmt: skip
+    problem, labelled = chosen.problem, labelled_designs(chosen, design or [], designs)
     case, (low, high) = problem.cases[0], problem.band
     shown = response or shown_responses(case.vehicle.responses)
     drawn = [curves.design_curves(problem, label, values, shown, points) for label, values in labelled.items()]
     natural = pd.concat([one.modes for one in drawn])
     folder = results.results_folder(out)
+    studies.save_resolved(folder, chosen)
     table, rms = design_table(problem, labelled), curves.rms_table(drawn)
     write_csv(folder / "designs.csv", table.merge(rms, on="design"))
     write_csv(folder / "natural_frequencies.csv", natural)
@@ -85,19 +90,19 @@ def shown_responses(responses: Sequence[str]) -> list[str]:
     return list(filter(None, found)) or list(responses[: len(SHOWN)])
 
 
-def labelled_designs(
-    problem: "RideProblem", texts: Sequence[str], file: Path | None, vehicle: str | None, own: Mapping[str, float]
-) -> dict[str, Sequence[float]]:
-    """Return the designs of texts and of a file by label; by default the vehicle's own, or the paper's two."""
+def labelled_designs(study: "StudyFile", texts: Sequence[str], file: Path | None) -> dict[str, Sequence[float]]:
+    """Return the designs of texts and of a file by label; by default the paper's two, or the present one."""
     from ..paper import experiment as paper
 
+    problem = study.problem
     units = [problem.units[name] for name in problem.variables]
     designs: list[tuple[str, Sequence[float]]] = [("", o.numbers("design", text, units)) for text in texts]
     designs += [] if file is None else read_designs(file, problem)
-    if not designs and vehicle is not None:
-        designs = [(vehicle, [own[name] for name in problem.variables])]
-    papers = [("reference car", paper.reference_design()), ("published optimum", paper.optimised_design())]
-    return with_labels(problem, designs or papers)
+    if not designs and paper.is_papers(problem):
+        designs = [("reference car", paper.reference_design()), ("published optimum", paper.optimised_design())]
+    elif not designs and not study.present:
+        raise ValueError("design must be given where the present one is unknown, got none")
+    return with_labels(problem, designs or [(study.name, list(study.present.values()))])
 
 
 def with_labels(

@@ -6,30 +6,29 @@ import typer
 
 from . import options as o
 
-FULL: dict[str, Any] = {"populations": "500,1000", "iterations": "10,20", "repeats": 5, "seeds": 31}
 QUICK: dict[str, Any] = {"populations": "60,100", "iterations": "5,10", "repeats": 2, "seeds": 3}
 
 
 def compare(
     context: typer.Context,
+    study: o.Study = None,
     populations: o.Populations = None,
     iterations: o.Iterations = None,
     repeats: o.Repeats = None,
-    algorithms: o.Algorithms = "nsga2,moead-dra",
+    algorithms: o.Algorithms = None,
     weighting: o.Weighting = None,
     vehicle: o.Vehicle = None,
     road: o.Road = None,
     allow_outside: o.AllowOutside = False,
     speed: o.Speed = None,
     band: o.Band = None,
-    problem: o.Problem = None,
     reference: o.Reference = None,
-    seed: o.Seed = 0,
+    seed: o.Seed = None,
     out: o.Resumed = None,
     quick: o.Quick = False,
     quality: o.Quality = False,
     seeds: o.Seeds = None,
-    target: o.Target = 0.995,
+    target: o.Target = None,
     jobs: o.Jobs = None,
     scheduler: o.Scheduler = None,
 ) -> None:
@@ -48,8 +47,7 @@ def compare(
         raise ValueError("quick must stand without populations, iterations, repeats and seeds, got it with one")
     if not quality and (jobs is not None or scheduler):
         raise ValueError(f"jobs and scheduler must stand with quality, got {scheduler or jobs!r} without it")
-    defaults = QUICK if quick else FULL
-    options = context.params | {name: defaults[name] if v is None else v for name, v in given.items()}
+    options = context.params | (QUICK if quick else {})
     where = cluster(jobs, scheduler) if quality else None
     if scheduler:  # its errors come before the timed runs
         with cluster(scheduler=scheduler):

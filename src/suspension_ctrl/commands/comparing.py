@@ -9,59 +9,58 @@ from typing import Any, Self
 import pandas as pd
 import typer
 
-from .. import checks
+from ..desk.study_files import StudyFile
 from ..paper import experiment as paper
 from ..quantities import column_headers
-from ..response.files import load_problem
 from ..response.problem import RideProblem
 from ..search.indicators import ReferenceFront
 from ..study import machine, reference, timing
 from ..study.campaign import Campaign
-from ..study.comparison import Comparison
 from ..study.findings import findings, last_rows
 from ..study.reference import Reference
 from ..study.reference_files import load_reference
 from ..study.store import FolderStore, keeping
 from ..tables import write_csv, write_json
-from . import options as o
-from . import quality, reports, results, stages, terminal
+from . import quality, reports, results, stages, studies, terminal
 
 QUICK_TOLERANCE = 1e-3
-RECORD = "environment.json"  # the first file in the folder of a comparison
+RECORD = "environment.json"
+OF_STUDY = ("study", "vehicle", "road", "speed", "band", "weighting", "allow_outside")
+OF_SEARCH = ("algorithms", "populations", "iterations", "repeats", "seeds", "seed", "target")
+"""Options from which the study is made."""
 
 
 @dataclass(frozen=True)
 class Request:
-    """A campaign with its problem and all options of the command."""
+    """A campaign with its study and all options of the command."""
 
     campaign: Campaign
-    problem: RideProblem
+    study: StudyFile
     options: Mapping[str, Any]
     reference: Reference | None = None  # given by an option
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> Self:
         """Return the request of these options, checked, and make its folder."""
-        checks.within("target", options["target"], 0, 1)
-        problem = chosen_problem(options)
-        comparison = Comparison(
-            problem=problem,
-            algorithms=o.names(options["algorithms"]),
-            populations=o.whole_numbers("populations", options["populations"]),
-            iterations=o.whole_numbers("iterations", options["iterations"]),
-            repeats=options["repeats"],
-            seeds=options["seeds"],
-            seed=options["seed"],
-        )
+        study = studies.chosen_study(**{name: options[name] for name in (*OF_STUDY, *OF_SEARCH)})
+        comparison = study.search.comparison(study.problem)
         tolerance = QUICK_TOLERANCE if options["quick"] else reference.TOLERANCE
-        given = options["reference"] and load_reference(options["reference"], problem)
-        folder = results.results_folder(options["out"], resumed_by=RECORD)
-        return cls(Campaign(comparison, folder, tolerance, stages.counted), problem, options, given)
+        given = options["reference"] and load_reference(options["reference"], study.problem)
+        folder = results.results_folder(options["out"], resumed_by=studies.FILE)
+        search = {name: getattr(study.search, name) for name in OF_SEARCH}
+        lists = {name: ",".join(map(str, value)) for name, value in search.items() if isinstance(value, tuple)}
+        campaign = Campaign(comparison, folder, tolerance, stages.counted)
+        return cls(campaign, study, {**options, **search, **lists}, given)
+
+    @property
+    def problem(self) -> RideProblem:
+        """The problem of the study."""
+        return self.study.problem
 
     @property
     def of_paper(self) -> bool:
         """Whether the problem is the paper's, with any weighting."""
-        return self.problem.replace(weighting="Wk") == paper.ride_problem()
+        return paper.is_papers(self.problem, band=True)
 
     def headers(self) -> dict[str, str]:
         """Return the headers of the objectives by name; a travel comes first, or else the last objective."""
@@ -69,19 +68,6 @@ class Request:
         across = next((name for name in names if units[name] == "m"), names[-1])
         ordered = [across, *(name for name in names if name != across)]
         return dict(zip(ordered, column_headers(ordered, units), strict=True))
-
-
-def chosen_problem(options: Mapping[str, Any]) -> RideProblem:
-    """Return the problem of a file, or the paper's with another vehicle, road, speed or other parameters."""
-    named = [options[name] for name in ("vehicle", "road", "speed")]
-    settings, file = o.settings(options["weighting"], options["band"]), options["problem"]
-    if file is None:
-        return paper.chosen(*named, allow_outside=options["allow_outside"], **settings)[0]
-    if settings or any(value is not None for value in named):
-        raise ValueError(
-            f"problem must stand without weighting, vehicle, road, speed and band, got {str(file)!r} with one"
-        )
-    return load_problem(file, allow_outside=options["allow_outside"])
 
 
 def carry_out(request: Request, cluster: AbstractContextManager[Any] | None) -> None:
@@ -103,6 +89,8 @@ def carry_out(request: Request, cluster: AbstractContextManager[Any] | None) -> 
 def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) -> int:
     """Return the number of runs that raised."""
     campaign, record = request.campaign, request.campaign.folder / RECORD
+    if not (campaign.folder / studies.FILE).exists():
+        studies.save_resolved(campaign.folder, request.study)
     if not record.exists():  # written by the command that started the timed runs
         texts = {name: str(value) if isinstance(value, Path) else value for name, value in request.options.items()}
         with machine.single_thread():
@@ -137,7 +125,7 @@ def _judge(
     with cluster as client, terminal.compiling():
         table, judged = campaign.judge(front, client)
     write_csv(campaign.folder / "runs.csv", pd.concat([timed, last_rows(table)]))
-    clock, target = timing.seconds_by_evaluations(campaign.comparison, store), request.options["target"]
+    clock, target = timing.seconds_by_evaluations(campaign.comparison, store), request.study.search.target
     if results := findings(campaign.comparison, table, clock, target):
         quality.write(request, results, judged)
         quality.say(results, target)

@@ -8,14 +8,15 @@ DECIMALS = {"[m": 4, "[N]": 1, "[N": 0, "[%]": 2}
 
 def optimum(
     sws_limit: o.SwsLimit = 0.0287,
+    study: o.Study = None,
     vehicle: o.Vehicle = None,
     road: o.Road = None,
     allow_outside: o.AllowOutside = False,
     speed: o.Speed = None,
-    population: o.Population = 4000,
-    iterations: o.Generations = 25,
+    population: o.Population = None,
+    iterations: o.Generations = None,
     band: o.Band = None,
-    seed: o.Seed = 0,
+    seed: o.Seed = None,
     out: o.Out = None,
 ) -> None:
     """Find the best struts within a travel limit: Table 5.
@@ -26,26 +27,31 @@ def optimum(
     import pandas as pd
 
     from .. import checks
-    from ..paper.experiment import chosen
+    from ..desk.study_files import SearchSettings
+    from ..paper.experiment import is_papers
     from ..paper.optimum import table5
     from ..search.driver import minimise
     from ..search.moead_dra import MoeadDra
     from ..tables import write_csv
-    from . import results, terminal
+    from . import results, studies, terminal
 
-    checks.at_least("iterations", iterations, 1)
-    checks.at_least("seed", seed, 0)
     checks.positive("sws_limit", sws_limit, "m")
-    optimiser = MoeadDra(population=population)
-    of_paper = (vehicle, road, speed) == (None, None, None)
+    chosen = studies.chosen_study(
+        study=study, vehicle=vehicle, road=road, speed=speed, band=band, allow_outside=allow_outside, seed=seed,
+        search=SearchSettings(algorithms=("moead-dra",), populations=(4000,), iterations=(25,)),
+        populations=population, iterations=iterations,
+    )  # fmt: skip
+    search = chosen.search
+    optimiser = MoeadDra(population=max(search.populations))
+    designs = {} if is_papers(chosen.problem) else {"its own struts": tuple(chosen.present.values())}
     parts = []
     for weighting in terminal.progress(WEIGHTINGS, len(WEIGHTINGS), "weightings"):
-        problem, own = chosen(vehicle, road, speed, allow_outside=allow_outside, **o.settings(weighting, band))
+        problem = chosen.problem.replace(weighting=weighting)
         with terminal.compiling():
-            run = minimise(problem, optimiser, iterations=iterations, seed=seed)
-        designs = {} if of_paper else {"its own struts": tuple(own[name] for name in problem.variables)}
+            run = minimise(problem, optimiser, iterations=max(search.iterations), seed=search.seed)
         parts.append(table5(problem, run, sws_limit, designs))
     folder = results.results_folder(out)
+    studies.save_resolved(folder, chosen)
     write_csv(folder / "table5.csv", pd.concat(parts))
     for weighting, part in zip(WEIGHTINGS, parts, strict=True):
         shown = part.drop(columns="weighting").dropna(axis="columns", how="all")

@@ -95,20 +95,21 @@ def _real(text: str, unit: str = "") -> Any:
     return _option("NUMBER", text, parser=in_unit(unit))
 
 
+_ELSE = "the study's, else"
 Text = str | None
 Texts = list[str] | None
 Real = float | None
 Whole = int | None
 File = Path | None
 
-Vehicle = Annotated[Text, _option("NAME", "TOML file, or name of one in the package.  [default: the paper's car]")]
-Road = Annotated[Text, _option("ROAD", "ISO 8608 class: C, C-lower; CSV or TOML file.  [default: the paper's]")]
+Vehicle = Annotated[Text, _option("NAME", "TOML file, or name of one in the package.  [default: the study's]")]
+Road = Annotated[Text, _option("ROAD", "ISO 8608 class: C, C-lower; CSV or TOML file.  [default: the study's]")]
 AllowOutside = Annotated[
     bool,
     _option(None, "Let TOML files of vehicles and roads name files outside their folders.", "--allow-outside"),
 ]
-Speed = Annotated[Real, _real("Speed [m/s], or with a unit: 72km/h.  [default: 20]", "m/s")]
-Band = Annotated[Text, _option("LOW,HIGH", "Frequencies [Hz]: 0.5,20 or 0.5Hz..  [default: 0,20]")]
+Speed = Annotated[Real, _real("Speed [m/s], or with a unit: 72km/h.  [default: the study's]", "m/s")]
+Band = Annotated[Text, _option("LOW,HIGH", "Frequencies [Hz]: 0.5,20 or 0.5Hz..  [default: the study's]")]
 ProfileFile = Annotated[Path, Argument(metavar="FILE", help="Profile: .csv, .txt, .erd, .crg, ...")]
 Columns = Annotated[Text, _option("NAME,...", "Names of all columns: 'distance [ft],left [in],right [in]'.")]
 RowStep = Annotated[Real, _real("Step of a table of heights alone [m].", "m")]
@@ -116,7 +117,7 @@ TrackWidth = Annotated[Real, _real("Distance of left and right [m].  [default: 1
 Tracks = Annotated[Text, _option("NUMBER,...", "Places across an OpenCRG surface, to the left [m].")]
 Segments = Annotated[str, _option("NUMBER,...", "Lengths of segments for the index [m].")]
 Smoothed = Annotated[bool, _option(None, "The profile has been averaged over 250 mm already.", "--smoothed")]
-Weighting = Annotated[Text, _option("NAME", "ISO 2631 weighting of ACC: Wk, Wb, Wb-table, ...  [default: Wk]")]
+Weighting = Annotated[Text, _option("NAME", "ISO 2631 weighting of ACC: Wk, Wb, ...  [default: the study's]")]
 Setting = Annotated[Text, _option("NAME=NUMBER,...", "Coefficients of struts [N/m, N s/m, ...] to change.")]
 BodyMass = Annotated[Real, _real("Body mass of a quarter car [kg].", "kg")]
 WheelMass = Annotated[Real, _real("Wheel mass of a quarter car [kg].", "kg")]
@@ -128,25 +129,25 @@ Designs = Annotated[File, _option("FILE", "CSV of designs with columns 'spring [
 Response = Annotated[Texts, _option("NAME", "Response to draw, e.g. pitch_acceleration. Repeatable.")]
 Points = Annotated[int, _whole("Frequencies on each curve.")]
 SwsLimit = Annotated[float, _real("Suspension working space [m]: 0.0287 or 28.7mm.", "m")]
-Population = Annotated[int, _whole("Population of MOEA/D-DRA.")]
-Generations = Annotated[int, _whole("Iterations of MOEA/D-DRA.", "--iterations")]
-Problem = Annotated[File, _option("FILE", "TOML file of load cases, measures, limits.")]
+Population = Annotated[Whole, _whole(f"Population of MOEA/D-DRA.  [default: {_ELSE} 4000]")]
+Generations = Annotated[Whole, _whole(f"Iterations of MOEA/D-DRA.  [default: {_ELSE} 25]", "--iterations")]
+Study = Annotated[Text, _option("FILE", "TOML file of a study, or name of one in the package.  [default: paper]")]
 Reference = Annotated[
     File,
     _option("PATH", "Reference front: CSV of objectives with units, or a comparison's folder.  [default: sought]"),
 ]
-Populations = Annotated[Text, _option("NUMBER,...", "Population sizes.  [default: 500,1000; --quick: 60,100]")]
-Iterations = Annotated[Text, _option("NUMBER,...", "Iterations.  [default: 10,20; --quick: 5,10]")]
-Repeats = Annotated[Whole, _whole("Timed runs at each configuration.  [default: 5; --quick: 2]")]
+Populations = Annotated[Text, _option("NUMBER,...", f"Population sizes.  [default: {_ELSE} 500,1000]")]
+Iterations = Annotated[Text, _option("NUMBER,...", f"Iterations.  [default: {_ELSE} 10,20]")]
+Repeats = Annotated[Whole, _whole(f"Timed runs at each configuration.  [default: {_ELSE} 5]")]
 ALGORITHMS = "nsga2, nsga2-standard-sort, nsga2-gamultiobj, moead-dra, moead-dra-raw, random, sobol"
-Algorithms = Annotated[str, _option("NAME,...", f"Of {ALGORITHMS}; the first is the baseline.")]
-Seed = Annotated[int, _whole("Seed of the first run; each repeat adds one.")]
-Quick = Annotated[bool, _option(None, "Short form.", "--quick")]
+Algorithms = Annotated[Text, _option("NAME,...", f"Of {ALGORITHMS}; the first is the baseline.")]
+Seed = Annotated[Whole, _whole(f"Seed of the first run; each repeat adds one.  [default: {_ELSE} 0]")]
+Quick = Annotated[bool, _option(None, "Populations 60,100, iterations 5,10, 2 repeats, 3 seeds.", "--quick")]
 Quality = Annotated[bool, _option(None, "Judge quality over many seeds too.", "--quality")]
 Quiet = Annotated[bool, _option(None, "Print the path of the results alone.", "--quiet")]
 Json = Annotated[bool, _option(None, "Print tables, notes and the path as one JSON document.", "--json")]
-Seeds = Annotated[Whole, _whole("Runs of each algorithm in --quality.  [default: 31; --quick: 3]")]
-Target = Annotated[float, _real("Share of the reference hypervolume to reach [-].")]
+Seeds = Annotated[Whole, _whole(f"Runs of each algorithm in --quality.  [default: {_ELSE} 31]")]
+Target = Annotated[Real, _real(f"Share of the reference hypervolume to reach [-].  [default: {_ELSE} 0.995]")]
 Jobs = Annotated[Whole, _whole("Processes for the runs of --quality.")]
 Scheduler = Annotated[Text, _option("ADDRESS", "Dask scheduler for them: tcp://host:8786, tls://host:8786.")]
 Histories = Annotated[Path, Argument(metavar="FILE", help="CSV or RPC III file of accelerations.")]

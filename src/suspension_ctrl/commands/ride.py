@@ -43,16 +43,16 @@ def ride(
     damper; of a plant the ride alone. Writes ride.csv, modes.csv, springs.csv, static.csv, of force laws laws.csv,
     and of roads driven in time certificate.csv to a folder; its path is the last line printed.
     """
-    from ..paper import experiment as paper
     from ..response.load_case import LoadCase
     from ..response.responses import ride
-    from ..tables import write_csv
-    from . import results, terminal
+    from . import results, studies, terminal
 
     masses = {"body_mass": body_mass, "wheel_mass": wheel_mass, "tyre_stiffness": tyre_stiffness}
     file = chosen_vehicle(vehicle, masses, allow_outside)
     car, values = in_place(file, setting or "", given({"spring": spring, "damper": damper}))
-    problem, _ = paper.chosen(None, road, speed, allow_outside=allow_outside, **o.settings(weighting, band))
+    problem = studies.chosen_study(
+        road=road, speed=speed, band=band, weighting=weighting, allow_outside=allow_outside
+    ).problem
     case, (low, high) = LoadCase(vehicle=car, road=problem.road, speed=problem.speed), problem.band
     table = ride(car, values, case.road, speed=case.speed, weighting=problem.weighting, band=problem.band)
     table = (table if table.note.any() else table.drop(columns="note")).reset_index()
@@ -60,8 +60,7 @@ def ride(
     tables = {"ride": table, **tables_of(linear, values)}
     certificate = certified(problem, case, values, certify)
     folder = results.results_folder(out)
-    for name, one in tables.items():
-        write_csv(folder / f"{name}.csv", one)
+    results.write_tables(folder, tables)
     terminal.note(f"{file.name or vehicle}: {told(values, car)}.")
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table, readable=True)

@@ -4,15 +4,12 @@ T. J. Yuen and R. Ramli, "Comparison of computational efficiency of MOEA/D and N
 suspension optimization", 2010.
 """
 
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from .. import checks, datafiles
+from .. import datafiles
 from ..response.problem import RideProblem
-from ..roads.files import load_road
 from ..roads.spectra import PowerLawRoad
 from ..vehicles.cars import QuarterCar
-from ..vehicles.files import load_vehicle
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -66,20 +63,8 @@ def published_seconds() -> "pd.DataFrame":
     return seconds.rename(columns={"seconds": "published_seconds"})[columns]
 
 
-def chosen(
-    vehicle: str | None, road: str | None, speed: float | None, *, allow_outside: bool = False, **settings: Any
-) -> tuple[RideProblem, Mapping[str, float]]:
-    """Return the paper's problem with another vehicle, road, speed or parameters, and the vehicle's setting."""
+def is_papers(problem: RideProblem, *, band: bool = False) -> bool:
+    """Whether a problem is the paper's, with any weighting and, unless asked for, any band."""
+    kept = ["cases", "bounds", "kinds", "struts", "measures", "constraints", "worst_case"] + ["band"] * band
     papers = ride_problem()
-    if road is not None:
-        settings = {"band": None} | settings  # that of the paper is for its road
-    settings |= {"road": None if road is None else load_road(road, allow_outside=allow_outside), "speed": speed}
-    if vehicle is None:
-        return papers.replace(**settings), dict(zip(papers.variables, reference_design(), strict=True))
-    file = load_vehicle(vehicle, allow_outside=allow_outside)
-    if not file.bounds:
-        raise ValueError(f"vehicle must be a file with bounds, got {checks.shown(vehicle)}")
-    bounds = settings.pop("bounds", file.bounds)
-    struts = file.vehicle.coefficients(file.setting)
-    fixed = {name: value for name, value in struts.items() if name not in bounds}
-    return papers.replace(vehicle=file.vehicle, struts=fixed, bounds=bounds, **settings), struts
+    return all(getattr(problem, name) == getattr(papers, name) for name in kept)

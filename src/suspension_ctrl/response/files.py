@@ -1,74 +1,36 @@
-"""Ride problems in TOML files, see `schema`: measures, limits, bounds, and load cases with vehicles and roads.
-
-``vehicle`` and ``road`` of a case are tables, as in their own files, or texts: what `load_vehicle` and `load_road`
-take, paths as seen from the problem's file.
-"""
+"""Ride problems in TOML files, see `schema`: measures, limits, bounds, and load cases with vehicles and roads."""
 
 import warnings
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import MISSING, dataclass, field, replace
 from os import PathLike
-from typing import Any, cast
+from pathlib import Path
+from typing import Any, NamedTuple, cast
 
 from .. import checks
-from ..documents import Mistakes, Table, document, keyed
+from ..documents import Folder, Mistakes, Table, document, keyed
 from ..quantities import unit
 from ..roads.files import KINDS as ROADS
-from ..roads.files import load_road, read_road
-from ..roads.spectra import Iso8608Road
-from ..schema.keys import BAD, bad, keys_of
+from ..schema.keys import BAD, Key, bad, keys_of
 from ..schema.reading import read
 from ..schema.writing import content, toml
 from ..tables import write_text
-from ..vehicles.files import (
-    VehicleFile,
-    check_units,
-    coefficient_table,
-    load_vehicle,
-    mounted,
-    numbered,
-    read_coefficients,
-    read_vehicle,
-    vehicle_table,
-)
+from ..vehicles.files import VehicleFile, coefficient_table, read_coefficients, vehicle_table
 from ..vehicles.handling import RollGeometry
-from ..vehicles.mounted import Part, Payload, Seat
+from ..vehicles.mounted import Payload, Seat
+from ..vehicles.plant_files import plant_table
+from ..vehicles.plants import Plant
 from ..vehicles.unit_slips import UnitSlipWarning, slip_of
-from ..vehicles.vehicle import assembled, coefficients_by_name
+from ..vehicles.vehicle import Vehicle, coefficients_by_name
 from . import weightings
 from .bands import BAND, OwnBand
+from .case_files import FROM_TOP, CaseDocument, filled, given_at, read_cases
 from .event_files import IN_FILES
 from .load_case import Drive, LoadCase
 from .measures.limits import Limit
 from .measures.measure import Measure
 from .problem import RideProblem
 from .scores import NODES
-
-
-@dataclass(frozen=True, kw_only=True)
-class CaseDocument:
-    """A load case.
-
-    Parameters
-    ----------
-    vehicle, road : str or table
-        Path, or name in the package, of a vehicle; path, or class of ISO 8608, of a road; or a table as in a file.
-    speed : float
-        Vehicle speed [m/s].
-    share : float
-        How much of the time; cases count by their shares of the sum [-].
-    payload : array of tables
-        Loads fixed to the body.
-    roll_geometry : table
-        Heights for cornering; those of the vehicle's file if not given.
-    """
-
-    vehicle: str | Mapping[str, Any]
-    road: str | Mapping[str, Any]
-    speed: float = field(metadata=unit("m/s"))
-    share: float = field(default=1.0, metadata=unit(""))
-    payload: tuple[Payload, ...] = ()
-    roll_geometry: RollGeometry | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,6 +41,12 @@ class Document:
     ----------
     title : str
         A line about the problem.
+    vehicle, road : str or table
+        Of all load cases that do not name their own; without ``cases`` they are those of the one case.
+    speed : float
+        Likewise the vehicle speed [m/s].
+    payload, roll_geometry : array of tables, table
+        Likewise loads fixed to the body, and heights for cornering.
     measures, constraints : array of str
         Objectives, and limits on measures.
     weighting : str
@@ -100,7 +68,9 @@ class Document:
     events : table
         Events of every case by name, for measures such as ``peak front_travel bump``.
     cases : array of tables
-        The load cases.
+        The load cases, if they are several.
+    present, search : table, table
+        Of a study: coefficients of the present design, and settings of searches.
     """
 
     title: str = ""
@@ -110,16 +80,45 @@ class Document:
     band: tuple[float, float] | None = field(default=None, metadata=unit("Hz"))
     worst_case: bool = False
     nodes: int | None = field(default=None, metadata=unit("", 2, NODES[-1]))
+    vehicle: str | Mapping[str, Any] = ""
+    road: str | Mapping[str, Any] = ""
+    speed: float | None = field(default=None, metadata=unit("m/s", 1e-3, 1e3))
     bounds: Mapping[str, Any] = field(default_factory=dict)
     kinds: Mapping[str, Any] = field(default_factory=dict)
     struts: Mapping[str, Any] = field(default_factory=dict)
+    present: Mapping[str, Any] = field(default_factory=dict)
+    search: Mapping[str, Any] = field(default_factory=dict)
+    roll_geometry: RollGeometry | None = None
     seats: tuple[Seat, ...] = field(default=(), metadata={"most": 50})
+    payload: tuple[Payload, ...] = ()
     events: Mapping[str, Drive] = field(default_factory=dict, metadata=IN_FILES)
-    cases: tuple[CaseDocument, ...]
+    cases: tuple[CaseDocument, ...] = ()
+
+
+class Content(NamedTuple):
+    """A problem file as read, with mistakes that are noted."""
+
+    values: Mapping[str, Any]  # parameters of the problem beside its cases
+    cases: Sequence[LoadCase]
+    file: VehicleFile  # of the first case, `BAD` if it cannot be read
+    vehicle: Vehicle  # of the first case with its parts, `BAD` if one does not fit
+    unusual: bool
+    title: str
+    present: Mapping[str, Any]
+    search: Mapping[str, Any]
+
+    def problem(self) -> RideProblem:
+        """Return the problem; ValueError about a likely slip of units, unless a vehicle may be unusual."""
+        with keyed("", {"band": "band_Hz", "f": "band_Hz"}), warnings.catch_warnings():  # f of an unknown road
+            warnings.simplefilter("ignore" if self.unusual else "error", UnitSlipWarning)
+            try:
+                return RideProblem(cases=self.cases, **self.values)
+            except UnitSlipWarning as slip:
+                raise ValueError(str(slip)) from None
 
 
 def load_problem(path: str | PathLike[str], *, allow_outside: bool = False) -> RideProblem:
-    """Return the problem of a TOML file, `allow_outside` as in `load_road`.
+    """Return the problem of a TOML file, also of a study, `allow_outside` as in `load_road`.
 
     Raises
     ------
@@ -166,13 +165,22 @@ def save_problem(path: str | PathLike[str], problem: RideProblem) -> None:
     """
     if not isinstance(problem, RideProblem):
         raise ValueError(f"problem must be a RideProblem, got {checks.shown(problem)}")
+    file = checks.path_of("path", path)
+    problem = problem.replace(struts=coefficients_by_name(problem.struts, {}))
+    write_text(file, toml(problem_table(problem, file), problem, _problem, Folder(file.parent)))
+
+
+def problem_table(problem: RideProblem, path: Path) -> dict[str, Any]:
+    """Return the table that `read_problem` reads as the problem; ValueError if there is none.
+
+    Systems of plants are written beside the file at `path`.
+    """
     if any(case.events != problem.cases[0].events for case in problem.cases):
         raise ValueError("events must be the same in all load cases of a file, got others")
     vehicle, bounds, weighting = problem.cases[0].vehicle, problem.bounds, cast(str, problem.weighting)
     order = [name for name in vehicle.variables if name in bounds]
     if list(bounds) != order:
         raise ValueError(f"bounds must be in the vehicle's order, {', '.join(order)}, got {', '.join(bounds)}")
-    problem = problem.replace(struts=coefficients_by_name(problem.struts, {}))
     file = Document(
         measures=tuple(map(str, problem.measures)),
         constraints=tuple(map(str, problem.constraints)),
@@ -183,89 +191,84 @@ def save_problem(path: str | PathLike[str], problem: RideProblem) -> None:
         bounds=coefficient_table(vehicle, bounds),
         kinds=coefficient_table(vehicle, problem.kinds),
         struts=coefficient_table(vehicle, problem.struts),
-        events=dict(problem.events),
-        cases=tuple(map(_case_document, problem.cases)),
+        events=dict(problem.cases[0].events),
     )
-    write_text(checks.path_of("path", path), toml(content(file), problem, _problem))
+    return _with_cases(content(file), [content(one) for one in _case_documents(problem.cases, path)])
 
 
-def _case_document(case: LoadCase) -> CaseDocument:
-    vehicle = assembled(case.vehicle)
-    return CaseDocument(
-        vehicle=vehicle_table(VehicleFile(vehicle=vehicle, unusual=slip_of(vehicle) is not None)),
-        road=content(case.road, ROADS),
-        speed=case.speed,
-        share=case.share,
-        roll_geometry=case.roll_geometry,
-    )
+def _with_cases(table: dict[str, Any], cases: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return the table of a problem with load cases, at its top what is the same in all."""
+    first, keys = cases[0], (*FROM_TOP, "roll_geometry")
+    same = {key: first[key] for key in keys if all(key in one and one[key] == first[key] for one in cases)}
+    others = [{key: value for key, value in one.items() if key not in same} for one in cases]
+    return {**same, **table, **({} if others == [{}] else {"cases": others})}
+
+
+def _case_documents(cases: Sequence[LoadCase], path: Path) -> Iterator[CaseDocument]:
+    """Yield the load cases, each vehicle written once."""
+    vehicles: dict[Vehicle, dict[str, Any]] = {}
+    for case in cases:
+        vehicle = case.vehicle
+        if vehicle not in vehicles:
+            system = path.with_name(f"{path.stem}_vehicle{len(vehicles) + 1}")
+            vehicles[vehicle] = (
+                plant_table(vehicle, system)
+                if isinstance(vehicle, Plant)
+                else vehicle_table(VehicleFile(vehicle=vehicle, unusual=slip_of(vehicle) is not None))
+            )
+        yield CaseDocument(
+            vehicle=vehicles[vehicle],
+            road=content(case.road, ROADS),
+            speed=case.speed,
+            share=case.share,
+            roll_geometry=case.roll_geometry,
+        )
 
 
 def _problem(table: Table) -> RideProblem:
     mistakes = Mistakes()
-    values = read(table, keys_of(Document), mistakes)
-    if values["cases"] == ():
-        mistakes.note("cases must be an array of tables, one at least, got none")
-    if not values["cases"] or BAD in (values["cases"], values.get("seats")):
-        mistakes.settle()
-    seats, documents = numbered("seats", values), enumerate(values["cases"], start=1)
-    given = [_case(one, table.inner(f"cases[{i}]", {}), seats, mistakes) for i, one in documents]
-    apart, events = ("title", "seats", "cases", "events"), values.get("events", {})
-    values = {name: value for name, value in values.items() if name not in apart and not bad(value)}
-    cases = [replace(case, events={} if bad(events) else events) for _, case in filter(None, given) if case]
-    _check(values, cases, mistakes)
-    if given[0]:
-        values |= _coefficients(values, *given[0], mistakes)
+    found = read_problem(table, mistakes)
     mistakes.settle()
-    with keyed("", {"band": "band_Hz", "f": "band_Hz"}):  # f of a road that is not known there
-        return _usual(cases, values, any(one[0].unusual for one in given if one))
+    return found.problem()
 
 
-def _usual(cases: Sequence[LoadCase], values: Mapping[str, Any], unusual: bool) -> RideProblem:
-    """Return the problem; ValueError about a likely slip of units, unless a vehicle may be unusual."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore" if unusual else "error", UnitSlipWarning)
-        try:
-            return RideProblem(cases=cases, **values)
-        except UnitSlipWarning as slip:
-            raise ValueError(str(slip)) from None
+def read_problem(table: Table, mistakes: Mistakes) -> Content:
+    """Return the content of a problem's table."""
+    values = read(filled(table), _keys(table), mistakes)
+    if values.get("cases") == ():
+        mistakes.note("cases must be an array of tables, one at least, got none")
+    title, present, search = (
+        default if bad(value) else value
+        for name, default in (("title", ""), ("present", {}), ("search", {}))
+        for value in [values.get(name, default)]
+    )
+    if values.get("cases") in (BAD, ()) or values.get("seats") is BAD:
+        return Content({}, [], BAD, BAD, False, title, present, search)
+    given, events = read_cases(table, values, mistakes), values.get("events", {})
+    values = {name: value for name, value in values.items() if name in _OF_PROBLEM and not bad(value)}
+    cases = [replace(one.case, events={} if bad(events) else events) for one in filter(None, given) if one.case]
+    _check(values, cases, mistakes)
+    first = given[0]
+    if first:
+        values |= _coefficients(values, first.file, cases[0] if first.case else None, mistakes)
+    unusual = any(one.file.unusual for one in given if one)
+    vehicle = first.case.vehicle if first and first.case else BAD
+    return Content(values, cases, first.file if first else BAD, vehicle, unusual, title, present, search)
 
 
-def _case(
-    one: CaseDocument, table: Table, seats: Mapping[str, Part], mistakes: Mistakes
-) -> tuple[VehicleFile, LoadCase | None] | None:
-    """Return the vehicle of a case, None if it cannot be read, and the case, None if a part does not fit."""
-    if bad(one):
-        return None
-    file = _vehicle(one.vehicle, table, mistakes)
-    vehicle = BAD if bad(file) else mounted(file.vehicle, seats, "", mistakes)
-    vehicle = mounted(vehicle, numbered("payload", vars(one)), table.name, mistakes)
-    road = _road(one.road, table, mistakes)
-    if bad(vehicle):
-        return None if bad(file) else (file, None)
-    geometry = one.roll_geometry or file.roll_geometry
-    return file, LoadCase(vehicle=vehicle, road=road, speed=one.speed, share=one.share, roll_geometry=geometry)
+_OF_PROBLEM = {
+    *("measures", "constraints", "weighting", "band", "worst_case", "nodes", "bounds", "kinds", "struts"),
+}
 
 
-def _vehicle(given: str | Mapping[str, Any], table: Table, mistakes: Mistakes) -> VehicleFile:
-    """Return the vehicle of the case in a table, `BAD` if there is none."""
-    if isinstance(given, str):
-        with mistakes.noted(f"{table.name}vehicle: "):
-            return load_vehicle(table.folder.named(given), allow_outside=table.folder.allow_outside)
-        return BAD
-    file = read_vehicle(table.inner("vehicle", given), mistakes)
-    if not bad(file):
-        with mistakes.noted(f"{table.name}vehicle: "):
-            check_units(file)
-    return file
-
-
-def _road(given: str | Mapping[str, Any], table: Table, mistakes: Mistakes) -> Any:
-    """Return the road of the case in a table; for a wrong one class C, so that measures are checked as well."""
-    with mistakes.noted(f"{table.name}road: " if isinstance(given, str) else ""):
-        if isinstance(given, str):
-            return load_road(table.folder.named(given), allow_outside=table.folder.allow_outside)
-        return read_road(table.inner("road", given))
-    return Iso8608Road("C")
+def _keys(table: Table) -> dict[str, Key]:
+    """Return the keys of a problem: without load cases, vehicle, road and speed are required if one is given."""
+    keys = dict(keys_of(Document))
+    if "cases" not in table.content:
+        here = any(given_at(table.content, key) for key in FROM_TOP)
+        required = FROM_TOP if here else ["cases"]
+        keys |= {key: keys[key]._replace(default=MISSING) for key in required}
+    return keys
 
 
 def _check(values: Mapping[str, Any], cases: Sequence[LoadCase], mistakes: Mistakes) -> None:

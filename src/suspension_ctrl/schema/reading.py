@@ -147,9 +147,15 @@ def _number(one: Key, key: str, value: Any, typed: bool) -> float:
 
 
 def _whole(one: Key, key: str, value: Any, _typed: bool) -> int:
-    whole = checks.at_least(key, value, 1)
+    whole = checks.at_least(key, value, 0 if one.default == 0 else 1)
     one.check(key, whole)
     return whole
+
+
+def _wholes(one: Key, key: str, value: Any, _typed: bool) -> tuple[int, ...]:
+    if not (isinstance(value, list) and 0 < len(value) <= one.most):
+        raise ValueError(f"{key} must be an array of up to {one.most} whole numbers, got {checks.shown(value)}")
+    return tuple(checks.at_least(f"{key}[{i}]", number, 1) for i, number in enumerate(value, start=1))
 
 
 def _numbers(one: Key, key: str, value: Any, typed: bool) -> tuple[float, ...]:
@@ -167,7 +173,7 @@ def _pair(one: Key, key: str, value: Any, typed: bool) -> tuple[float, float]:
 
 
 _NUMERIC: dict[Any, Callable[[Key, str, Any, bool], Any]] = {
-    float: _number, float | None: _number, int | None: _whole,
+    float: _number, float | None: _number, int: _whole, int | None: _whole, tuple[int, ...]: _wholes,
     tuple[float, float]: _pair, tuple[float, float] | None: _pair,
     tuple[float, ...]: _numbers, Real: _numbers, ArrayLike: _numbers, ArrayLike | None: _numbers,
 }  # fmt: skip

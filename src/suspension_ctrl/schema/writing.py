@@ -8,11 +8,13 @@ from typing import Any, TypeVar
 import numpy as np
 
 from .. import checks
-from ..documents import Table
+from ..documents import Folder, Table
 from ..quantities import same
 from .keys import keys_of
 
 T = TypeVar("T")
+
+HERE = Folder()
 
 
 def content(record: Any, kinds: Mapping[str, type] | None = None) -> dict[str, Any]:
@@ -42,11 +44,11 @@ def _plain(value: Any, kinds: Mapping[str, type] | None = None) -> Any:
     return float(value) if isinstance(value, float) else value
 
 
-def toml(table: Mapping[str, Any], record: T, reader: Callable[[Table], T]) -> str:
-    """Return the text of a file; ValueError unless its `reader` reads an equal record from it."""
+def toml(table: Mapping[str, Any], record: T, reader: Callable[[Table], T], folder: Folder = HERE) -> str:
+    """Return the text of a file in a folder; ValueError unless its `reader` reads an equal record from it."""
     import tomlkit
 
     text = tomlkit.dumps(table)
-    if reader(Table("", tomllib.loads(text))) != record:
+    if reader(Table("", tomllib.loads(text), folder)) != record:
         raise ValueError(f"a file must hold all of what is written, got {checks.shown(record)}")
     return text

@@ -9,16 +9,19 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import control
+
 from ..documents import Mistakes, Table, keyed
 from ..quantities import unit
 from ..schema.keys import BAD, bad
 from ..schema.reading import fields_named
+from ..schema.writing import content
 from .assembly import Position
 from .feedback import System
 from .matrices import parts_of
 from .plants import ONE_WHEEL, Plant
 from .signals import Names
-from .system_files import load_system
+from .system_files import load_system, save_system
 
 
 @dataclass(frozen=True)
@@ -79,6 +82,15 @@ def read_plant(record: PlantFile, table: Table, mistakes: Mistakes) -> Plant:
             contacts, axles = record.contacts, record.axles
             return Plant.named(system, inputs=inputs, outputs=outputs, contacts=contacts, axles=axles)
     return BAD
+
+
+def plant_table(plant: Plant, stem: Path) -> dict[str, Any]:
+    """Write the system of a plant to a file of this stem; return the table of a vehicle that is the plant."""
+    matrices = isinstance(plant.system, control.StateSpace)
+    file = stem.with_name(f"{stem.name}{'.npz' if matrices else '.csv'}")
+    save_system(file, plant.system)
+    record = PlantFile(file=file.name, contacts=plant.contacts, axles=plant.axles)
+    return {"kind": "plant", **content(record)}
 
 
 def _names(given: Names) -> Names | None:

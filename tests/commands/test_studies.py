@@ -1,0 +1,115 @@
+"""The study of a command: the paper's by default, a file's, and with options in place of what it says."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from suspension_ctrl import Iso8608Road, SearchSettings, load_study, load_vehicle
+from suspension_ctrl.commands.studies import chosen_study
+from suspension_ctrl.paper import experiment as paper
+
+CAR = """
+kind = "quarter-car"
+body_mass_kg = 300
+wheel_mass_kg = 40.0
+tyre_stiffness_N_per_m = 2e5
+[struts]
+spring_N_per_m = 2e4
+damper_N_s_per_m = 1e3
+[bounds]
+spring_N_per_m = [1e4, 3e4]
+"""
+
+
+def test_without_choice_it_is_the_papers_problem():
+    study = chosen_study()
+    assert study.problem == paper.ride_problem()
+    assert tuple(study.present.values()) == paper.reference_design()
+    assert study.search == SearchSettings()
+    changed = chosen_study(weighting="Wb", band="0.5,10").problem
+    assert changed == paper.ride_problem(weighting="Wb", band=(0.5, 10.0))
+    assert paper.is_papers(changed)
+    assert not paper.is_papers(changed, band=True)
+    assert not paper.is_papers(chosen_study(speed=21.0).problem)
+
+
+def test_the_papers_vehicle_by_name_has_the_papers_values():
+    study = chosen_study(vehicle="yuen_ramli_2010")
+    assert tuple(study.present.values()) == paper.reference_design()
+    designs = np.random.default_rng(1).uniform(study.problem.lower, study.problem.upper, (5, 2))
+    np.testing.assert_array_equal(study.problem.evaluate(designs), paper.ride_problem().evaluate(designs))
+
+
+@pytest.mark.parametrize("name", ["jian_2022_full", "minaker_half", "yuen_ramli_2010"])
+def test_a_vehicle_brings_its_bounds_struts_and_present_design(name):
+    file = load_vehicle(name)
+    study = chosen_study(vehicle=name, road="C-upper", speed=12.0, weighting="Wd")
+    problem = study.problem
+    (case,) = problem.cases
+    assert (case.vehicle, case.roll_geometry) == (file.vehicle, file.roll_geometry)
+    assert (case.road, case.speed) == (Iso8608Road("C", level="upper"), 12.0)
+    assert (problem.bounds, problem.weighting) == (file.bounds, "Wd")
+    assert problem.measures == paper.ride_problem().measures
+    own = file.vehicle.coefficients(file.setting)
+    assert study.present == {name: own[name] for name in problem.variables}
+    assert study.name == file.name
+    assert np.isfinite(problem.evaluate([list(study.present.values())])).all()
+
+
+def test_a_vehicle_takes_the_place_of_those_of_all_load_cases():
+    """With its own roll geometry; roads and shares stay."""
+    file = load_vehicle("jian_2022_full")
+    study, own = chosen_study(study="half_car", vehicle="jian_2022_full", speed=22.0), load_study("half_car")
+    assert {case.roll_geometry for case in study.problem.cases} == {file.roll_geometry}
+    wanted = [
+        replace(case, vehicle=file.vehicle, roll_geometry=file.roll_geometry, speed=22.0)
+        for case in own.problem.cases
+    ]
+    assert list(study.problem.cases) == wanted
+    assert study.problem.constraints == own.problem.constraints
+
+
+def test_coefficients_without_bounds_stay_those_of_the_file(tmp_path):
+    path = tmp_path / "car.toml"
+    path.write_text(CAR)
+    study = chosen_study(vehicle=str(path))
+    assert (study.problem.variables, study.problem.struts) == (("spring",), {"damper": 1e3})
+    assert (study.present, study.name) == ({"spring": 2e4}, "car")
+
+
+def test_another_road_keeps_the_band_as_far_as_it_is_known(tmp_path):
+    (tmp_path / "road.csv").write_text("wavenumber [cycle/m],psd [m^3]\n0.02,1e-3\n0.1,1e-4\n1,1e-6\n")
+    assert chosen_study(study="half_car", road="D").problem.band == (0.3, 20.0)
+    assert chosen_study(study="half_car", road=str(tmp_path / "road.csv")).problem.band == (0.5, 20.0)
+
+
+def test_settings_of_searches_are_of_options_then_the_file_then_the_command(tmp_path):
+    path = tmp_path / "s.toml"
+    path.write_text(
+        'vehicle = "yuen_ramli_2010"\nroad = "C"\nspeed_m_per_s = 20\nmeasures = ["ACC", "SWS"]\n'
+        "[search]\npopulations = [40]\nseed = 3\n"
+    )
+    command = SearchSettings(populations=(4000,), iterations=(25,))
+    study = chosen_study(study=str(path), search=command, seed=5, algorithms="random, sobol", repeats=None)
+    assert study.search == SearchSettings(
+        algorithms=("random", "sobol"), populations=(40,), iterations=(25,), seed=5
+    )
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"speed": 0.0}, "speed must be finite and > 0 m/s, got 0.0"),
+        ({"vehicle": "minaker_half", "speed": 0.0}, "speed must be finite and > 0 m/s, got 0.0"),
+        ({"speed": float("nan")}, "speed must be finite and > 0 m/s, got nan"),
+        ({"road": ""}, "road must be a class of ISO 8608 .* got ''"),
+        ({"vehicle": ""}, "vehicle must be one of bmw_320i_full, .* got ''"),
+        ({"vehicle": "cantero_2022_half"}, "vehicle must be a file with bounds, got 'cantero_2022_half'"),
+        ({"study": "mine"}, "study must be one of damper_curve, full_car, half_car, motorcycle, paper or .*"),
+        ({"study": "full_car", "vehicle": "minaker_half"}, "response must be one of .* got 'driver_acceleration'"),
+    ],
+)
+def test_bad_choices_are_one_line(options, message):
+    with pytest.raises(ValueError, match=rf"^{message}$"):
+        chosen_study(**options)

@@ -1,0 +1,156 @@
+"""Study files: a problem with the present design and settings of searches."""
+
+import re
+from dataclasses import replace
+
+import pytest
+
+from suspension_ctrl import (
+    Iso8608Road,
+    LoadCase,
+    Plant,
+    RideProblem,
+    SearchSettings,
+    StudyFile,
+    datafiles,
+    load_problem,
+    load_study,
+    load_vehicle,
+    save_study,
+)
+from suspension_ctrl.paper import experiment as paper
+
+STUDY = """
+vehicle = "yuen_ramli_2010"
+road = "C"
+speed = "80 km/h"
+measures = ["ACC", "DTL"]
+constraints = ["SWS <= 12mm"]
+
+[present]
+spring = "20 kN/m"
+
+[search]
+algorithms = ["moead-dra"]
+populations = [40, 60]
+iterations = [3]
+seed = 0
+target = 0.9
+"""
+
+
+@pytest.fixture
+def path(tmp_path):
+    file = tmp_path / "s.toml"
+    file.write_text(STUDY)
+    return file
+
+
+def test_a_study_is_a_problem_a_present_design_and_settings(path):
+    study = load_study(path)
+    file = load_vehicle("yuen_ramli_2010")
+    assert study.problem == RideProblem(
+        file.vehicle, Iso8608Road("C"), speed=200 / 9, bounds=file.bounds, measures=["ACC", "DTL"],
+        constraints=["SWS <= 0.012"],
+    )  # fmt: skip
+    assert study.name == "Yuen and Ramli 2010"
+    assert study.present == {"spring": 20e3, "damper": 1500.0}
+    assert study.search == SearchSettings(
+        algorithms=("moead-dra",), populations=(40, 60), iterations=(3,), target=0.9
+    )
+    assert load_problem(path) == study.problem
+
+
+def test_settings_that_a_file_leaves_out_are_those_of_the_caller(path):
+    own = SearchSettings(populations=(4000,), repeats=2)
+    search = load_study(path, search=own).search
+    assert (search.populations, search.repeats, search.seeds) == ((40, 60), 2, 31)
+
+
+def test_the_papers_study_has_the_values_of_table_1():
+    study = load_study("paper")
+    assert study.problem == paper.ride_problem()
+    assert tuple(study.present.values()) == paper.reference_design()
+    configurations = set(
+        paper.published_seconds()[["population", "iterations"]].itertuples(index=False, name=None)
+    )
+    assert configurations == {(n, i) for n in study.search.populations for i in study.search.iterations}
+    assert paper.published_seconds().repeat.max() == study.search.repeats
+
+
+@pytest.mark.parametrize("name", datafiles.stems("studies"))
+def test_every_study_of_the_package_has_a_present_design(name):
+    study = load_study(name)
+    assert tuple(study.present) == study.problem.variables
+    assert study.name
+
+
+def test_the_present_design_of_a_vehicle_without_struts_is_unknown(path, tmp_path):
+    (tmp_path / "car.toml").write_text(
+        'kind = "quarter-car"\nbody_mass_kg = 300\nwheel_mass_kg = 40\ntyre_stiffness_N_per_m = 2e5\n'
+        "[bounds]\nspring_N_per_m = [1e4, 3e4]\ndamper_N_s_per_m = [1e3, 5e3]\n"
+    )
+    text = STUDY.replace('"yuen_ramli_2010"', '"car.toml"')
+    path.write_text(text.replace('[present]\nspring = "20 kN/m"\n', ""))
+    assert load_study(path).present == {}
+    assert load_study(path).name == "s"
+    path.write_text(text)
+    assert load_study(path).present == {}  # of the damper nothing is known
+    path.write_text(text.replace("[present]\n", '[present]\ndamper = "2 kN s/m"\n'))
+    assert load_study(path).present == {"spring": 20e3, "damper": 2e3}
+
+
+def test_a_varied_parameter_is_in_the_present_design_as_the_vehicle_has_it(path):
+    path.write_text(STUDY + "[bounds]\nspring_N_per_m = [1e4, 3e4]\ntyre_stiffness_N_per_m = [1.5e5, 2e5]\n")
+    assert load_study(path).present == {"spring": 20e3, "tyre_stiffness": 192e3}
+
+
+def test_a_study_of_plants_is_written_with_their_systems(tmp_path):
+    file = load_vehicle("yuen_ramli_2010")
+    plant = Plant(file.vehicle.plant())
+    cases = [LoadCase(vehicle=plant, road=Iso8608Road(name), speed=20.0) for name in "AC"]
+    problem = RideProblem(cases=cases, bounds=file.bounds, band=(0.5, 20.0))
+    study = StudyFile(problem=problem, present=file.setting)
+    save_study(tmp_path / "study.toml", study)
+    assert load_study(tmp_path / "study.toml") == replace(study, name="study")
+    assert {one.name for one in tmp_path.iterdir()} == {"study.toml", "study_vehicle1.npz"}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("[40, 60]", "[40, 6.5]", ":13: search.populations[2] must be a whole number >= 1, got 6.5"),
+        ("[40, 60]", "[3]", ":13: search.populations must be a whole number >= 4, got 3"),
+        ("[40, 60]", "[]", ":13: search.populations must be an array of up to 100 whole numbers, got []"),
+        ("[40, 60]", "40", ":13: search.populations must be an array of up to 100 whole numbers, got 40"),
+        ('["moead-dra"]', '["nsga3"]', ":12: search.algorithms must be one of nsga2, nsga2-standard-sort, "),
+        ('["moead-dra"]', "[]", ":12: search.algorithms must be one at least, got none"),
+        ("seed = 0", "seed = -1", ":15: search.seed must be a whole number >= 0, got -1"),
+        ("target = 0.9", "target = 1.1", ":16: search.target must be a number from 0 to 1, got 1.1"),
+        ("target = 0.9", "budget = 3", ":16: search.budget must be one of the keys algorithms, populations, "),
+        ('spring = "20 kN/m"', 'sprung = "20 kN/m"', ":9: present.sprung must be one of the keys spring_N_per_"),
+        ('spring = "20 kN/m"', 'spring = "20 kN"', ":9: present.spring must be in N/m or a unit like it, got "),
+        ('spring = "20 kN/m"', "tyre_stiffness_N_per_m = 2e5", ":8: present.tyre_stiffness must be of coefficien"),
+        ('vehicle = "yuen_ramli_2010"\n', "", ": vehicle must be given, got none"),
+        ('road = "C"\n', "", ": road must be given, got none"),
+        ('speed = "80 km/h"\n', "", ": speed_m_per_s must be given, got none"),
+        ('speed = "80 km/h"', "speed_m_per_s = 0", ":4: speed_m_per_s must be a number from 0.001 "),
+    ],
+)  # fmt: skip
+def test_a_mistake_is_one_line(path, old, new, message):
+    assert old in STUDY
+    path.write_text(STUDY.replace(old, new))
+    with pytest.raises(ValueError, match=rf"^{re.escape(f'{path}{message}')}[^\n]*$"):
+        load_study(path)
+
+
+def test_objects_are_checked(tmp_path):
+    study = load_study("paper")
+    with pytest.raises(ValueError, match=r"^present must hold spring, damper, got spring$"):
+        replace(study, present={"spring": 1.0})
+    with pytest.raises(ValueError, match=r"^problem must be a RideProblem, got 3$"):
+        replace(study, problem=3)
+    with pytest.raises(ValueError, match=r"^study must be a StudyFile, got 3$"):
+        save_study(tmp_path / "s.toml", 3)
+    with pytest.raises(ValueError, match=r"^population must be >= 15 for 3 objectives, .* got 14$"):
+        replace(study, search=SearchSettings(populations=[14]))
