@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from numpy.typing import ArrayLike
 
+from suspension_ctrl.desk.study_files import SearchSettings
 from suspension_ctrl.quantities import Real
 from suspension_ctrl.response.event_files import EVENTS, DriveKeys
 from suspension_ctrl.response.files import CaseDocument
@@ -32,7 +33,7 @@ from suspension_ctrl.vehicles.strut_files import element_keys
 PAGE = Path(__file__).with_name("files.md")
 HEAD = """# Files
 
-Vehicles, roads and problems are TOML files. This page is made from the code by `python docs/keys.py`.
+Vehicles, roads, problems and studies are TOML files. This page is made from the code by `python docs/keys.py`.
 
 A quantity has its unit in its key and a number as its value, `front_track_m = 1.5`; or no unit in its key and a
 text with any unit of the same dimension as its value: `front_track = "1500mm"`, `speed = "100 km/h"`,
@@ -63,7 +64,8 @@ front.damper = ["1 kN s/m", "4 kN s/m"]
 rear.damper = ["1 kN s/m", "4 kN s/m"]
 ```
 
-`load_vehicle`, `load_road` and `load_problem` read files; `save_vehicle`, `save_road` and `save_problem` write.
+`load_vehicle`, `load_road`, `load_problem` and `load_study` read files; `save_vehicle`, `save_road`,
+`save_problem` and `save_study` write.
 All mistakes of a file are listed at once, each with the file, the line, the key, what is allowed and the value:
 
 ```text
@@ -151,6 +153,31 @@ mount.spring = "50 N/mm"
 mount.damper_N_s_per_m = 4e3
 ```
 """
+STUDIES = """A study is a problem with two further tables, `[present]` and `[search]`; `compare`, `optimum` and
+`bode` take it by `--study`. `[present]` holds the present design, coefficients as in `[struts]`; those that it leaves out are the
+vehicle's own. A problem without these tables is a study too.
+
+```toml
+title = "My car on a country road"
+vehicle = "car.toml"
+road = "C"
+speed = "80 km/h"
+measures = ["ACC", "SWS", "DTL"]
+constraints = ["SWS <= 12mm"]
+
+[bounds]
+spring = ["10 kN/m", "60 kN/m"]
+damper = ["0.5 kN s/m", "5 kN s/m"]
+
+[present]
+spring = "22 kN/m"
+damper = "1.5 kN s/m"
+
+[search]
+populations = [200]
+iterations = [50]
+```
+"""
 LAYOUTS = """### `[strut]`, `[front_strut]`, `[rear_strut]`, `[suspensions.strut]`
 A strut is elements between its two ends. Its `layout` joins them by name: `|` in parallel, `-` in series (before
 `|`), parentheses, and an installation ratio of a group, `0.8*(...)`. An element has a table with its `kind` and
@@ -181,8 +208,9 @@ with units in its header, `velocity [mm/s],force [kN]`; or a property file of th
 may vary in `[bounds]`: `front.mount_N_per_m`, `front.damper.scale`, `front.bump_stop.gap_m`.
 """
 FORMS = {
-    float: "number", float | None: "number", int | None: "whole number", bool: "true or false", str: "text",
-    tuple[str, ...]: "array of texts",
+    float: "number", float | None: "number", bool: "true or false", str: "text",
+    int: "whole number", int | None: "whole number",
+    tuple[str, ...]: "array of texts", tuple[int, ...]: "array of whole numbers",
     tuple[float, float]: "array of 2 numbers", tuple[float, float] | None: "array of 2 numbers",
     tuple[float, ...]: "array of numbers", str | Mapping[str, Any]: "text or table",
     tuple[str, ...] | Mapping[str, Any]: "array of texts or table",
@@ -233,7 +261,7 @@ def _shown(key: Key) -> str:
     if key.kinds:
         return f'`kind = "{next(kind for kind, record in key.kinds.items() if isinstance(default, record))}"`'
     if isinstance(default, tuple):
-        return f"[{', '.join(f'{one:g}' for one in default)}]"
+        return f"[{', '.join(f'"{one}"' if isinstance(one, str) else f'{one:g}' for one in default)}]"
     if isinstance(default, bool):
         return str(default).lower()
     return f'"{default}"' if isinstance(default, str) else repr(default)
@@ -268,6 +296,7 @@ def page() -> str:
     parts += [table(f'`[coherence]`, `kind = "{kind}"`', record) for kind, record in COHERENCES.items()]
     parts.append(table('`[coherence]`, `kind = "tabulated"` of a CSV file', TabulatedFile))
     parts += ["## Problems\n", table("A problem", ProblemDocument), table("`[[cases]]`", CaseDocument)]
+    parts += ["## Studies\n", STUDIES, table("`[search]`", SearchSettings)]
     parts.append(table("`[[cases.payload]]`, also `[[payload]]` of a vehicle", Payload))
     parts += [table(f'`[events.<name>]`, `kind = "{kind}"`', record) for kind, record in EVENTS.items()]
     return "\n".join([*parts, table("Beside them, of all but a test rig", DriveKeys)])

@@ -49,7 +49,7 @@ def test_the_pages_vehicle_is_read_and_its_mistakes_are_said(checkout, tmp_path,
 
 def test_the_pages_lorry_is_read(checkout, tmp_path):
     page = (checkout / "docs/files.md").read_text(encoding="utf-8")
-    _, lorry, _ = re.findall(r"```toml\n(.*?)```", page, re.DOTALL)
+    _, lorry, *_ = re.findall(r"```toml\n(.*?)```", page, re.DOTALL)
     (tmp_path / "lorry.toml").write_text(lorry)
     file = load_vehicle(tmp_path / "lorry.toml")
     assert file.vehicle.assembly.coordinates == (
@@ -62,7 +62,7 @@ def test_the_pages_lorry_is_read(checkout, tmp_path):
 
 def test_the_pages_strut_is_that_of_a_vehicle(checkout, tmp_path):
     page = (checkout / "docs/files.md").read_text(encoding="utf-8")
-    van, _, strut = re.findall(r"```toml\n(.*?)```", page, re.DOTALL)
+    van, _, strut, _ = re.findall(r"```toml\n(.*?)```", page, re.DOTALL)
     linear = [line for line in van.splitlines() if not line.startswith("front.damper")]
     (tmp_path / "van.toml").write_text("\n".join([*linear, strut]))
     file = load_vehicle(tmp_path / "van.toml")

@@ -1,6 +1,11 @@
 """Table 5: the reference car, the published optimum, and the best struts of the same suspension travel."""
 
+from typing import TYPE_CHECKING
+
 from . import options as o
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 WEIGHTINGS = ("Wk", "Wb", "Wb-table")
 DECIMALS = {"[m": 4, "[N]": 1, "[N": 0, "[%]": 2}
@@ -41,20 +46,26 @@ def optimum(
         search=SearchSettings(algorithms=("moead-dra",), populations=(4000,), iterations=(25,)),
         populations=population, iterations=iterations,
     )  # fmt: skip
-    search = chosen.search
-    optimiser = MoeadDra(population=max(search.populations))
+    optimiser, iterations = MoeadDra(population=max(chosen.search.populations)), max(chosen.search.iterations)
     designs = {} if is_papers(chosen.problem) else {"its own struts": tuple(chosen.present.values())}
     parts = []
     for weighting in terminal.progress(WEIGHTINGS, len(WEIGHTINGS), "weightings"):
         problem = chosen.problem.replace(weighting=weighting)
         with terminal.compiling():
-            run = minimise(problem, optimiser, iterations=max(search.iterations), seed=search.seed)
+            run = minimise(problem, optimiser, iterations=iterations, seed=chosen.search.seed)
         parts.append(table5(problem, run, sws_limit, designs))
     folder = results.results_folder(out)
     studies.save_resolved(folder, chosen)
     write_csv(folder / "table5.csv", pd.concat(parts))
     for weighting, part in zip(WEIGHTINGS, parts, strict=True):
-        shown = part.drop(columns="weighting").dropna(axis="columns", how="all")
-        digits = {name: next((d for unit, d in DECIMALS.items() if unit in name), 4) for name in shown.columns[1:]}
-        terminal.show(f"Table 5, ACC weighted by {weighting}", shown, digits)
+        _show(weighting, part)
     terminal.end(folder)
+
+
+def _show(weighting: str, part: "pd.DataFrame") -> None:
+    """Print the table of one weighting."""
+    from . import terminal
+
+    shown = part.drop(columns="weighting").dropna(axis="columns", how="all")
+    digits = {name: next((d for unit, d in DECIMALS.items() if unit in name), 4) for name in shown.columns[1:]}
+    terminal.show(f"Table 5, ACC weighted by {weighting}", shown, digits)
