@@ -4,6 +4,7 @@
 """
 
 import inspect
+import json
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -154,8 +155,8 @@ mount.damper_N_s_per_m = 4e3
 ```
 """
 STUDIES = """A study is a problem with two further tables, `[present]` and `[search]`; `compare`, `optimum` and
-`bode` take it by `--study`. `[present]` holds the present design, coefficients as in `[struts]`; those that it leaves out are the
-vehicle's own. A problem without these tables is a study too.
+`bode` take it by `--study`. `[present]` holds the present design, coefficients as in `[struts]`; those that it
+leaves out are the vehicle's own. A problem without these tables is a study too.
 
 ```toml
 title = "My car on a country road"
@@ -261,7 +262,9 @@ def _shown(key: Key) -> str:
     if key.kinds:
         return f'`kind = "{next(kind for kind, record in key.kinds.items() if isinstance(default, record))}"`'
     if isinstance(default, tuple):
-        return f"[{', '.join(f'"{one}"' if isinstance(one, str) else f'{one:g}' for one in default)}]"
+        return f"[{', '.join(repr(one) if isinstance(one, str) else f'{one:g}' for one in default)}]".replace(
+            "'", '"'
+        )
     if isinstance(default, bool):
         return str(default).lower()
     return f'"{default}"' if isinstance(default, str) else repr(default)

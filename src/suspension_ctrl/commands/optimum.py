@@ -7,6 +7,8 @@ from . import options as o
 if TYPE_CHECKING:
     import pandas as pd
 
+    from ..desk.study_files import StudyFile
+
 WEIGHTINGS = ("Wk", "Wb", "Wb-table")
 DECIMALS = {"[m": 4, "[N]": 1, "[N": 0, "[%]": 2}
 
@@ -33,33 +35,39 @@ def optimum(
 
     from .. import checks
     from ..desk.study_files import SearchSettings
-    from ..paper.experiment import is_papers
-    from ..paper.optimum import table5
-    from ..search.driver import minimise
-    from ..search.moead_dra import MoeadDra
     from ..tables import write_csv
     from . import results, studies, terminal
 
     checks.positive("sws_limit", sws_limit, "m")
+    search = SearchSettings(algorithms=("moead-dra",), populations=(4000,), iterations=(25,))
     chosen = studies.chosen_study(
         study=study, vehicle=vehicle, road=road, speed=speed, band=band, allow_outside=allow_outside, seed=seed,
-        search=SearchSettings(algorithms=("moead-dra",), populations=(4000,), iterations=(25,)),
-        populations=population, iterations=iterations,
+        search=search, populations=population, iterations=iterations,
     )  # fmt: skip
-    optimiser, iterations = MoeadDra(population=max(chosen.search.populations)), max(chosen.search.iterations)
-    designs = {} if is_papers(chosen.problem) else {"its own struts": tuple(chosen.present.values())}
-    parts = []
-    for weighting in terminal.progress(WEIGHTINGS, len(WEIGHTINGS), "weightings"):
-        problem = chosen.problem.replace(weighting=weighting)
-        with terminal.compiling():
-            run = minimise(problem, optimiser, iterations=iterations, seed=chosen.search.seed)
-        parts.append(table5(problem, run, sws_limit, designs))
+    weightings = terminal.progress(WEIGHTINGS, len(WEIGHTINGS), "weightings")
+    parts = [_part(chosen, weighting, sws_limit) for weighting in weightings]
     folder = results.results_folder(out)
     studies.save_resolved(folder, chosen)
     write_csv(folder / "table5.csv", pd.concat(parts))
     for weighting, part in zip(WEIGHTINGS, parts, strict=True):
         _show(weighting, part)
     terminal.end(folder)
+
+
+def _part(study: "StudyFile", weighting: str, limit: float) -> "pd.DataFrame":
+    """Return Table 5 of a study with one weighting."""
+    from ..paper.experiment import is_papers
+    from ..paper.optimum import table5
+    from ..search.driver import minimise
+    from ..search.moead_dra import MoeadDra
+    from . import terminal
+
+    problem, search = study.problem.replace(weighting=weighting), study.search
+    optimiser = MoeadDra(population=max(search.populations))
+    with terminal.compiling():
+        run = minimise(problem, optimiser, iterations=max(search.iterations), seed=search.seed)
+    own = {} if is_papers(study.problem) else {"its own struts": tuple(study.present.values())}
+    return table5(problem, run, limit, own)
 
 
 def _show(weighting: str, part: "pd.DataFrame") -> None:

@@ -40,6 +40,12 @@ class SearchSettings(Record):
         Seed of the first run, zero or more; the next run has the next number.
     target : float
         Share of the reference hypervolume to reach, above 0 up to 1 [-].
+
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> sc.SearchSettings(populations=(200,), iterations=(50,), seed=7)
+    SearchSettings(populations=(200,), iterations=(50,), seed=7)
     """
 
     algorithms: tuple[str, ...] = ("nsga2", "moead-dra")
