@@ -262,9 +262,7 @@ def _shown(key: Key) -> str:
     if key.kinds:
         return f'`kind = "{next(kind for kind, record in key.kinds.items() if isinstance(default, record))}"`'
     if isinstance(default, tuple):
-        return f"[{', '.join(repr(one) if isinstance(one, str) else f'{one:g}' for one in default)}]".replace(
-            "'", '"'
-        )
+        return f"[{', '.join(json.dumps(one) if isinstance(one, str) else f'{one:g}' for one in default)}]"
     if isinstance(default, bool):
         return str(default).lower()
     return f'"{default}"' if isinstance(default, str) else repr(default)
