@@ -3,11 +3,11 @@ from .desk.choosing import knee as knee
 from .desk.choosing import pick as pick
 from .desk.designs import vehicle_file as vehicle_file
 from .desk.exporting import export as export
-from .desk.supplier import supplier_sheet as supplier_sheet
 from .desk.study_files import SearchSettings as SearchSettings
 from .desk.study_files import StudyFile as StudyFile
 from .desk.study_files import load_study as load_study
 from .desk.study_files import save_study as save_study
+from .desk.supplier import supplier_sheet as supplier_sheet
 from .response.certifying import certify as certify
 from .response.correlation import correlate as correlate
 from .response.correlation import correlation_figure as correlation_figure

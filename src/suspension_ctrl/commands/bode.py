@@ -1,8 +1,8 @@
 """Figures 6 and 7: Bode plots and spectra of responses to the road, of the paper's car or any other vehicle."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import options as o
 
@@ -43,14 +43,12 @@ def bode(
     from .. import checks
     from ..paper import figures
     from ..response import curves
-    from ..tables import write_csv, write_figure
+    from ..tables import write_figure
     from . import results, studies, terminal
 
     checks.at_least("points", points, 2)
-    chosen = studies.chosen_study(
-        study=study, vehicle=vehicle, road=road, speed=speed, band=band, weighting=weighting,
-        allow_outside=allow_outside,
-    )  # fmt: skip
+    given: dict[str, Any] = {"road": road, "speed": speed, "band": band, "weighting": weighting}
+    chosen = studies.chosen_study(study=study, vehicle=vehicle, allow_outside=allow_outside, **given)
     problem, labelled = chosen.problem, labelled_designs(chosen, design or [], designs)
     case, (low, high) = problem.cases[0], problem.band
     shown = response or shown_responses(case.vehicle.responses)
@@ -59,16 +57,15 @@ def bode(
     folder = results.results_folder(out)
     studies.save_resolved(folder, chosen)
     table, rms = design_table(problem, labelled), curves.rms_table(drawn)
-    write_csv(folder / "designs.csv", table.merge(rms, on="design"))
-    write_csv(folder / "natural_frequencies.csv", natural)
-    write_csv(folder / "curves.csv", pd.concat([curves.curve_table(one) for one in drawn]))
+    every = pd.concat([curves.curve_table(one) for one in drawn])
+    told = table.merge(rms, on="design")
+    results.write_tables(folder, {"designs": told, "natural_frequencies": natural, "curves": every})
     with terminal.waiting("drawing"):
         write_figure(folder / "figure6", figures.bode(drawn))
         write_figure(folder / "figure7", figures.spectra(drawn, str(problem.weighting)))
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
-    show_tables(
-        {"Designs": table, "Root mean squares": rms, "Natural frequencies": natural}, figures.spread(drawn)
-    )
+    shown_tables = {"Designs": table, "Root mean squares": rms, "Natural frequencies": natural}
+    show_tables(shown_tables, figures.spread(drawn))
     terminal.end(folder)
 
 
