@@ -54,8 +54,7 @@ def bode(
     shown = response or shown_responses(case.vehicle.responses)
     drawn = [curves.design_curves(problem, label, values, shown, points) for label, values in labelled.items()]
     natural = pd.concat([one.modes for one in drawn])
-    folder = results.results_folder(out)
-    studies.save_resolved(folder, chosen)
+    folder = studies.folder_with(chosen, out)
     table, rms = design_table(problem, labelled), curves.rms_table(drawn)
     every = pd.concat([curves.curve_table(one) for one in drawn])
     told = table.merge(rms, on="design")

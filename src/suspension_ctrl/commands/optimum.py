@@ -36,7 +36,7 @@ def optimum(
     from .. import checks
     from ..desk.study_files import SearchSettings
     from ..tables import write_csv
-    from . import results, studies, terminal
+    from . import studies, terminal
 
     checks.positive("sws_limit", sws_limit, "m")
     search = SearchSettings(algorithms=("moead-dra",), populations=(4000,), iterations=(25,))
@@ -46,8 +46,7 @@ def optimum(
     )  # fmt: skip
     weightings = terminal.progress(WEIGHTINGS, len(WEIGHTINGS), "weightings")
     parts = [_part(chosen, weighting, sws_limit) for weighting in weightings]
-    folder = results.results_folder(out)
-    studies.save_resolved(folder, chosen)
+    folder = studies.folder_with(chosen, out)
     write_csv(folder / "table5.csv", pd.concat(parts))
     for weighting, part in zip(WEIGHTINGS, parts, strict=True):
         _show(weighting, part)

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import options as o
+from . import results
 
 if TYPE_CHECKING:
     from ..desk.study_files import SearchSettings, StudyFile
@@ -91,6 +92,13 @@ def _with_vehicle(study: "StudyFile", vehicle: str, *options: Any) -> "StudyFile
     )
     present = present_design(file.vehicle, file.setting, file.bounds)
     return replace(study, problem=problem, name=file.name or Path(vehicle).stem, present=present)
+
+
+def folder_with(study: "StudyFile", out: Path | None) -> Path:
+    """Make and return a results folder with the study in it."""
+    folder = results.results_folder(out)
+    save_resolved(folder, study)
+    return folder
 
 
 def save_resolved(folder: Path, study: "StudyFile") -> None:
