@@ -106,12 +106,14 @@ def refined(
         while points <= most >= prod(axis.size for axis in coding.grid_axes(points)):
             objectives = grid_front(problem, points, end)
             if spans(objectives):
-                front = ReferenceFront.of(objectives)
-                change = nan if found is None else 1 - front.relative_hypervolume(found.objectives)
+                # without a sample for distances, which takes longer than the grid
+                front = ReferenceFront(objectives, objectives.min(axis=0), objectives.max(axis=0), 0.0)
+                volume = front.hypervolume(objectives)
+                change = nan if found is None else 1 - front.hypervolume(found.objectives) / volume
                 found = Refined(objectives, points, change)
                 if abs(change) <= tolerance:
                     second = grid_front(problem, round(points / np.sqrt(2)), end)
-                    found = found._replace(second=1 - front.relative_hypervolume(second))
+                    found = found._replace(second=1 - front.hypervolume(second) / volume)
                     if found.settles(tolerance):
                         break
             points *= 2
