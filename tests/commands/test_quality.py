@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from suspension_ctrl import Problem
-from suspension_ctrl.commands import comparing, quality
+from suspension_ctrl.commands import comparing, quality, terminal
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.indicators import ReferenceFront
 from suspension_ctrl.study import comparison, workers
@@ -70,21 +70,18 @@ def test_a_verdict_is_a_table_and_words(tmp_path, monkeypatch, capsys):
     """Printed with a column for each lens; the same in the files, with the numbers behind it."""
     reported(campaign(lambda x: False), tmp_path, monkeypatch)
     table = pd.read_csv(tmp_path / "verdict.csv")
-    assert set(zip(table.set, table.lens, strict=True)) == {
-        (one, f"equal {lens}")
-        for one in ("population", "archive of N")
-        for lens in ("iterations", "evaluations", "time")
-    }
-    assert set(table.ahead) <= {"nsga2", "sobol", "no difference"}
+    lenses = [f"equal {lens}" for lens in ("iterations", "evaluations", "time")]
+    assert list(table) == ["set", "population", "iterations", "other", *lenses]
+    assert table["set"].tolist() == ["population", "archive of N"]
+    assert set(table[lenses].to_numpy().ravel()) <= {"nsga2", "sobol", "no difference"}
     words = (tmp_path / "verdict.md").read_text()
     assert words.startswith("| set ")
     assert words.count("nsga2 against sobol. At equal iterations ") == 2
     assert r"\toprule" in (tmp_path / "verdict.tex").read_text()
-    quality.say_verdict(table)
+    quality.say_verdict(table, "nsga2")
+    terminal.say()
     rows = [line.split() for line in capsys.readouterr().out.splitlines() if line.startswith(("archive", "popul"))]
-    assert len(rows) == 2
-    wanted = table[table.set == "population"].set_index("lens").ahead
-    assert " ".join(rows[0]) == f"population 20 2 sobol {' '.join(wanted)}"
+    assert " ".join(rows[0]) == f"population 20 2 sobol {' '.join(table[lenses].iloc[0])}"
 
 
 def test_an_algorithm_without_any_run_is_left_out(tmp_path, monkeypatch):

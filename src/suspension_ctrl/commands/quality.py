@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from .comparing import Request
 
 PLAIN = {
-    *("value", "lens", "population", "iterations", "set", "algorithm", "first", "second", "ahead"),
+    *("value", "lens", "population", "iterations", "set", "algorithm", "first", "second"),
     *("effect", "members", "runs", "runs_first", "runs_second", "reached"),
 }
 SHORT = {
@@ -30,14 +30,16 @@ DECIMALS = {"evals": 0, "HV / ref.": 4, "IGD+": 5, "epsilon": 4, "spread": 3, "t
 
 def write(request: "Request", results: Findings, store: Mapping[str, StoredRun]) -> None:
     """Write tables, verdict and figures."""
-    write_csv(request.campaign.folder / "quality.csv", results.course.drop(columns="seconds"))
-    tables = {"equal": results.medians, "differences": results.differences, "to_reach": results.reached}
-    for name, table in tables.items():
-        write_table(request.campaign.folder / name, table.rename(columns=_header))
     folder = request.campaign.folder
+    write_csv(folder / "quality.csv", results.course.drop(columns="seconds"))
+    for name, table in {"equal": results.medians, "differences": results.differences}.items():
+        named = table.rename(columns=_header)
+        named.insert(0, "row", range(1, len(table) + 1))  # names a row in each block of columns
+        write_table(folder / name, named)
+    write_table(folder / "to_reach", results.reached.rename(columns=_header), keys=3)
     words = "\n\n".join(map(escaping.markdown, results.words))
     if len(results.verdict):
-        write_table(folder / "verdict", results.verdict.rename(columns=_header))
+        write_table(folder / "verdict", results.verdict, keys=4)
         words = (folder / "verdict.md").read_text(encoding="utf-8") + "\n" + words
     write_text(folder / "verdict.md", words + "\n")
     with stages.stage("figures of quality"):
@@ -76,19 +78,16 @@ def say(results: Findings, target: float) -> None:
     title = f"To {target:g} of the reference hypervolume, medians"
     terminal.show(title, results.reached.rename(columns=SHORT), DECIMALS, keys=3)
     if len(results.verdict):
-        say_verdict(results.verdict)
+        say_verdict(results.verdict, results.differences["first"].iloc[0])
     else:
         for paragraph in results.words:
             terminal.note(paragraph)
 
 
-def say_verdict(verdict: pd.DataFrame) -> None:
-    """Print who is ahead: a row per set, configuration and algorithm beside the first, a column per lens."""
-    first = verdict["first"].iloc[0]
-    rows = ["set", *CONFIGURATION, "second"]
-    table = verdict.pivot_table("ahead", rows, "lens", "first", sort=False).reset_index()
+def say_verdict(verdict: pd.DataFrame, first: str) -> None:
+    """Print which is ahead, the first algorithm or another."""
     title = f"Verdict: which has more hypervolume, {first} or the other"
-    terminal.show(title, table.rename(columns=SHORT | {"second": "other"}), keys=4)
+    terminal.show(title, verdict.rename(columns=SHORT), keys=4)
     terminal.note(
         f"Ahead: p < {inference.SIGNIFICANCE:g} by two-sided Mann-Whitney tests, adjusted by Holm for all tests, "
         "and an effect that is not negligible (A12). verdict.md says it in words."

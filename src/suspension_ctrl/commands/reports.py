@@ -42,9 +42,9 @@ def write_times(request: "Request", store: Store, timed: pd.DataFrame) -> None:
     write_csv(folder / "runs.csv", timed)
     if request.of_paper:
         for name, table in printed.timed_tables(timed, experiment.published_seconds()).items():
-            write_table(folder / name, table)
+            write_table(folder / name, table, KEYS)
     else:
-        write_table(folder / "times", timing.compared(timed).rename(columns=HEADERS))
+        write_table(folder / "times", timing.compared(timed).rename(columns=HEADERS), KEYS)
     (folder / "fronts").mkdir(exist_ok=True)
     for run in request.campaign.comparison.timed_runs():
         front = timing.front(request.problem, store[run.name])
@@ -88,7 +88,7 @@ def write_quality(request: "Request", judged: pd.DataFrame, reference: Reference
     """Write the timed runs with their quality, its table and the reference front."""
     folder = request.campaign.folder
     write_csv(folder / "runs.csv", judged)
-    write_table(folder / "hypervolume", timing.quality(judged).rename(columns=HEADERS))
+    write_table(folder / "hypervolume", timing.quality(judged).rename(columns=HEADERS), KEYS)
     problem = request.problem
     headers = column_headers(problem.objectives, problem.units)
     write_csv(folder / "reference.csv", pd.DataFrame(reference.front.objectives, columns=headers))

@@ -10,11 +10,6 @@ from .comparison import CONFIGURATION, Comparison
 from .study import CUT_ARCHIVE, INDICATORS, POPULATION
 
 SETS = {"final population": POPULATION, "archive cut to N": CUT_ARCHIVE}
-VERDICT = [
-    *("set", "lens", *CONFIGURATION, "first", "second", "ahead"),
-    *("median_first", "median_second", "p_holm", "a12", "effect"),
-]
-"""Columns of the table of the verdict."""
 
 
 class Findings(NamedTuple):
@@ -25,7 +20,7 @@ class Findings(NamedTuple):
     medians: pd.DataFrame  # a row per configuration, lens, set and algorithm
     differences: pd.DataFrame  # of every two algorithms, from `inference.pairwise`
     reached: pd.DataFrame  # evaluations and seconds to the target, from `lenses.to_reach`
-    verdict: pd.DataFrame  # rows of `inference.verdict`, each algorithm against the first; none of too few runs
+    verdict: pd.DataFrame  # the algorithm that is ahead, the first or each other, by lens; empty of too few runs
     words: list[str]  # the verdict on the first two algorithms, a paragraph per set; or why there is none
 
 
@@ -54,9 +49,16 @@ def _verdict(differences: pd.DataFrame, algorithms: Sequence[str]) -> tuple[pd.D
     if judged.ahead.eq(inference.TOO_FEW).all():
         return judged.iloc[:0], [_too_few(differences)]
     about = {words: judged[judged.set == chosen] for words, chosen in SETS.items()}
-    return judged[VERDICT], [
+    return _by_lens(judged), [
         inference.in_words(part, first, second, f"Hypervolume of the {words}") for words, part in about.items()
     ]
+
+
+def _by_lens(judged: pd.DataFrame) -> pd.DataFrame:
+    """Return a row per set, configuration and other algorithm, with a column per lens: who is ahead."""
+    rows = ["set", *CONFIGURATION, "second"]
+    table = judged.pivot_table("ahead", rows, "lens", "first", sort=False).reset_index()
+    return table.rename(columns={"second": "other"}).rename_axis(columns=None)
 
 
 def _too_few(differences: pd.DataFrame) -> str:
