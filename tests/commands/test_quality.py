@@ -1,5 +1,7 @@
 """What is reported of a campaign in which runs raise: the others, and which raised."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -43,7 +45,7 @@ def reported(one: Comparison, folder, monkeypatch) -> pd.DataFrame:
     front = ReferenceFront.of(grid_front(paper.ride_problem(), 40))
     table, store = campaign.judge(front)
     if found := findings(one, table, clock(), 0.9):
-        quality.write(comparing.Request(campaign, one.problem, {}), found, store)
+        quality.write(comparing.Request(campaign, SimpleNamespace(problem=one.problem), {}), found, store)
     return table
 
 
