@@ -10,9 +10,11 @@ from suspension_ctrl.tables.rounding import rounded
 @pytest.mark.parametrize(
     ("cells", "texts"),
     [
-        ([0.12345, 1.5], ["0.123", "1.500"]),
+        ([0.12345, 1.5], ["0.1235", "1.5"]),
+        ([0.62345, 1.5], ["0.623", "1.500"]),
+        ([2.9999, 155.0], ["3.000", "155"]),
         ([12389.2, 22000.0], ["12389", "22000"]),
-        ([22000.0, 1.5, 0.02870], ["22000", "1.5", "0.0287"]),
+        ([22000.0, 1.5, 0.0287], ["22000", "1.5", "0.0287"]),
         ([1.0, 2.0], ["1", "2"]),
         ([float("nan"), 2.25, None, "x", 3], ["", "2.25", "", "x", "3"]),
         ([1e-12, 0.5], ["1.000e-12", "0.5"]),
@@ -36,4 +38,4 @@ def test_a_rounded_number_is_the_number(cells):
     """Within half a unit of its last significant digit, of the largest in a column of like sizes."""
     largest = max(map(abs, cells))
     for cell, text in zip(cells, rounded(cells), strict=True):
-        assert abs(float(text) - cell) <= 5.01e-4 * max(abs(cell), min(largest, 100 * abs(cell)))
+        assert abs(float(text) - cell) <= 5.01e-4 * max(abs(cell), min(largest, 10 * abs(cell)))

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from ..response.problem import RideProblem
 
 SHOWN = ("suspension_travel", "body_acceleration", "tyre_load")  # of the first wheel, in the paper's order
+NATURAL = "Natural frequencies"
 WRITTEN = 2  # variables whose values stand in the label of a design
 
 
@@ -76,8 +77,28 @@ def show_tables(tables: "Mapping[str, pd.DataFrame]", shown: "Sequence[DesignCur
     if (count := tables["Designs"].design.nunique()) > len(labels):
         terminal.note(f"Figures and tables show {len(labels)} of {count} designs, the files have all.")
     for title, table in tables.items():
-        keys = 2 if "mode" in table else 1
-        terminal.show(title, table[table.design.isin(labels)], keys=keys, readable=True)
+        rows = table[table.design.isin(labels)].replace({"design": short(labels)})
+        if title == NATURAL:
+            terminal.show(title, rows, keys=2)
+        else:
+            terminal.show(title, beside_one_another(rows), keys=2, readable=True)
+
+
+def short(labels: Sequence[str]) -> dict[str, str]:
+    """Return labels without the values behind their names, unless names alone are not distinct."""
+    names = {label: label.partition(": ")[0] for label in labels}
+    return names if len(set(names.values())) == len(labels) else {}
+
+
+def beside_one_another(designs: "pd.DataFrame") -> "pd.DataFrame":
+    """Return a table with a row for each design as one with a column for each: name, unit, designs."""
+    from ..tables.headers import name_and_unit
+
+    turned = designs.set_index("design").T.reset_index(names="name").rename_axis(columns=None)
+    names = [name_and_unit(header) for header in turned["name"]]
+    turned["name"] = [name for name, _ in names]
+    turned.insert(1, "unit", [unit for _, unit in names])
+    return turned
 
 
 def shown_responses(responses: Sequence[str]) -> list[str]:

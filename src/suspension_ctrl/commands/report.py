@@ -74,16 +74,20 @@ class Report:
     form: Form = Form.TEXT
     items: list[str | Table] = field(default_factory=list)
     folder: Path | None = None
+    begun: bool = False  # whether a line is printed
+    apart: bool = False  # whether an empty line must follow: after a table
 
     def text(self, room: int, *, plain: bool) -> Iterator[tuple[str, bool]]:
         """Yield the lines of the report and whether each is a title; `plain` lines have no signs beyond ASCII."""
         for item in self.items:
+            is_table = isinstance(item, Table)
+            if self.apart or (is_table and self.begun):
+                yield "", False
             title, lines = (item.title, item.lines(room, plain=plain)) if isinstance(item, Table) else (item, [])
             for line in textwrap.wrap(_shown(title, plain=plain), room) or [""]:
-                yield line, isinstance(item, Table)
+                yield line, is_table
             yield from ((line, False) for line in lines)
-            if isinstance(item, Table):
-                yield "", False
+            self.begun, self.apart = True, is_table
 
     def document(self) -> str:
         """Return the report as JSON."""

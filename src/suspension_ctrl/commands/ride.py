@@ -94,8 +94,9 @@ def show_certificate(certificate: "Certificate | None", folder: Path) -> None:
     write_csv(folder / "certificate.csv", table)
     terminal.note(certificate.title)
     terminal.note("An asterisk marks a linearised value outside the 95 % interval of the simulated mean.")
-    table["outside"] = table["outside"].map({True: "*", False: ""})
-    terminal.show("Certificate", table.drop(columns=["case", "note"]), readable=True)
+    marked = table.assign(outside=table["outside"].map({True: "*", False: ""}))
+    shown = ["measure", "unit", "linearised", "simulated", "low", "high", "outside", "equivalent"]
+    terminal.show("Certificate", marked[shown], readable=True)
     for line in certificate.limits:
         terminal.note(line)
     for name, text in dict(zip(table["measure"], table["note"], strict=True)).items():

@@ -194,4 +194,4 @@ def say(*, ended: bool = False) -> None:
     elif report.form is Form.JSON and ended:
         console.out(report.document(), highlight=False)
     if ended and report.folder is not None and report.form is not Form.JSON:
-        console.out(str(report.folder), highlight=False)
+        console.out("\n" * report.apart + str(report.folder), highlight=False)

@@ -17,6 +17,7 @@ from ..response.responses import phase_degrees
 from ..response.weightings import BANDS, by_name
 from ..study.figures import COLOURS
 from ..tables.headers import shown_unit
+from ..tables.rounding import rounded
 
 _ACROSS = 4  # panels in a row
 _TITLES = {
@@ -41,14 +42,19 @@ def weighting_factors(ax: Axes, filters: Sequence[str], tables: Sequence[str]) -
 
 def bode(designs: Sequence[DesignCurves]) -> Figure:
     """Draw Figure 6: magnitude and phase of the responses to the road, a line per design."""
-    figure, panels = _panels(designs, 2)
+    figure, panels = _panels(designs, 2, width=3.5)
     for (magnitude, phase), response in zip(panels, designs[0].responses, strict=True):
         unit, scale = _magnitude(signal_unit(response))
         for colour, design in zip(COLOURS, spread(designs), strict=False):
             h = design.responses[response] * scale
             _marked_line(magnitude, design, np.abs(h), colour)
             _marked_line(phase, design, phase_degrees(h), colour)
-        magnitude.set(yscale="log", ylabel=f"magnitude [{unit}]")
+        magnitude.set(ylabel=f"magnitude [{unit}]")
+        if any(design.responses[response].any() for design in designs):
+            magnitude.set(yscale="log")
+        else:
+            words = "none to a road\nidentical on all tracks"
+            magnitude.text(0.5, 0.7, words, transform=magnitude.transAxes, ha="center", va="center")
         phase.set(ylabel="phase [deg]")
     return _finished(figure, panels, designs)
 
@@ -58,7 +64,7 @@ def spectra(designs: Sequence[DesignCurves], weighting: str) -> Figure:
 
     Weighted accelerations are dashed.
     """
-    figure, panels = _panels(designs, 1)
+    figure, panels = _panels(designs, 1, width=4.3)
     for (ax,), response in zip(panels, designs[0].responses, strict=True):
         unit, scale = _shown(signal_unit(response))
         weighted = weighted_name(response)
@@ -83,11 +89,12 @@ def _write_root_mean_squares(
 ) -> None:
     """Write the root mean square of each design in its colour, of a weighted acceleration behind it."""
     names = [name for name in (response, weighted_name(response)) if name in designs[0].rms]
-    texts = [" / ".join(f"{scale * design.rms[name]:.4g}" for name in names) for design in designs]
+    columns = [rounded([scale * design.rms[name] for design in designs]) for name in names]
+    texts = [" / ".join(text or "-" for text in row) for row in zip(*columns, strict=True)]
     handles = [Line2D([], [], color=colour) for colour, _ in zip(COLOURS, designs, strict=False)]
-    title = f"r.m.s.{' / weighted' * (len(names) > 1)} [{unit}]"
-    style: dict[str, Any] = {"fontsize": 7, "title_fontsize": 7, "handlelength": 1.0, "framealpha": 0.7}
-    ax.legend(handles, [text.replace("nan", "-") for text in texts], title=title, loc="lower left", **style)
+    title = f"r.m.s.{' / weighted' * (len(names) > 1)}\n[{unit}]"
+    style: dict[str, Any] = {"fontsize": 8, "title_fontsize": 8, "handlelength": 1.0, "frameon": False}
+    ax.legend(handles, texts, title=title, loc="center left", bbox_to_anchor=(1.0, 0.5), **style)
 
 
 def _magnitude(unit: str) -> tuple[str, float]:
@@ -108,12 +115,12 @@ def _title(response: str) -> str:
     return _TITLES.get(response, escaping.figure(response.replace("_", " ")))
 
 
-def _panels(designs: Sequence[DesignCurves], rows: int) -> tuple[Figure, NDArray[Any]]:
-    """Return a figure with a panel of `rows` Axes for each response, and the Axes (responses, rows)."""
+def _panels(designs: Sequence[DesignCurves], rows: int, width: float) -> tuple[Figure, NDArray[Any]]:
+    """Return a figure with a panel of `rows` Axes and some `width` for each response, and the Axes (m, rows)."""
     count = len(designs[0].responses)
     columns = min(_ACROSS, count)
     down = -(-count // columns)
-    size = (0.5 + 3.5 * columns, 0.8 + down * (0.6 + 2.6 * rows))
+    size = (0.5 + width * columns, 0.8 + down * (0.6 + 2.6 * rows))
     figure = Figure(figsize=size, layout="constrained")
     axes = figure.subplots(down * rows, columns, sharex=True, squeeze=False)
     panels = axes.reshape(down, rows, columns).swapaxes(1, 2).reshape(-1, rows)

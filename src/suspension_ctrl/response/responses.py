@@ -25,6 +25,7 @@ from .weightings import Weighting, checked
 if TYPE_CHECKING:
     import pandas as pd
 
+_ROUNDING = 1e-11  # of a sum over wheels, relative
 _LOWEST = np.array([1e-3, 2e-3])  # Hz, between which a spectrum shows its power of frequency towards 0 Hz
 
 
@@ -154,9 +155,14 @@ def _note(one: CaseMeasure, diverging: set[ResponseName], off: Mapping[Term, flo
 
 
 def frequency_responses(closed: control.LTI, f: Real, delays: Sequence[float] = (0.0,)) -> dict[str, Complex]:
-    """Return H(w) (n,) by response [unit/m] to a road identical on all tracks, with r delays of the wheels [s]."""
+    """Return H(w) (n,) by response [unit/m] to a road identical on all tracks, with r delays of the wheels [s].
+
+    Sums below rounding are zero: the roll of a symmetric vehicle.
+    """
     late = np.exp(-2j * np.pi * f[:, None] * np.asarray(delays))
-    h = (paths(closed, f) * late[:, None, :]).sum(axis=2)
+    each = paths(closed, f) * late[:, None, :]
+    h = each.sum(axis=2)
+    h[abs(h) < _ROUNDING * abs(each).sum(axis=2)] = 0.0
     return dict(zip(closed.output_labels, h.T, strict=True))
 
 
