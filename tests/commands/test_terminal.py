@@ -48,11 +48,11 @@ def test_nothing_is_printed_before_it_is_said(printed, tmp_path):
     assert raw.getvalue() == b""
     terminal.say()
     first = raw.getvalue().decode()
-    assert first.startswith("A note.\nTitle\n")
+    assert first.startswith("A note.\n\nTitle\n")
     assert str(tmp_path) not in first
     terminal.note("Another.")
     terminal.say(ended=True)
-    assert raw.getvalue().decode() == f"{first}Another.\n{tmp_path}\n"
+    assert raw.getvalue().decode() == f"{first}\nAnother.\n{tmp_path}\n"
 
 
 def test_a_quiet_command_prints_its_folder_alone(printed, tmp_path):

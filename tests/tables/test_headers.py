@@ -61,9 +61,10 @@ def test_travel_and_forces_are_read_in_mm_and_kn():
 
 def test_numbers_beside_a_column_of_units_are_scaled_by_it():
     table = pd.DataFrame(
-        {"name": ["x", "y"], "low": [0.5, 0.5], "n": [3, 4], "unit": ["m", ""], "share [%]": [1.0, 2.0]}
+        {"name": ["x", "y"], "Volvo (m)": 1.0, "low": 0.5, "n": [3, 4], "unit": ["m", ""], "share [%]": 1.0}
     )
     assert readable(table).to_dict("list") == {
-        "name": ["x", "y"], "low": [500.0, 0.5], "n": [3, 4], "unit": ["mm", ""], "share [%]": [1.0, 2.0],
+        "name": ["x", "y"], "Volvo (m)": [1e3, 1.0], "low": [500.0, 0.5], "n": [3, 4], "unit": ["mm", ""],
+        "share [%]": [1.0, 1.0],
     }  # fmt: skip
     assert table["low"].tolist() == [0.5, 0.5]

@@ -64,8 +64,7 @@ def bode(
         write_figure(folder / "figure6", figures.bode(drawn))
         write_figure(folder / "figure7", figures.spectra(drawn, str(problem.weighting)))
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
-    shown_tables = {"Designs": table, "Root mean squares": rms, "Natural frequencies": natural}
-    show_tables(shown_tables, figures.spread(drawn))
+    show_tables({"Designs": table, "Root mean squares": rms, NATURAL: natural}, figures.spread(drawn))
     terminal.end(folder)
 
 
@@ -92,10 +91,10 @@ def short(labels: Sequence[str]) -> dict[str, str]:
 
 def beside_one_another(designs: "pd.DataFrame") -> "pd.DataFrame":
     """Return a table with a row for each design as one with a column for each: name, unit, designs."""
-    from ..tables.headers import name_and_unit
+    from ..tables.headers import own_name_and_unit
 
     turned = designs.set_index("design").T.reset_index(names="name").rename_axis(columns=None)
-    names = [name_and_unit(header) for header in turned["name"]]
+    names = [own_name_and_unit(header) for header in turned["name"]]
     turned["name"] = [name for name, _ in names]
     turned.insert(1, "unit", [unit for _, unit in names])
     return turned

@@ -53,9 +53,9 @@ class Table(NamedTuple):
 
     def record(self) -> dict[str, Any]:
         """Return the table for JSON: title, units by column, and a record for each row."""
-        from ..tables.headers import name_and_unit
+        from ..tables.headers import own_name_and_unit
 
-        names = [name_and_unit(str(header)) for header in self.frame]
+        names = [own_name_and_unit(str(header)) for header in self.frame]
         keys = [name for name, _ in names]
         if len(set(keys)) < len(keys):  # as in "ACC [m/s^2]" beside "ACC [%]"
             keys = [str(header) for header in self.frame]

@@ -24,6 +24,11 @@ def name_and_unit(header: str) -> tuple[str, str]:
     return text, ""
 
 
+def own_name_and_unit(header: str) -> tuple[str, str]:
+    """Return name and unit of a header with its unit in square brackets: no unit in ``Volvo (2015)``."""
+    return name_and_unit(header) if header.endswith("]") else (header, "")
+
+
 def shown_unit(unit: str) -> tuple[str, float]:
     """Return the unit in which an engineer reads a quantity, and the factor to it: mm, kN, kN/m."""
     return _SHOWN.get(unit, (unit, 1.0))
@@ -37,7 +42,7 @@ def shown_value(value: float, unit: str, digits: int = 4) -> str:
 
 def shown_header(header: str) -> tuple[str, float]:
     """Return a header in the unit in which an engineer reads its column, and the factor to it."""
-    name, unit = name_and_unit(header)
+    name, unit = own_name_and_unit(header)
     shown, factor = shown_unit(unit)
     return (f"{name} [{shown}]", factor) if factor != 1 else (header, 1.0)
 
@@ -50,7 +55,7 @@ def readable(table: "pd.DataFrame") -> "pd.DataFrame":
     columns = {}
     for header, column in table.items():
         shown, factor = shown_header(str(header))
-        of_rows = rows and not name_and_unit(shown)[1]
+        of_rows = rows and not own_name_and_unit(shown)[1]
         if column.dtype.kind == "f":
             columns[shown] = column * ([one for _, one in rows] if of_rows else factor)
         else:
