@@ -94,6 +94,12 @@ def test_the_figure_has_spectra_and_ratios(measured):
     lines = figure.axes[0].get_lines()
     np.testing.assert_array_equal(lines[1].get_ydata(), found.spectra["body_acceleration measured [(m/s^2)^2/Hz]"])
     np.testing.assert_array_equal(figure.axes[3].get_lines()[0].get_ydata(), found.table["ratio [dB]"][:11])
+    bands = found.table[:11]  # of the first response, without that of all together
+    ends = 20 * np.log10(bands[["low", "high"]].to_numpy() / bands[["measured"]].to_numpy())
+    grey = figure.axes[3].collections[0].get_paths()[0].vertices[:, 1]
+    assert (grey.min(), grey.max()) == pytest.approx((ends.min(), ends.max()), rel=1e-12)
+    f = found.spectra["frequency [Hz]"]
+    assert 10**-0.05 <= f.min() < f.max() <= 10**1.05
     assert repr(found) == "Correlation(table=36 rows, spectra=" + repr(found).partition("spectra=")[2]
 
 

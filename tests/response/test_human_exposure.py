@@ -58,19 +58,27 @@ def test_daily_exposure_is_that_of_each_axis(person):
         assert (vdv["action"], vdv["limit"], vdv["unit"]) == (9.1, 21.0, "m/s^1.75")
 
 
-def test_after_the_printed_hours_the_exposure_has_its_values():
+@pytest.mark.parametrize("axis", ["x", "z"])
+def test_after_the_printed_hours_the_exposure_has_its_values(axis):
     """Exposed so long, A(8) and VDV are the action value, the limit value; nothing stands beyond a day."""
-    one = exposure_by_axis({"z": sine(1.2)}, STEP)
+    one = exposure_by_axis({axis: sine(1.2)}, STEP)
     for measure, row in one.daily().set_index("measure").iterrows():
         for name in ("action", "limit"):
             hours = row[f"{name} after [h]"]
             if hours == hours:
-                again = (
-                    exposure_by_axis({"z": sine(1.2)}, STEP, duration=hours * HOUR).daily().set_index("measure")
-                )
+                longer = exposure_by_axis({axis: sine(1.2)}, STEP, duration=hours * HOUR)
+                again = longer.daily().set_index("measure")
                 assert again["value"][measure] == pytest.approx(row[name], rel=1e-9)
     weak = exposure_by_axis({"z": sine(0.3)}, STEP).daily()
     assert weak[["action after [h]", "limit after [h]"]].isna().all(axis=None)
+
+
+def test_an_exposure_of_0_4_reaches_the_action_value_after_12_5_hours():
+    """8 h (0.5/0.4)^2; the limit of 1.15 m/s^2 not within a day."""
+    unit = exposure_by_axis({"z": sine(1.0)}, STEP).total_values["seat"]
+    row = exposure_by_axis({"z": sine(0.4 / unit)}, STEP).daily().set_index("measure").loc["A(8)"]
+    assert row["action after [h]"] == pytest.approx(12.5, rel=1e-9)
+    assert np.isnan(row["limit after [h]"])
 
 
 @pytest.mark.parametrize(("total", "seconds", "a8"), [(7.4, 2.5 * HOUR, 4.1), (14.6, 4000.0, 5.4)])
