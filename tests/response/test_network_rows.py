@@ -36,7 +36,7 @@ def rows_of(strut):
     car = sc.QuarterCar(
         body_mass=300.0, wheel_mass=30.0, tyre_stiffness=2e5, strut=sc.parallel(sc.Spring("k", 2e4), strut)
     )
-    networks = networks_of(car, car.coefficients({}), [], F, True)
+    networks = networks_of(car, car.coefficients({}), [], F, np.eye(1) > 0)
     state, _ = nominal_state(networks)
     direct, rows = np.empty((networks.row.size, DIRECT)), np.zeros((1 + networks.row.max(), 2, F.size))
     fill_direct(networks, networks.setting, state, direct)

@@ -52,7 +52,8 @@ class LinearisedVehicle(Record, AssembledVehicle):
         by default.
     laws : mapping of str to LinearisedLaw
         By law its ``deviation`` and ``mean`` [m or m/s], its mean slope ``equivalent`` [N/m or N s/m] and mean
-        ``force`` [N].
+        ``force`` [N]. Where left and right are alike, one law stands for both, by the name of the axle or of the
+        left strut.
     mean_travel : mapping of str to float
         Mean deflection of each strut [m], the change of ride height; NaN of dampers in series that are not odd:
         the end between them drifts.
@@ -133,7 +134,7 @@ def linearised(
     squares = case_of(case, [Term(car.responses[0])], values, list(values), band, _NODES)
     if isinstance(squares, AnyCase):
         points = working_points(squares, np.array([list(values.values())]))
-        return at_working_point(car, values, points, 0, stands_for_both(squares))
+        return at_working_point(car, values, points, 0, squares)
     still = dict.fromkeys(car.struts, 0.0)
     return LinearisedVehicle(
         vehicle=car, settled=_settled(car.assembly, values, []), laws={}, mean_travel=still, iterations=0
@@ -174,13 +175,15 @@ def check_reached(reached: Bool, designs: Real) -> None:
 
 
 def at_working_point(
-    car: AssembledVehicle, values: Mapping[str, float], points: Points, design: int, alike: bool
+    car: AssembledVehicle, values: Mapping[str, float], points: Points, design: int, case: AnyCase
 ) -> LinearisedVehicle:
-    """Return the vehicle at one of its working points; laws of left and right have one point if `alike`."""
+    """Return the vehicle at one of its working points; laws of left and right may have one point in the case."""
     state, networks, names = points.state[design], list[tuple[Network, str]](), list[str]()
-    for network in (one for whole in car.networks for one in apart(whole, alike)):
-        port = car.struts[network.share.index(1.0)]
-        networks.append((network, network.prefix if alike or not port else f"{port}."))
+    ports = case.networks.ports[:, : len(car.struts)]
+    placed = [one for whole in car.networks for one in apart(whole, ports.T @ ports)]
+    for network in placed:
+        port = "" if len(placed) == len(car.networks) else car.struts[network.share.index(1.0)]
+        networks.append((network, f"{port}." if port else network.prefix))
         names += [networks[-1][1] + one.name for one in network.strut.elements if isinstance(one, ForceLaw)]
     slopes = iter(state[:, SLOPE].tolist())
     linear = [(network._replace(strut=_linear(network.strut, slopes)), prefix) for network, prefix in networks]
@@ -198,14 +201,9 @@ def linear_vehicles(
     vehicle: Vehicle, names: Sequence[str], case: AnyCase, designs: Real, coefficients: Real
 ) -> Iterator[LinearisedVehicle]:
     """Yield the vehicle at the working point of each of designs (p, v) with coefficients (p, c) of these names."""
-    car, points, alike = assembled(vehicle), working_points(case, designs), stands_for_both(case)
+    car, points = assembled(vehicle), working_points(case, designs)
     for p, row in enumerate(coefficients.tolist()):
-        yield at_working_point(car, dict(zip(names, row, strict=True)), points, p, alike)
-
-
-def stands_for_both(case: AnyCase) -> bool:
-    """Whether a network stands for several ports, as left and right are alike."""
-    return bool(case.networks.ports.sum(axis=1).max(initial=1) > 1)
+        yield at_working_point(car, dict(zip(names, row, strict=True)), points, p, case)
 
 
 def _linear(strut: Strut, slopes: Iterator[float]) -> Strut:

@@ -90,7 +90,7 @@ def case_of(
         return OneStrut.around(Ports.of(vehicle, f, responses), omega, densities * load_case.psd(f))
     if kind is OnePort:
         ports, excitation = Ports.of(vehicle, f, responses), w * load_case.psd(f)
-        networks = networks_of(vehicle, setting, variables, f, True)
+        networks = networks_of(vehicle, setting, variables, f, np.eye(1, dtype=bool))
         return OnePort.around(networks, ports, f, excitation, densities * load_case.psd(f))
     apart = pairs(vehicle.struts, vehicle.contact_points)
     if kind is AnyStruts:

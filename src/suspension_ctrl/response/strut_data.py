@@ -37,12 +37,12 @@ def any_struts(
 ) -> AnyStruts:
     """Return mean squares of responses (m,) at `f` (n,) [Hz] with quadrature weights (n,) and densities (m, n)."""
     vehicle, omega, roads = load_case.vehicle, 2 * np.pi * f, load_case.cross_spectrum(f)
-    networks = networks_of(vehicle, setting, variables, f, True)
+    networks = networks_of(vehicle, setting, variables, f, pairs[0] != 0)
     gains, nominal = _nominal(networks, omega)
     ports = Ports.of(vehicle, f, responses, setting, gains)
-    if not (_paired(vehicle.networks, pairs[0]) and _alike(ports, roads, pairs)):
+    if not (_paired(vehicle.networks, pairs[0] != 0) and _alike(ports, roads, pairs)):
         pairs = np.eye(len(pairs[0])), np.eye(len(pairs[1]))
-        networks = networks_of(vehicle, setting, variables, f, False)
+        networks = networks_of(vehicle, setting, variables, f, pairs[0] != 0)
         gains, nominal = _nominal(networks, omega)
     varied = Variables.of(vehicle.strut_coefficients, {name: setting[name] for name in variables})
     placed = np.array([np.diag(row) for row in networks.ports]).reshape(-1, *gains.shape[1:])
@@ -66,10 +66,10 @@ def _nominal(networks: Networks, omega: Real) -> tuple[Real, Real]:
     return gains, nominal
 
 
-def _paired(networks: Sequence[Network], struts: Real) -> bool:
-    """Whether the ports of each network are left and right of each other."""
-    shares = [np.flatnonzero(network.share) for network in networks]
-    return all(struts[np.ix_(share, share)].all() for share in shares)
+def _paired(networks: Sequence[Network], partners: Bool) -> bool:
+    """Whether each network has with a port also the opposite one, by partners (q, q)."""
+    shares = [np.array(network.share) > 0 for network in networks]
+    return not any(partners[share][:, ~share].any() for share in shares)
 
 
 def _alike(ports: Ports, roads: Complex, pairs: Pairs) -> bool:
@@ -85,11 +85,11 @@ def _alike(ports: Ports, roads: Complex, pairs: Pairs) -> bool:
 
 
 def networks_of(
-    vehicle: Vehicle, setting: Mapping[str, float], variables: Sequence[str], f: Real, alike: bool
+    vehicle: Vehicle, setting: Mapping[str, float], variables: Sequence[str], f: Real, partners: Bool
 ) -> Networks:
-    """Return the networks at `f` (n,) [Hz] around a setting; one for both of left and right if `alike`."""
+    """Return the networks at `f` (n,) [Hz] around a setting; one for ports that are partners (q, q)."""
     names, q = list(setting), len(vehicle.struts)
-    placed = [one for network in vehicle.networks for one in apart(network, alike)]
+    placed = [one for network in vehicle.networks for one in apart(network, partners)]
     program = Program.of(placed, names)
     by_name = {one.name: one for one in vehicle.strut_coefficients}
     shares = np.array([one.share for one in placed]).reshape(len(placed), q) > 0
@@ -163,11 +163,10 @@ def _sag(vehicle: Vehicle, stiffness: Real) -> Real:
     return np.asarray(p @ np.linalg.solve(tyre + p.T @ stiffness @ p, -GRAVITY * load))
 
 
-def apart(network: Network, alike: bool) -> list[Network]:
-    """Return a network for each of its ports, or itself."""
-    if alike:
-        return [network]
-    return [network._replace(share=tuple(row)) for row in np.diag(network.share).tolist() if any(row)]
+def apart(network: Network, partners: Bool) -> list[Network]:
+    """Return a network for each group of its ports that are partners (q, q), of each axle for left and right."""
+    groups = (partners * np.array(network.share))[np.flatnonzero(network.share)]
+    return [network._replace(share=share) for share in dict.fromkeys(map(tuple, groups.tolist()))]
 
 
 def _measured(networks: Sequence[Network], f: Real) -> Real:
