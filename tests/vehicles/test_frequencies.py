@@ -9,7 +9,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garage import DRIVER, FULL, HALF, QUARTER, ROAD
-from suspension_ctrl import BilinearDamper, Damper, Payload, RideProblem, Spring, parallel, series
+from suspension_ctrl import (
+    BilinearDamper,
+    Damper,
+    Friction,
+    Payload,
+    RideProblem,
+    RigidBodies,
+    Spring,
+    load_vehicle,
+    parallel,
+    series,
+)
+from suspension_ctrl.vehicles.body_parts import RigidBody, Suspension, Wheel
 from suspension_ctrl.vehicles.frequencies import corners_of, derived_of
 
 ride_frequencies, ratios, hops = st.floats(0.6, 1.5), st.floats(0.05, 1.5), st.floats(10.5, 15.0)
@@ -65,16 +77,51 @@ def test_corners_of_a_full_car_carry_the_mean_of_left_and_right():
         (parallel(Spring(), BilinearDamper(bump=1e3, rebound=2e3)), ["ride_frequency", "wheel_hop_frequency"]),
         (parallel(Spring(), series(Damper(), Spring("mount"))), []),
         (parallel(Spring(), Spring("helper"), Damper()), []),
+        (parallel(Spring(), Damper(), Friction(force=50.0)), ["ride_frequency", "wheel_hop_frequency"]),
+        (parallel(Spring("ride_frequency"), Damper()), ["wheel_hop_frequency", "damping_ratio"]),
     ],
 )  # fmt: skip
 def test_only_one_spring_has_a_frequency_and_one_damper_a_ratio(strut, names):
     car = replace(QUARTER, strut=strut)
     assert list(derived_of(car.assembly)) == names
-    if "damping_ratio" in names:  # at the wheel by the square of the ratio
+    if len(names) == 3:  # at the wheel by the square of the ratio
         values = car.coefficients({"ride_frequency": 1.2, "damping_ratio": 0.3})
         plain = QUARTER.coefficients({"ride_frequency": 1.2, "damping_ratio": 0.3})
         assert values["spring"] * 0.7**2 == pytest.approx(plain["spring"], rel=1e-12)
         assert values["damper"] * 0.7**2 == pytest.approx(plain["damper"], rel=1e-12)
+
+
+def test_the_tyre_of_a_hop_frequency_gets_what_the_spring_leaves_at_the_wheel():
+    """M_w (2 pi f)^2 less the spring times the square of its installation ratio."""
+    car = replace(QUARTER, strut=parallel(Spring(), Damper(), installation_ratio=0.7))
+    changed, _ = car.at({"wheel_hop_frequency": 11.0, "spring": 2e4, "damper": 1500.0})
+    expected = car.wheel_mass * (2 * pi * 11.0) ** 2 - 0.7**2 * 2e4
+    assert changed.variables["tyre_stiffness"].default == pytest.approx(expected, rel=1e-12)
+
+
+def test_payload_stands_on_its_corners():
+    a, b = HALF.cg_to_front, HALF.cg_to_rear
+    laden = corners_of(Payload(mass=100.0, position=(0.3, 0.0)).on(HALF).assembly)
+    empty = corners_of(HALF.assembly)
+    assert laden["front"].mass - empty["front"].mass == pytest.approx(100.0 * (b + 0.3) / (a + b), rel=1e-9)
+
+
+def test_three_axles_and_shared_springs_and_solid_axles_have_no_such_frequencies():
+    """Loads on three axles depend on the springs; a spring of two axles has two frequencies; an axle rolls."""
+    wheels = {"a": 1.5, "b": -1.0, "c": -2.0}
+
+    def lorry(names, **shared):
+        return RigidBodies(
+            bodies=[RigidBody(mass=6e3, pitch_inertia=9e3)],
+            wheels=[Wheel(name=n, position=(wheels[n], 0.0), mass=300.0, tyre_stiffness=1e6) for n in names],
+            suspensions=[Suspension(name=n, **shared) for n in names],
+        )
+
+    assert derived_of(lorry("abc").assembly) == {}
+    assert "a.ride_frequency" in derived_of(lorry("ab").assembly)
+    assert derived_of(lorry("ab", coefficients="both").assembly) == {}
+    axle = derived_of(load_vehicle("trucksim_cab_over").vehicle.assembly)
+    assert not any(name.endswith("wheel_hop_frequency") for name in axle)
 
 
 def test_searches_vary_frequencies_and_masses_together():
