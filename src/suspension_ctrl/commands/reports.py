@@ -55,7 +55,8 @@ def write_times(request: "Request", store: Store, timed: pd.DataFrame) -> None:
 
 def say_times(request: "Request", store: Store, timed: pd.DataFrame) -> None:
     """Print the problem and the tables of the times."""
-    comparison = request.campaign.comparison
+    comparison, (low, high) = request.campaign.comparison, request.problem.band
+    terminal.note(f"Study: {request.study.name}; {low:g} to {high:g} Hz.")
     for line in request.problem.describe():
         terminal.note(line)
     meaning = f"the ratio is the time of {comparison.algorithms[0]} over that of the row"
