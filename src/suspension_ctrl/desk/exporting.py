@@ -18,7 +18,9 @@ from ..vehicles.system_files import save_system
 from .candidate_table import Present
 from .design_documents import can_be_written, design_document
 from .designs import closed_at, present_of, setting_at, values_of, vehicle_file
-from .supplier import supplier_sheet
+from .pages import PAGE
+from .sheet_tables import checked_tolerances
+from .supplier import draw_sheet
 
 _LONGEST = 40  # letters of the name of a file
 
@@ -74,9 +76,12 @@ def export(
     >>> [file.name for file in files]
     ['optimum.toml', 'optimum.mat', 'optimum.m', 'optimum.json', 'optimum.pdf']
     """
+    from matplotlib.figure import Figure
+
     chosen = values_of("design", problem, design)
     before = present_of(problem, present)
-    sheet = supplier_sheet(problem, chosen, present=before, name=name, tolerances=tolerances, date=date)
+    sheet, shares = Figure(figsize=PAGE), checked_tolerances(problem, chosen, tolerances or {})
+    draw_sheet(sheet, problem, chosen, before, name=name, tolerances=shares, date=date)
     place = checks.path_of("folder", folder)
     place.mkdir(parents=True, exist_ok=True)
     stem, written = place / script_name(name), list[Path]()

@@ -11,7 +11,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_WIDTH, _HEIGHT, _MARGIN = 8.27, 11.69, 0.75  # inches
+PAGE = _WIDTH, _HEIGHT = 8.27, 11.69
+"""Size of a page [in]."""
+
+_MARGIN = 0.75  # inches
 _ROW, _TITLE, _PICTURE = 0.165, 0.42, 2.3  # inches, at full size
 _LETTER, _SIZE = 0.6, 8.0  # width of a letter over its size, and size in points
 _COLUMNS, _GAP = 105, 3  # letters of a paragraph, and between columns of a table
@@ -37,11 +40,8 @@ Content = str | Block | Picture
 """A paragraph, a table or a picture."""
 
 
-def page(title: str, date: str, contents: Sequence[Content]) -> "Figure":
-    """Return a page with contents one below the other; letters shrink until all fits."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(_WIDTH, _HEIGHT))
+def fill(figure: "Figure", title: str, date: str, contents: Sequence[Content]) -> None:
+    """Put contents on a page one below the other; letters shrink until all fits."""
     scale = min(1.0, (_HEIGHT - 2 * _MARGIN - _TITLE) / sum(map(_height, contents)))
     top = _HEIGHT - _MARGIN
     _text(figure, _MARGIN, top, title, 13, weight="bold")
@@ -50,7 +50,6 @@ def page(title: str, date: str, contents: Sequence[Content]) -> "Figure":
     for one in contents:
         _put(figure, one, top, scale)
         top -= scale * _height(one)
-    return figure
 
 
 def _height(one: Content) -> float:
@@ -114,7 +113,7 @@ def _draw(figure: "Figure", picture: Picture, top: float, scale: float) -> None:
     room = (_WIDTH - 2 * _MARGIN) / count
     for i, draw in enumerate(picture.draw):
         left, height = _MARGIN + i * room + 0.6, _PICTURE * scale - 0.75
-        box = (left / _WIDTH, (top - height - 0.1) / _HEIGHT, (room - 0.6) / _WIDTH, height / _HEIGHT)
+        box = (left / _WIDTH, (top - height - 0.1) / _HEIGHT, (room - 0.75) / _WIDTH, height / _HEIGHT)
         draw(figure.add_axes(box))
 
 

@@ -42,9 +42,12 @@ _ABOUT_RANGE = (
 )
 
 
-def checked_tolerances(tolerances: Mapping[str, float], values: Mapping[str, float]) -> Mapping[str, float]:
+def checked_tolerances(
+    problem: RideProblem, design: Mapping[str, float], tolerances: Mapping[str, float]
+) -> Mapping[str, float]:
     """Return tolerances; ValueError unless they are of coefficients and above zero."""
     checks.mapped("tolerances", tolerances)
+    values = problem.cases[0].vehicle.at(setting_at(problem, design))[1]
     for name, share in tolerances.items():
         checks.one_of("tolerances", name, values)
         checks.positive(f"tolerance of {name}", share)

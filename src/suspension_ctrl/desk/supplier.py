@@ -11,7 +11,7 @@ from ..response.problem import RideProblem
 from .candidate_table import Present
 from .curves import Curve, curves_of, force_of
 from .designs import present_of, setting_at, values_of
-from .pages import Content, Picture, page
+from .pages import PAGE, Content, Picture, fill
 from .parts import Part, parts_of
 from .sheet_tables import checked_tolerances, curve_blocks, described, measure_block, part_block, range_block
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _LINES, _POINTS = 8, 201  # of a picture, and of a line
+_IN_COLUMN = 3  # of a legend
 _REACH = 4.0  # forces of stops that are drawn, over that of the softest spring
 
 
@@ -69,21 +70,39 @@ def supplier_sheet(
     >>> [axes.get_ylabel() for axes in figure.axes]
     ['tension [N]']
     """
-    chosen = values_of("design", problem, design)
-    before = present_of(problem, present)
-    vehicle, values = problem.cases[0].vehicle.at(setting_at(problem, chosen))
+    import matplotlib.pyplot as plt
+
+    chosen, before = values_of("design", problem, design), present_of(problem, present)
+    shares = checked_tolerances(problem, chosen, tolerances or {})
+    figure = plt.figure(figsize=PAGE)
+    draw_sheet(figure, problem, chosen, before, name=name, tolerances=shares, date=date)
+    return figure
+
+
+def draw_sheet(
+    figure: "Figure",
+    problem: RideProblem,
+    design: Mapping[str, float],
+    present: Mapping[str, float],
+    *,
+    name: str,
+    tolerances: Mapping[str, float],
+    date: str,
+) -> None:
+    """Draw the sheet on a figure of the size of a page; `present` may be empty."""
+    vehicle, values = problem.cases[0].vehicle.at(setting_at(problem, design))
     parts = parts_of(vehicle, values)
-    today = problem.cases[0].vehicle.at(setting_at(problem, before))[1] if before else {}
+    today = problem.cases[0].vehicle.at(setting_at(problem, present))[1] if present else {}
     curves = curves_of(parts)
     contents: list[Content] = [
         *described(problem),
-        part_block(parts, checked_tolerances(tolerances or {}, values), today),
+        part_block(parts, tolerances, today),
         *_pictures(parts, curves),
         *curve_blocks(curves),
-        range_block(problem, chosen),
-        measure_block(problem, chosen, before),
+        range_block(problem, design),
+        measure_block(problem, design, present),
     ]
-    return page(name or "Springs and dampers", date, contents)
+    fill(figure, name or "Springs and dampers", date, contents)
 
 
 def _pictures(parts: Sequence[Part], curves: Sequence[Curve]) -> list[Picture]:
@@ -110,5 +129,6 @@ def _draw(own: Sequence[tuple[Part, Curve]], of_rate: bool, axes: "Axes") -> Non
     axes.set_xlabel("rate [m/s]" if of_rate else "deflection [mm]", fontsize=7)
     axes.set_ylabel("tension [N]", fontsize=7)
     axes.tick_params(labelsize=7)
+    axes.locator_params(axis="x", nbins=6)
     axes.grid(alpha=0.3)
-    axes.legend(frameon=False, fontsize=7)
+    axes.legend(fontsize=6, loc="upper left", ncols=-(-len(own) // _IN_COLUMN), edgecolor="none", framealpha=0.7)
