@@ -39,6 +39,13 @@ def test_ratios_multiply_and_parts_in_series_have_none():
     ]
 
 
+def test_a_strut_of_one_element_has_its_ratio():
+    strut = Spring(installation_ratio=0.8)
+    car = QuarterCar(body_mass=300.0, wheel_mass=40.0, tyre_stiffness=2e5, strut=strut)
+    (spring,) = parts_of(car, {"spring": 20e3})
+    assert (spring.pieces, spring.ratio) == (1, pytest.approx(0.8))
+
+
 def test_tables_and_stops_are_parts_with_their_laws():
     car = load_vehicle("volvo_xc90_full")
     parts = {one.name: one for one in parts_of(car.vehicle, car.vehicle.coefficients(car.setting))}

@@ -45,9 +45,9 @@ def parts_of(vehicle: Vehicle, values: Mapping[str, float]) -> list[Part]:
 def _plain(one: StrutCoefficient, value: float) -> Part:
     """Return the part of a spring, a damper or an inerter in parallel with others, or of a bar."""
     at = np.diagonal(one.gain)
-    kind, bar = _BY_UNIT.get(one.unit, one.unit), one.ratio is None
-    pieces, ratio = (1, None) if bar else (np.count_nonzero(at), float(np.sqrt(at.max())))
-    return Part(one.name, kind, int(pieces), ratio, (Value(one.name, value, one.unit),))
+    bar = np.count_nonzero(one.gain) > np.count_nonzero(at)  # it couples struts
+    pieces, ratio = (1, None) if bar else (int(np.count_nonzero(at)), float(np.sqrt(at.max())))
+    return Part(one.name, _BY_UNIT.get(one.unit, one.unit), pieces, ratio, (Value(one.name, value, one.unit),))
 
 
 def _in_network(network: Network, values: Mapping[str, float], units: Mapping[str, str]) -> Iterator[Part]:

@@ -23,7 +23,7 @@ _CURVES = (  # whether over rate, title, unit and its size
     (True, "Dampers: tension [N] over rate in extension", "m/s", 1.0),
     (False, "Springs and stops: tension [N] over extension", "mm", 1e3),
 )
-_RANGE = "Working range at the wheel: travel [mm], rate [m/s] and force [N] of the strut"
+_RANGE = "Working range of the struts: travel [mm], rate [m/s] and force [N]"
 _OF_RANGE = [
     "strut",
     "case",
@@ -37,8 +37,8 @@ _OF_RANGE = [
     "largest",
 ]
 _ABOUT_RANGE = (
-    "Static: deflection from the free length. Mean: by force laws on the road. Root mean squares and expected "
-    f"largest values of {DISTANCE / 1e3:g} km are about these."
+    "Over a wheel those at the wheel. Static: deflection from the free length. Mean: by force laws on the road. "
+    f"Root mean squares and expected largest values of {DISTANCE / 1e3:g} km are about these."
 )
 
 
