@@ -8,8 +8,20 @@ import numpy as np
 import pytest
 
 from garage import QUARTER, ROAD, SPEED
-from suspension_ctrl import LoadCase, Payload, Plant, RideProblem, export, load_system, load_vehicle, ride
-from suspension_ctrl.desk.exporting import script_name
+from suspension_ctrl import (
+    LoadCase,
+    Nsga2,
+    Payload,
+    Plant,
+    RideProblem,
+    candidates,
+    export,
+    load_system,
+    load_vehicle,
+    minimise,
+    ride,
+)
+from suspension_ctrl.desk.exporting import save_candidates, script_name
 
 BOUNDS = {"spring": (10e3, 30e3), "damper": (500.0, 5e3)}
 PROBLEM = RideProblem(QUARTER, ROAD, speed=SPEED, bounds=BOUNDS)
@@ -83,3 +95,22 @@ def test_a_mistake_leaves_no_file(tmp_path):
     with pytest.raises(ValueError, match=re.escape("design must have spring, damper, got none for damper")):
         export(PROBLEM, {"spring": 20e3}, tmp_path / "new")
     assert not (tmp_path / "new").exists()
+
+
+def test_candidates_are_vehicle_files_with_their_numbers_and_names(tmp_path):
+    run = minimise(PROBLEM, Nsga2(population=20), iterations=3, seed=1)
+    table = candidates(PROBLEM, run, present=[22e3, 1500.0], count=3)
+    files = save_candidates(PROBLEM, table, tmp_path / "candidates", "A car")
+    assert names(files)[0] == "0_present_design.toml"
+    assert [int(name.split("_")[0]) for name in names(files)] == list(table.index)
+    for path, (number, row) in zip(files, table.iterrows(), strict=True):
+        file = load_vehicle(path)
+        assert file.setting == {"spring": row["spring [N/m]"], "damper": row["damper [N s/m]"]}
+        assert (file.name, file.bounds) == (f"A car: {number} {row['name']}", BOUNDS)
+
+
+def test_candidates_of_a_plant_have_no_files(tmp_path):
+    plant = PROBLEM.replace(vehicle=Plant(QUARTER.plant()))
+    table = candidates(plant, minimise(plant, Nsga2(population=20), iterations=3, seed=1), count=2)
+    assert save_candidates(plant, table, tmp_path / "candidates", "A plant") == []
+    assert not (tmp_path / "candidates").exists()

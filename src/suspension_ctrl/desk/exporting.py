@@ -4,10 +4,12 @@ import re
 from collections.abc import Iterator, Mapping
 from os import PathLike
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import control
 
 from .. import checks
+from ..quantities import column_headers
 from ..response.load_case import LoadCase
 from ..response.problem import RideProblem
 from ..tables import write_json, write_whole
@@ -21,6 +23,9 @@ from .designs import closed_at, present_of, setting_at, values_of, vehicle_file
 from .pages import PAGE
 from .sheet_tables import checked_tolerances
 from .supplier import draw_sheet
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 _LONGEST = 40  # letters of the name of a file
 
@@ -97,6 +102,18 @@ def export(
     write_json(table, design_document(problem, chosen, before, name))
     write_whole(page, lambda path: sheet.savefig(path, metadata={"CreationDate": None}))
     return [*written, table, page]
+
+
+def save_candidates(problem: RideProblem, table: "pd.DataFrame", folder: Path, title: str) -> list[Path]:
+    """Write a vehicle file for each row of a table of `candidates`, none of a vehicle that a file cannot hold."""
+    headers, written = column_headers(problem.variables, problem.units), list[Path]()
+    for number, row in table.iterrows():
+        file = vehicle_file(problem, row[headers].to_list(), name=f"{title}: {number} {row['name']}")
+        if can_be_written(file):
+            folder.mkdir(exist_ok=True)
+            written.append(folder / f"{number}_{script_name(row['name'])}.toml")
+            save_vehicle(written[-1], file)
+    return written
 
 
 def script_name(name: str) -> str:
