@@ -69,6 +69,8 @@ CALLS = {
     "RideProblem.evaluate": (PROBLEM.evaluate, {0: [[22e3, 1500.0]]}),
     "simulate": (sc.simulate, {0: CAR, 1: SETTING, 2: ROAD.profile(20.0, 0.1, seed=1)}),
     "response_psds": (sc.response_psds, {0: CLOSED, 1: F, 2: F}),
+    "vehicle_file": (sc.vehicle_file, {0: PROBLEM, 1: [22e3, 1500.0], "case": 1}),
+    "as_scipy": (sc.as_scipy, {0: PROBLEM, 1: "ACC"}),
     "certify": (sc.certify, {0: PROBLEM, 1: [22e3, 1500.0]}),
     "international_roughness_index": (sc.international_roughness_index, {0: ROAD.profile(20.0, 0.1, seed=1)}),
     "weighting": (sc.weighting, {0: "Wk"}),

@@ -5,10 +5,12 @@ import re
 
 import control
 import numpy as np
+import pandas as pd
 import pytest
 
 from garage import QUARTER, ROAD, SPEED
 from suspension_ctrl import (
+    Iso8608Road,
     LoadCase,
     Nsga2,
     Payload,
@@ -43,6 +45,15 @@ def test_each_file_is_the_design(tmp_path):
     assert "InputUnit" in files[2].read_text()
     assert json.loads(files[3].read_text())["design"]["spring"]["value"] == VALUES[0]
     assert files[4].read_bytes().startswith(b"%PDF")
+
+
+def test_the_command_ride_takes_the_vehicle_bit_for_bit(tmp_path, called):
+    problem = PROBLEM.replace(road=Iso8608Road("C"))
+    path = export(problem, VALUES, tmp_path / "files")[0]
+    done = called("ride", "--vehicle", path, "--road", "C", "--speed", str(SPEED), "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    table = pd.read_csv(tmp_path / "out" / "ride.csv", index_col="name")["value"]
+    np.testing.assert_array_equal(table, ride(QUARTER, VALUES, problem.road, SPEED)["value"])
 
 
 def test_the_same_design_gives_the_same_files(tmp_path):

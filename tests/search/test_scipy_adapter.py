@@ -67,6 +67,21 @@ def test_slopes_are_those_of_the_valley_also_at_the_ends(at):
     )
 
 
+@pytest.mark.parametrize("at", [(0.5, 0.5), (0.0, 1.0), (1.0, 0.0)])
+def test_slopes_of_limits_stay_within_the_box(at):
+    """Forward differences beyond the box would see no slope at its end."""
+
+    def values(x):
+        return np.column_stack([x, x[:, 0] + 3 * x[:, 1] - 4])
+
+    problem = Problem(
+        evaluate=values, lower=(0.0, 0.0), upper=(2.0, 5.0), objectives=("f", "g"), constraints=("sum",)
+    )
+    (limit,) = as_scipy(problem, "f")["constraints"]
+    np.testing.assert_allclose(limit.jac(np.array(at)), [[2.0, 15.0]], rtol=1e-9)
+    np.testing.assert_allclose(limit.fun(np.array(at)), [2 * at[0] + 15 * at[1] - 4])
+
+
 def test_without_limits_there_are_none():
     least = as_scipy(rosenbrock(), "f")
     assert least["constraints"] == []
