@@ -98,7 +98,7 @@ def main(
     terminal.show("MOEA/D", report.moead_table(found))
     terminal.show("Time to the hypervolume", report.target_table(found))
     for name, reason in field.absent.items():
-        terminal.console.print(f"Absent: {name} ({reason})")
+        terminal.note(f"Absent: {name} ({reason})")
     terminal.end(folder)
 
 
