@@ -189,3 +189,18 @@ def test_the_survey_shakes_the_truck_as_its_class_does(ran):
     )  # fmt: skip
     expected = [on_class.value[measure] for measure in names["measures"].values()]
     np.testing.assert_allclose(names["weighted"], expected, rtol=0.15)
+
+
+def test_the_candidates_and_the_picked_design_are_of_the_front(ran, printed):
+    """Every value again by `ride`; the picked design has the least discomfort of all no worse than today."""
+    names = ran(16)[1]
+    table, problem, front = names["table"], names["problem"], names["run"].front()
+    for _, row in table.iterrows():
+        struts = row[["spring [N/m]", "damper [N s/m]"]].tolist()
+        expected = ride(names["car"], struts, Iso8608Road("B"), 27.78).value[["ACC", "SWS", "DTL"]]
+        np.testing.assert_allclose(row[["ACC [m/s^2]", "SWS [m]", "DTL [N]"]].tolist(), expected, rtol=1e-6)
+    own = table.loc[0]
+    inside = front[(front["SWS [m]"] <= own["SWS [m]"]) & (front["DTL [N]"] <= own["DTL [N]"])]
+    assert names["best"]["ACC [m/s^2]"] == inside["ACC [m/s^2]"].min() < own["ACC [m/s^2]"]
+    assert "SWS <= 8 mm" in printed(16)
+    assert len(problem.constraints) == 1

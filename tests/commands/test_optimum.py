@@ -1,16 +1,17 @@
-"""Table 5, and the best struts of another vehicle."""
+"""Table 5, and candidates of other vehicles: files, values by other roads, words."""
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from suspension_ctrl import load_vehicle, save_system
-from suspension_ctrl.commands.studies import chosen_study
+from suspension_ctrl import load_road, load_vehicle, ride, save_system
 
-VARIABLES = [
-    "front.spring [N/m]", "front.damper [N s/m]", "rear.spring [N/m]", "rear.damper [N s/m]",
-    "front_antiroll [N m/rad]", "rear_antiroll [N m/rad]",
-]  # fmt: skip
+FILES = {
+    *("candidates.csv", "candidates.md", "front.csv", "front.png", "front.pdf", "changes.png", "changes.pdf"),
+    "study.toml",
+}  # fmt: skip
+QUICK = ("--population", 60, "--iterations", 5)
+OBJECTIVES = ["ACC [m/s^2]", "SWS [m]", "DTL [N]"]
 
 KNEE = """
 kind = "quarter-car"
@@ -47,59 +48,71 @@ def test_optimum_makes_table_5(script, tmp_path):
         assert abs(row["DTL off [%]"]) < 0.1
         assert round(row["SWS [m]"], 4) == 0.0287
     exact = table.loc[("Wb-table", "exact, least ACC")]
+    assert {path.name for path in (tmp_path / "out").iterdir()} == FILES | {"table5.csv"}
     assert exact["SWS [m]"] == pytest.approx(0.0287, rel=1e-9)
     assert exact["ACC [m/s^2]"] <= table.loc[("Wb-table", "published optimum"), "ACC [m/s^2]"] + 1e-3
 
 
-def test_optimum_of_another_vehicle(called, tmp_path):
+def test_candidates_of_another_vehicle(called, tmp_path):
     done = called(
-        "optimum", "--vehicle", "jian_2022_full", "--road", "C", "--sws-limit", 0.01,
-        "--population", 200, "--iterations", 5, "--out", "out",
+        "optimum", "--vehicle", "jian_2022_full", "--road", "C", "--sws-limit", "10mm", "--band", "0.1,20",
+        "--weighting", "Wb", *QUICK, "--out", "out",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
-    assert "published" not in done.stdout
-    table = pd.read_csv(tmp_path / "out" / "table5.csv").set_index(["weighting", "design"])
-    assert len(table) == 3 * 5
-    assert table.filter(like="published").isna().all(axis=None)
-    for weighting in ("Wk", "Wb", "Wb-table"):
-        part = table.loc[weighting]
-        study = chosen_study(vehicle="jian_2022_full", road="C", weighting=weighting)
-        problem = study.problem
-        own = part.loc["its own struts"]
-        assert own[VARIABLES].tolist() == list(study.present.values())
-        found = part[["ACC [m/s^2]", "SWS [m]", "DTL [N]"]]
-        np.testing.assert_allclose(found, problem.evaluate(part[VARIABLES].to_numpy(float)), rtol=1e-9)
-        within = part.drop("its own struts")
-        assert within["SWS [m]"].le(0.01 * (1 + 1e-6)).all()
-        for header in ("ACC [m/s^2]", "DTL [N]"):
-            least = part.loc[f"least {header.split()[0]} up to the limit", header]
-            assert least <= within[header].min() * (1 + 1e-6)
+    assert "ublished" not in done.stdout
+    assert "Table" not in done.stdout
+    folder, file = tmp_path / "out", load_vehicle("jian_2022_full")
+    assert {path.name for path in folder.iterdir()} == FILES
+    table = pd.read_csv(folder / "candidates.csv", index_col="candidate")
+    assert 6 <= len(table) <= 9
+    assert (table["SWS [m]"][1:] <= 0.01 * (1 + 1e-6)).all()
+    names = [f"{name} [{file.vehicle.variables[name].unit}]" for name in file.bounds]
+    for number in (0, 3):
+        setting = dict(zip(file.bounds, table.loc[number, names], strict=True))
+        road = load_road("C")
+        expected = ride(file.vehicle, setting, road, 20.0, band=(0.1, 20.0), weighting="Wb").value[
+            ["ACC", "SWS", "DTL"]
+        ]
+        np.testing.assert_allclose(table.loc[number, OBJECTIVES].tolist(), expected, rtol=1e-6)
+    assert table.loc[0, names].tolist() == [file.vehicle.coefficients(file.setting)[name] for name in file.bounds]
+    front = pd.read_csv(folder / "front.csv")
+    assert (front["SWS [m]"] <= 0.01 * (1 + 1e-6)).all()
+    page = (folder / "candidates.md").read_text(encoding="utf-8")
+    for text in (
+        "20 m/s",
+        "class C",
+        "0.1 to 20 Hz",
+        "Wb",
+        "Present design: front.spring 10 kN/m",
+        "SWS <= 10 mm cuts",
+    ):
+        assert text in " ".join(done.stdout.split())
+        assert text.replace("<", "&lt;") in page
 
 
-def test_optimum_of_force_laws(called, tmp_path):
-    """Coefficients in m/s and without a unit stand in the table as well."""
+def test_candidates_of_force_laws(called, tmp_path):
+    """Coefficients in m/s and without a unit stand in the tables as well; no limit is set."""
     (tmp_path / "car.toml").write_text(KNEE)
-    quick = ["--iterations", "1", "--population", "20", "--sws-limit", "0.03", "--out", tmp_path / "out"]
-    done = called("optimum", "--vehicle", tmp_path / "car.toml", "--road", "D", "--speed", "15", *quick)
+    done = called("optimum", "--vehicle", "car.toml", "--road", "D", "--speed", 15, *QUICK, "--out", "out")
     assert done.returncode == 0, done.stderr
-    table = pd.read_csv(tmp_path / "out" / "table5.csv")
-    assert {"damper.knee [m/s]", "damper.rebound_over_bump"} <= set(table.columns)
+    table = pd.read_csv(tmp_path / "out" / "candidates.csv")
+    assert {"damper.knee [m/s]", "damper.rebound_over_bump", "heave damping [-]"} <= set(table.columns)
+    assert "No limit is set. The front has ACC from" in done.stdout
 
 
-def test_optimum_of_a_plant_of_another_program_is_on_its_quarter_car(called, tmp_path):
+def test_candidates_of_a_plant_of_another_program_are_those_of_its_quarter_car(called, tmp_path):
     save_system(tmp_path / "car.npz", load_vehicle("yuen_ramli_2010").vehicle.plant())
     (tmp_path / "car.toml").write_text(
         'kind = "plant"\nfile = "car.npz"\n[struts]\nspring_N_per_m = 22e3\ndamper_N_s_per_m = 1500\n'
         "[bounds]\nspring_N_per_m = [15e3, 30e3]\ndamper_N_s_per_m = [1000, 4000]\n"
     )
-    quick = ("--road", "C", "--iterations", 1, "--population", 20, "--sws-limit", 0.03, "--out", "out")
-    done = called("optimum", "--vehicle", "car.toml", *quick)
+    done = called("optimum", "--vehicle", "car.toml", "--road", "C", *QUICK, "--sws-limit", 0.03, "--out", "out")
     assert done.returncode == 0, done.stderr
-    assert "published" not in done.stdout
-    table = pd.read_csv(tmp_path / "out" / "table5.csv").set_index(["weighting", "design"])
-    part = table.loc["Wb"]
-    struts = part[["spring [N/m]", "damper [N s/m]"]]
-    assert struts.loc["its own struts"].tolist() == [22e3, 1500.0]
-    problem = chosen_study(vehicle="yuen_ramli_2010", road="C", weighting="Wb").problem
-    found = part[["ACC [m/s^2]", "SWS [m]", "DTL [N]"]]
-    np.testing.assert_allclose(found, problem.evaluate(struts.to_numpy(float)), rtol=1e-9)
+    assert "Modes" not in done.stdout
+    table = pd.read_csv(tmp_path / "out" / "candidates.csv")
+    struts = table[["spring [N/m]", "damper [N s/m]"]]
+    assert struts.iloc[0].tolist() == [22e3, 1500.0]
+    car = load_vehicle("yuen_ramli_2010").vehicle
+    for i in (0, 2):
+        expected = ride(car, struts.iloc[i].tolist(), load_road("C"), 20.0).value[["ACC", "SWS", "DTL"]]
+        np.testing.assert_allclose(table.loc[i, OBJECTIVES].tolist(), expected, rtol=1e-6)

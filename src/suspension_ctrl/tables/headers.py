@@ -40,6 +40,11 @@ def shown_value(value: float, unit: str, digits: int = 4) -> str:
     return f"{value * factor:.{digits}g} {shown}".rstrip()
 
 
+def shown_range(low: float, high: float, unit: str, digits: int = 4) -> str:
+    """Return an interval with its unit as an engineer reads it: ``4 to 12.5 mm``."""
+    return f"{shown_value(low, unit, digits).split(' ')[0]} to {shown_value(high, unit, digits)}"
+
+
 def shown_header(header: str) -> tuple[str, float]:
     """Return a header in the unit in which an engineer reads its column, and the factor to it."""
     name, unit = own_name_and_unit(header)

@@ -1,0 +1,151 @@
+"""The steps of `suspension-ctrl optimum`: searches, files, printed tables and sentences."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Self
+
+import pandas as pd
+
+from .. import checks
+from ..desk import figures
+from ..desk.candidate_table import PRESENT
+from ..desk.candidate_texts import decimals_of, markdown, parts_of
+from ..desk.decision import Decision
+from ..desk.study_files import StudyFile
+from ..paper import experiment as paper
+from ..paper.optimum import TRAVEL, table5
+from ..quantities import column_headers
+from ..response.measures.limits import Limit
+from ..response.measures.vibration import SWS
+from ..response.problem import RideProblem
+from ..search.driver import minimise
+from ..search.run import Optimiser
+from ..study.comparison import optimiser
+from ..tables import write_csv, write_figure, write_text
+from ..tables.headers import shown_range, shown_unit, shown_value
+from . import studies, terminal
+
+WEIGHTINGS = ("Wk", "Wb", "Wb-table")
+"""Weightings of ACC in Table 5."""
+DECIMALS = {"[m": 4, "[N]": 1, "[N": 0, "[%]": 2}
+
+
+@dataclass(frozen=True)
+class Request:
+    """A study with its limits, and the travel of Table 5 [m], None of another problem than the paper's."""
+
+    study: StudyFile
+    travel: float | None = None
+
+    def within(self, sws_limit: float | None) -> Self:
+        """Return the request with this limit of SWS [m] in place of one that the study has, if given."""
+        problem = self.study.problem
+        others = [one for one in problem.constraints if one.measure != SWS()]
+        given = [one.value for one in problem.constraints if one.measure == SWS()]
+        papers = paper.is_papers(problem.replace(constraints=others) if given else problem)
+        if sws_limit is None:
+            sws_limit = next(iter(given), TRAVEL if papers else None)
+        if sws_limit is None:
+            return self
+        checks.positive("sws_limit", sws_limit, "m")
+        limited = problem.replace(constraints=[Limit(SWS(), sws_limit), *others])
+        return replace(self, study=replace(self.study, problem=limited), travel=sws_limit if papers else None)
+
+    @property
+    def optimiser(self) -> Optimiser:
+        """The first algorithm of the study; NSGA-II for MOEA/D-DRA where no kernel evaluates design by design."""
+        name, search = self.study.search.algorithms[0], self.study.search
+        if name.startswith("moead") and self.study.problem.kernel is None:
+            name = "nsga2"
+        return optimiser(name, max(search.populations))
+
+    @property
+    def budget(self) -> tuple[int, int]:
+        """Iterations and seed of a search."""
+        return max(self.study.search.iterations), self.study.search.seed
+
+
+def carry_out(request: Request, out: Path | None) -> None:
+    """Search, write all files, then print."""
+    study = request.study
+    iterations, seed = request.budget
+    settings: dict[str, Any] = {"iterations": iterations, "seed": seed, "present": study.present or None}
+    with terminal.compiling(), terminal.waiting("searching"):
+        decision = Decision.of(study.problem, request.optimiser, **settings)
+    printed = [] if request.travel is None else tables5(request, request.travel)
+    said = [*introduced(study), *decision.describe()]
+    folder = studies.folder_with(study, out)
+    if printed:
+        write_csv(folder / "table5.csv", pd.concat(printed))
+    parts = parts_of(study.problem, decision.table)
+    write_csv(folder / "candidates.csv", decision.table.reset_index())
+    write_text(folder / "candidates.md", markdown(study.name, parts, said))
+    write_csv(folder / "front.csv", decision.run.front())
+    with terminal.waiting("drawing"):
+        draw(folder, decision, study.name)
+    show(said, printed, parts)
+    terminal.end(folder)
+
+
+def tables5(request: Request, travel: float) -> list[pd.DataFrame]:
+    """Return Table 5 with each of its weightings."""
+    free = request.study.problem.replace(constraints=())
+    iterations, seed = request.budget
+    parts = []
+    for weighting in terminal.progress(WEIGHTINGS, len(WEIGHTINGS), "weightings of Table 5"):
+        problem = free.replace(weighting=weighting)
+        run = minimise(problem, request.optimiser, iterations=iterations, seed=seed)
+        parts.append(table5(problem, run, travel))
+    return parts
+
+
+def draw(folder: Path, decision: Decision, title: str) -> None:
+    """Write the front and, with a present design, the changes."""
+    problem, table = decision.problem, decision.table
+    headers = dict(zip(problem.objectives, column_headers(problem.objectives, problem.units), strict=True))
+    across = next((name for name in headers if problem.units[name] == "m"), next(reversed(headers)))
+    ordered = [headers[across], *(header for name, header in headers.items() if name != across)]
+    drawn = (
+        problem.constraints if len(problem.cases) == 1 or problem.worst_case else ()
+    )  # a limit is of the worst case
+    limits = {headers[one.measure.label]: one.value for one in drawn if one.measure.label in headers}
+    free = decision.free.front() if problem.constraints else pd.DataFrame()
+    write_figure(folder / "front", figures.front_figure(decision.run.front(), free, table, ordered, limits, title))
+    if PRESENT in table.name.to_numpy():
+        write_figure(folder / "changes", figures.changes_figure(table, problem.objectives, title))
+
+
+def show(said: Sequence[str], printed: Sequence[pd.DataFrame], parts: Mapping[str, pd.DataFrame]) -> None:
+    """Print Table 5 if there is one, then the problem, the parts of the table, and what limits and bounds do."""
+    for part in printed:
+        shown = part.drop(columns="weighting")
+        digits = {name: next((d for unit, d in DECIMALS.items() if unit in name), 4) for name in shown.columns[1:]}
+        terminal.show(f"Table 5, ACC weighted by {part.weighting.iloc[0]}", shown, digits)
+    for title, table in parts.items():
+        terminal.show(title, table, decimals_of(table), readable=True)
+    for line in said:
+        terminal.note(line)
+
+
+def introduced(study: StudyFile) -> list[str]:
+    """Return name, load cases, band, variables and present design of a study, a sentence each."""
+    problem, (low, high) = study.problem, study.problem.band
+    weighted = f"; ACC weighted with {problem.weighting}" if problem.weighted else ""
+    lines = [f"{study.name}; {low:g} to {high:g} Hz{weighted}."]
+    for n, case in enumerate(problem.cases, start=1):
+        label = f"Case {n}, share {case.share:g}" if len(problem.cases) > 1 else "Road"
+        lines.append(f"{label}: {case.describe()}.")
+    own = (f"{name} {shown_value(value, problem.units[name])}" for name, value in study.present.items())
+    return [*lines, f"Varied: {'; '.join(varied(problem))}.", f"Present design: {', '.join(own) or 'not known'}."]
+
+
+def varied(problem: RideProblem) -> Iterator[str]:
+    """Yield the text of each variable: bounds and kind, or the values of a catalogue."""
+    for name, (low, high) in problem.bounds.items():
+        kind, unit = problem.kinds.get(name, ""), problem.units[name]
+        if isinstance(kind, str):
+            yield f"{name} {shown_range(low, high, unit)}" + (kind and f", {kind}")
+        else:
+            shown, factor = shown_unit(unit)
+            yield f"{name} of {', '.join(f'{factor * value:.4g}' for value in kind)} {shown}".rstrip()

@@ -1,0 +1,53 @@
+"""Candidates as tables to read: parts that fit a page, and a page of Markdown."""
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import pandas as pd
+
+from .. import escaping
+from ..search.problem import Minimisable, headers_of
+from ..tables.headers import readable
+from ..tables.rounding import rounded
+
+
+def parts_of(problem: Minimisable, table: pd.DataFrame) -> dict[str, pd.DataFrame]:
+    """Return parts of a table of `candidates` by title, in SI units."""
+    d, headers = len(problem.variables), list(headers_of(problem))
+    given = [str(one) for one in table]
+    changes = {f"{name} change [%]": f"{name} [%]" for name in problem.objectives}
+    travels = [one for one in given if "travel in " in one]
+    modes = [one for one in given if one not in {"name", "active", *headers, *changes, *travels}]
+    columns = {
+        "Candidates": ["name", *headers[d:]],
+        "Changes against the present design": [one for one in given if one in changes],
+        "Designs and largest travel" if travels else "Designs": [*headers[:d], *travels],
+        "Modes, without dampers, and damping ratios": modes,
+    }
+    numbered = table.rename(columns=changes).rename_axis("no.").reset_index()
+    return {
+        title: numbered[["no.", *(changes.get(name, name) for name in names)]]
+        for title, names in columns.items()
+        if names
+    }
+
+
+def decimals_of(part: pd.DataFrame) -> dict[str, int]:
+    """Return the decimals of changes [%]; other columns show the digits that matter."""
+    return {str(header): 1 for header in part if str(header).endswith("[%]")}
+
+
+def markdown(title: str, parts: Mapping[str, pd.DataFrame], texts: Sequence[str]) -> str:
+    """Return a page of Markdown: sentences, then parts of the table in mm and kN."""
+    return "\n".join(_lines(title, parts, texts)) + "\n"
+
+
+def _lines(title: str, parts: Mapping[str, pd.DataFrame], texts: Sequence[str]) -> Iterator[str]:
+    yield from (f"# {escaping.markdown(title)}", "", *(f"- {escaping.markdown(text)}" for text in texts))
+    for name, part in parts.items():
+        shown, digits = readable(part), decimals_of(part)
+        cells = pd.DataFrame(
+            {str(header): rounded(shown[header].tolist(), digits.get(str(header))) for header in shown}
+        )
+        sides = ["right" if shown[header].dtype.kind in "iuf" else "left" for header in shown]
+        table = escaping.frame(cells, escaping.markdown)
+        yield from ("", f"## {name}", "", table.to_markdown(index=False, disable_numparse=True, colalign=sides))

@@ -1,0 +1,121 @@
+"""A decision: searches of a ride problem with and without its limits, candidates, effects of limits and bounds."""
+
+import warnings
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple, Self
+
+import numpy as np
+
+from ..quantities import Real
+from ..response.measures.limits import Limit
+from ..response.problem import RideProblem
+from ..search.constraints import InfeasibleWarning
+from ..search.driver import minimise
+from ..search.run import Optimiser, Run
+from ..tables.headers import shown_range, shown_value
+from .active import designs_by_text, limit_text
+from .candidate_table import Present, candidates
+from .choosing import front_of
+from .descent import with_least
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+class Decision(NamedTuple):
+    """Runs of a ride problem within its limits and without them, and the candidates."""
+
+    problem: RideProblem
+    run: Run
+    free: Run  # that of the problem without limits, `run` itself if it has none
+    table: "pd.DataFrame"
+
+    @classmethod
+    def of(
+        cls,
+        problem: RideProblem,
+        optimiser: Optimiser,
+        *,
+        iterations: int,
+        seed: int,
+        present: Present | None = None,
+    ) -> Self:
+        """Search and choose; ValueError that names the nearest design if none is within the limits."""
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", InfeasibleWarning)
+            run = minimise(problem, optimiser, iterations=iterations, seed=seed)
+        _check_feasible(problem, run)
+        free = run
+        if problem.constraints:
+            without = problem.replace(constraints=())
+            free = with_least(without, minimise(without, optimiser, iterations=iterations, seed=seed))
+        run = with_least(problem, run)
+        return cls(problem, run, free if problem.constraints else run, candidates(problem, run, present=present))
+
+    def describe(self) -> list[str]:
+        """Return what limits and bounds do, a sentence each."""
+        return [*self._limits(), self._active()]
+
+    def _limits(self) -> Iterator[str]:
+        """Yield a sentence about each limit, or about the limits that are possible."""
+        problem = self.problem
+        if not problem.constraints:
+            front = front_of(problem, self.run).objectives
+            ranges = zip(problem.measures, front.min(axis=0), front.max(axis=0), strict=True)
+            yield (
+                "No limit is set. The front has "
+                + "; ".join(
+                    f"{one.label} from {shown_range(low, high, one.unit)}"
+                    for one, low, high in ranges
+                    if not one.maximise
+                )
+                + ": limits between these are possible."
+            )
+            return
+        front = self.free.designs[self.free.on_front()]
+        values = problem.evaluate(front)
+        names, where = list(problem.objectives), " in the worst load case" * (len(problem.cases) > 1)
+        for limit, g in zip(problem.constraints, values[:, len(names) :].T, strict=True):
+            found, unit = measured(limit, g), limit.measure.unit
+            if (g <= 0).all():
+                worst = int(g.argmax())
+                least = [f"least-{names[j]}" for j in range(len(names)) if values[:, j].argmin() == worst]
+                which = f"the {least[0]} design" if least else "the nearest design"
+                yield f"{limit_text(limit)} does nothing: {which} has {shown_value(found[worst], unit)}{where}."
+            else:
+                possible = shown_range(found.min(), found.max(), unit)
+                yield f"{limit_text(limit)} cuts the front: limits from {possible} are possible{where}."
+
+    def _active(self) -> str:
+        """Return a sentence about active bounds and limits with the candidates that reach them."""
+        table = self.table[self.table.index > 0]
+        found = designs_by_text([[text for text in one.split("; ") if text] for one in table.active])
+        parts = [f"{text} ({', '.join(map(str, numbers))})" for text, numbers in found.items()]
+        own = self.table.active.get(0)
+        parts += [f"present design: {own}"] if own else []
+        return f"Active, by candidate: {'; '.join(parts) or 'no bound and no limit'}."
+
+
+def measured(limit: Limit, g: Real) -> Real:
+    """Return the measure of a limit (n,) from values of its constraint (n,)."""
+    return np.asarray((g - limit.offset) / limit.scale)
+
+
+def _check_feasible(problem: RideProblem, run: Run) -> None:
+    """Raise ValueError that tells how near the limits the nearest design is, if none is within them."""
+    if run.feasible.any():
+        return
+    nearest = int(run.violation.argmin())
+    beyond = [
+        (
+            limit_text(limit),
+            f"{limit.measure.label} of {shown_value(float(measured(limit, g)), limit.measure.unit)}",
+        )
+        for limit, g in zip(problem.constraints, run.constraints[nearest], strict=True)
+        if g > 0
+    ]
+    limits, have = zip(*beyond, strict=True)
+    raise ValueError(
+        f"limits must be possible within the bounds: the nearest design has {' and '.join(have)}, "
+        f"got {' and '.join(limits)}"
+    )

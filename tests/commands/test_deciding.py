@@ -1,0 +1,71 @@
+"""Requests of `optimum`: limits in place of others, the paper's problem, the algorithm, the problem in words."""
+
+import pytest
+
+from suspension_ctrl import Iso8608Road, LoadCase, Measure, MoeadDra, Nsga2, Payload, RideProblem, load_vehicle
+from suspension_ctrl.commands.deciding import Request, introduced
+from suspension_ctrl.desk.study_files import SearchSettings, StudyFile
+from suspension_ctrl.paper import experiment as paper
+from suspension_ctrl.paper.optimum import TRAVEL
+
+FILE = load_vehicle("minaker_half")
+PROBLEM = RideProblem(
+    FILE.vehicle, Iso8608Road("C"), speed=20.0, bounds=FILE.bounds, band=(0.3, 20.0), constraints=["SWS <= 0.02"]
+)
+
+
+def study_of(problem: RideProblem, *algorithms: str, **present: float) -> StudyFile:
+    search = SearchSettings(algorithms=algorithms or ("moead-dra",), populations=(60,), iterations=(5,))
+    return StudyFile(problem=problem, name="A car", present=present, search=search)
+
+
+def request_of(problem: RideProblem, *algorithms: str) -> Request:
+    return Request(study_of(problem, *algorithms))
+
+
+def test_a_limit_takes_the_place_of_that_on_the_same_measure():
+    both = PROBLEM.replace(constraints=["DTL <= 3000", "SWS <= 0.02", "SWS front <= 0.01"])
+    found = request_of(both).within(0.012)
+    assert sorted(map(str, found.study.problem.constraints)) == [
+        "DTL <= 3000",
+        "SWS <= 0.012",
+        "SWS front <= 0.01",
+    ]
+    assert found.travel is None
+    kept = request_of(both).within(None)
+    assert sorted(map(str, kept.study.problem.constraints)) == sorted(map(str, both.constraints))
+    with pytest.raises(ValueError, match=r"^sws_limit must be finite and > 0 m, got 0.0$"):
+        request_of(both).within(0.0)
+
+
+def test_the_papers_problem_has_the_travel_of_table_5():
+    papers = paper.ride_problem(weighting="Wb", band=(0.1, 20.0))
+    assert paper.is_papers(papers)
+    assert not paper.is_papers(PROBLEM)
+    assert not paper.is_papers(papers.replace(speed=21.0))
+    assert not paper.is_papers(papers.replace(bounds={"spring": (1e3, 31e3), "damper": (1e3, 5e3)}))
+    found = request_of(papers).within(None)
+    assert (found.travel, list(map(str, found.study.problem.constraints))) == (TRAVEL, ["SWS <= 0.0287"])
+    assert request_of(papers).within(0.02).travel == 0.02
+    again = Request(request_of(papers).within(0.02).study).within(None)  # the study in the folder of results
+    assert again.travel == 0.02
+
+
+def test_a_problem_without_a_kernel_is_searched_by_whole_populations():
+    assert isinstance(request_of(PROBLEM).optimiser, MoeadDra)
+    own = PROBLEM.replace(measures=["ACC", Measure("sum", "N/m", lambda designs: designs.sum(axis=1))])
+    assert isinstance(request_of(own).optimiser, Nsga2)
+    assert isinstance(request_of(PROBLEM, "nsga2", "moead-dra").optimiser, Nsga2)
+
+
+def test_the_problem_is_told_with_its_cases_variables_and_present_design():
+    laden = Payload(mass=200.0, position=(0.0, 0.0)).on(FILE.vehicle)
+    cases = [PROBLEM.cases[0], LoadCase(vehicle=laden, road=Iso8608Road("D"), speed=15.0, share=0.5)]
+    several = PROBLEM.replace(cases=cases, kinds={"front.spring": (20e3, 30e3)})
+    lines = introduced(study_of(several, **dict.fromkeys(several.variables, 15e3)))
+    assert lines[0] == "A car; 0.3 to 20 Hz; ACC weighted with Wk."
+    assert lines[1].startswith("Case 1, share 1: ISO 8608 class C")
+    assert lines[2].endswith("15 m/s.")
+    assert lines[3].startswith("Varied: front.spring of 20, 30 kN/m; front.damper 1 to 8 kN s/m; ")
+    assert lines[4].startswith("Present design: front.spring 15 kN/m, front.damper 15 kN s/m, ")
+    assert introduced(study_of(PROBLEM))[-1] == "Present design: not known."

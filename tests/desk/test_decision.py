@@ -1,0 +1,123 @@
+"""Decisions: sentences about limits and bounds against grids of designs; limits that nothing meets."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import garage
+from suspension_ctrl import Iso8608Road, Limit, MoeadDra, Nsga2, RideProblem
+from suspension_ctrl.desk.decision import Decision, measured
+from suspension_ctrl.search.indicators import best_of
+
+SEARCH = {"iterations": 20, "seed": 1}
+
+
+def problem_of(*constraints: str, **others) -> RideProblem:
+    """A car whose springs and dampers may double."""
+    bounds = {"spring": (10e3, 60e3), "damper": (500.0, 5e3)}
+    road = Iso8608Road("B")
+    return RideProblem(garage.QUARTER, road, speed=27.78, bounds=bounds, constraints=constraints, **others)
+
+
+def decide(*constraints: str, population: int = 300, **others) -> Decision:
+    return Decision.of(problem_of(*constraints), MoeadDra(population=population), **SEARCH, **others)
+
+
+@pytest.fixture(scope="module")
+def grid() -> np.ndarray:
+    """Objectives of 601 x 601 designs."""
+    problem = problem_of()
+    axes = [np.linspace(*pair, 601) for pair in problem.bounds.values()]
+    return problem.evaluate(np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, 2))
+
+
+@pytest.fixture(scope="module")
+def within() -> Decision:
+    return decide("SWS <= 8mm", present={"spring": 25e3, "damper": 2e3})
+
+
+def numbers(text: str) -> list[float]:
+    return [float(one) for one in re.findall(r"\d+\.?\d*", text)]
+
+
+def test_the_limits_that_are_possible_are_those_of_the_grid(within, grid):
+    travel = 1e3 * best_of(grid)[:, 1]
+    (line,) = [one for one in within.describe() if "cuts" in one]
+    assert line.startswith("SWS <= 8 mm cuts the front: limits from ")
+    assert numbers(line)[1:] == pytest.approx([travel.min(), travel.max()], rel=2e-3)
+    (line,) = [one for one in decide().describe() if one.startswith("No limit is set.")]
+    assert numbers(re.search(r"SWS from (.*?) mm", line)[1]) == pytest.approx(
+        [travel.min(), travel.max()], rel=2e-3
+    )
+
+
+def test_a_limit_that_does_nothing_names_the_design_nearest_to_it(grid):
+    (line,) = [one for one in decide("SWS <= 40mm").describe() if "nothing" in one]
+    assert line.startswith("SWS <= 40 mm does nothing: the least-ACC design has ")
+    assert numbers(line)[1] == pytest.approx(1e3 * best_of(grid)[:, 1].max(), rel=2e-3)
+
+
+def test_a_limit_that_nothing_meets_tells_the_least_that_is_possible(grid):
+    with pytest.raises(
+        ValueError, match=r"^limits must be possible within the bounds: the nearest design has SWS of "
+    ) as error:
+        decide("SWS <= 2mm", "DTL <= 2000")
+    assert str(error.value).endswith(" mm, got SWS <= 2 mm")
+    assert numbers(str(error.value))[0] == pytest.approx(1e3 * grid[:, 1].min(), rel=0.01)
+
+
+def test_several_limits_are_told_one_by_one(grid):
+    lines = decide("SWS <= 6mm", "frequency heave <= 1.2", "damping_ratio heave >= 0.1").describe()
+    assert lines[0].startswith("SWS <= 6 mm cuts the front")
+    assert lines[1].startswith("frequency heave <= 1.2 Hz cuts the front: limits from")
+    assert lines[2].startswith("damping_ratio heave >= 0.1 does nothing: ")
+
+
+def test_bounds_and_limits_are_told_with_the_candidates_that_reach_them(within):
+    text = within.describe()[-1]
+    assert text.startswith("Active, by candidate: ")
+    parts = re.findall(r"(?:: |; )([^;(]+) \(([\d, ]+)\)", text)
+    assert ("at the limit SWS <= 8 mm", "1") in parts
+    assert "damper at its upper bound" in dict(parts)
+    for words, listed in parts:
+        rows = [n for n, active in within.table.active.items() if n and words in active.split("; ")]
+        assert rows == [int(one) for one in listed.split(", ")]
+
+
+def test_candidates_hold_the_least_of_the_grid_within_the_limit(within, grid):
+    inside = grid[grid[:, 1] <= 8e-3]
+    for j, header in enumerate(("ACC [m/s^2]", "SWS [m]", "DTL [N]")):
+        least = within.table[header][1:].min()
+        assert least <= inside[:, j].min() * (1 + 1e-4)  # where descents end
+        assert least == pytest.approx(inside[:, j].min(), rel=2e-3)
+
+
+def test_a_catalogue_is_searched_too():
+    problem = problem_of("SWS <= 8mm", kinds={"spring": (12e3, 18e3, 24e3), "damper": "log"})
+    found = Decision.of(problem, Nsga2(population=60), **SEARCH)
+    assert {*found.table["spring [N/m]"]} <= {12e3, 18e3, 24e3}
+    assert found.free is not found.run
+    assert found.describe()[0].startswith("SWS <= 8 mm cuts the front")
+
+
+def test_limits_of_several_load_cases_are_of_the_worst_and_the_present_design_may_be_beyond_them():
+    first = problem_of("SWS <= 8mm")
+    rough = replace(first.cases[0], road=Iso8608Road("C"), share=0.5)
+    several = first.replace(cases=[first.cases[0], rough])
+    present = {"spring": 20e3, "damper": 700.0}
+    found = Decision.of(several, Nsga2(population=40), iterations=5, seed=1, present=present)
+    told = found.describe()
+    assert told[0].endswith(" mm are possible in the worst load case.")
+    assert "present design: beyond the limit SWS <= 8 mm" in told[-1]
+    worst = several.replace(worst_case=True).evaluate(found.free.designs[found.free.on_front()])[:, 1]
+    assert numbers(told[0])[1:] == pytest.approx([1e3 * worst.min(), 1e3 * worst.max()], rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "limit", [Limit("SWS", 0.02), Limit("roll_damping", minimum=0.2), Limit("roll_damping", minimum=0.0)]
+)
+def test_a_measure_is_found_again_from_its_constraint(limit):
+    value = np.array([0.013, 0.2, 0.4])
+    np.testing.assert_allclose(measured(limit, limit.scale * value + limit.offset), value, rtol=1e-12)

@@ -1,0 +1,53 @@
+"""Figures of a decision: points where the tables have them, in mm and kN, numbers and labels of all parts."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from suspension_ctrl.desk.figures import changes_figure, front_figure
+
+HEADERS = ["SWS [m]", "ACC [m/s^2]", "DTL [N]"]
+FRONT = pd.DataFrame({"SWS [m]": [0.004, 0.006], "ACC [m/s^2]": [1.0, 0.6], "DTL [N]": [500.0, 450.0]})
+FREE = pd.DataFrame({"SWS [m]": [0.004, 0.012], "ACC [m/s^2]": [1.0, 0.4], "DTL [N]": [500.0, 800.0]})
+TABLE = pd.DataFrame(
+    {
+        "name": ["present design", "least ACC", "least $SWS$"],
+        "SWS [m]": [0.007, 0.006, 0.004], "ACC [m/s^2]": [0.7, 0.6, 1.0], "DTL [N]": [470.0, 450.0, 500.0],
+        "ACC change [%]": [0.0, -14.3, 42.9], "SWS change [%]": [0.0, -14.3, -42.9],
+    }
+)  # fmt: skip
+
+
+def test_the_front_is_drawn_in_mm_and_kn_with_candidates_by_number():
+    figure = front_figure(FRONT, FREE, TABLE, HEADERS, {"SWS [m]": 0.008, "DTL [N]": 600.0}, "My $car$")
+    first, second = figure.axes
+    assert (first.get_xlabel(), first.get_ylabel(), second.get_ylabel()) == ("SWS [mm]", "ACC [m/s²]", "DTL [kN]")
+    lines = {line.get_label(): line for line in second.lines}
+    np.testing.assert_allclose(lines["front within limits"].get_xydata(), [[4.0, 0.5], [6.0, 0.45]])
+    np.testing.assert_allclose(lines["front without limits"].get_xydata(), [[4.0, 0.5], [12.0, 0.8]])
+    np.testing.assert_allclose(lines["candidates"].get_xydata(), [[6.0, 0.45], [4.0, 0.5]])
+    np.testing.assert_allclose(lines["present design"].get_xydata(), [[7.0, 0.47]])
+    at = [line.get_xydata().tolist() for line in second.lines if line.get_label() == "limit"]
+    assert at == [[[8.0, 0.0], [8.0, 1.0]], [[0.0, 0.6], [1.0, 0.6]]]
+    assert {text.get_text(): tuple(text.xy) for text in first.texts} == {"1": (6.0, 0.6), "2": (4.0, 1.0)}
+    texts = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert texts == ["front without limits", "front within limits", "limit", "candidates", "present design"]
+    assert figure.legends[0].get_title().get_text() == r"My \$car\$"
+
+
+def test_without_limits_and_present_design_there_are_only_front_and_candidates():
+    figure = front_figure(FRONT, pd.DataFrame(), TABLE.iloc[1:], HEADERS[:2], {}, "")
+    (ax,) = figure.axes
+    assert [line.get_label() for line in ax.lines] == ["front", "candidates"]
+
+
+def test_bars_show_changes_by_candidate_with_the_direction_of_better():
+    figure = changes_figure(TABLE, ["ACC", "SWS"], "")
+    first, second = figure.axes
+    assert [bar.get_width() for bar in first.patches] == pytest.approx([-14.3, 42.9])
+    assert [text.get_text() for text in second.texts] == ["-14", "-43"]
+    assert [one.get_text() for one in first.get_yticklabels()] == ["1 least ACC", r"2 least \$SWS\$"]
+    assert first.get_xlabel() == "change of ACC, less is better [%]"
+    better, worse = (bar.get_facecolor() for bar in first.patches)
+    assert better != worse
+    assert second.patches[0].get_facecolor() == better
