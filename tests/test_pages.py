@@ -69,6 +69,8 @@ def test_a_program_prints_what_stands_there(name, tmp_path, monkeypatch):
 @pytest.mark.parametrize("command", commands())
 def test_a_command_runs(command, called, tmp_path):
     sc.save_profile(tmp_path / "survey.csv", sc.Iso8608Road("B").profile(200.0, 0.1, 1))
+    (tmp_path / "optimum").mkdir()
+    sc.save_vehicle(tmp_path / "optimum" / "design.toml", sc.load_vehicle("yuen_ramli_2010"))
     _, short = command.split(" ", 1)
     for pattern, replacement in SHORT.items():
         short = re.sub(pattern, replacement, short)
