@@ -67,7 +67,7 @@ def test_one_or_two_channels_without_names_are_height_or_left_and_right(tmp_path
 @pytest.mark.parametrize("order", "<>")
 def test_a_level_road_with_a_bump_has_the_byte_order_of_the_bump(tmp_path, order):
     """Zeros are the same in both; samples beyond those of the header do not count."""
-    values = np.zeros((512, 1))
+    values = np.full((512, 1), -0.0)
     values[200:230, 0] = 0.05 * np.hanning(30)
     path = write_erd(tmp_path / "r.erd", values, 0.1, 1, order, 500, SHORTNAM=["Elev."], UNITSNAM=["m"])
     np.testing.assert_array_equal(load_profile(path).height, values[:500].astype(np.float32))
@@ -77,7 +77,10 @@ def test_names_go_on_in_a_second_line_and_short_ones_come_first(tmp_path):
     """Eight names of eight characters fill a line; units likewise."""
     others = [f"Temp{i}" for i in range(8)]
     values = np.column_stack([np.full((512, 8), 20.0), PROFILE.height])
-    names = {"SHORTNAM": [*others, "LElev.", "RElev."], "LONGNAME": ["Right Elevation", "Left Elevation"]}
+    names = {
+        "SHORTNAM": [*others, "LElev.", "RElev."],
+        "LONGNAME": ["T"] * 8 + ["Right Elevation", "Left Elevation"],
+    }
     path = write_erd(tmp_path / "r.erd", values, 0.1, UNITSNAM=[*["C"] * 8, "m", "m"], **names)
     np.testing.assert_allclose(load_profile(path, track_width=1.5).height, PROFILE.height, rtol=1e-9, atol=1e-12)
 
