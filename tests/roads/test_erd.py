@@ -82,7 +82,9 @@ def test_names_go_on_in_a_second_line_and_short_ones_come_first(tmp_path):
         "LONGNAME": ["T"] * 8 + ["Right Elevation", "Left Elevation"],
     }
     path = write_erd(tmp_path / "r.erd", values, 0.1, UNITSNAM=[*["C"] * 8, "m", "m"], **names)
-    np.testing.assert_allclose(load_profile(path, track_width=1.5).height, PROFILE.height, rtol=1e-9, atol=1e-12)
+    found = load_profile(path, track_width=1.5)
+    assert found.tracks == (0.75, -0.75)
+    np.testing.assert_allclose(found.height, PROFILE.height, rtol=1e-9, atol=1e-12)
 
 
 @pytest.mark.parametrize(
