@@ -204,3 +204,17 @@ def test_the_candidates_and_the_picked_design_are_of_the_front(ran, printed):
     assert names["best"]["ACC [m/s^2]"] == inside["ACC [m/s^2]"].min() < own["ACC [m/s^2]"]
     assert "SWS <= 8 mm" in printed(16)
     assert len(problem.constraints) == 1
+
+
+def test_every_file_of_a_design_is_that_design(ran):
+    """Least discomfort by SLSQP is below every design of a grid within the limit."""
+    names = ran(17)[1]
+    problem, best = names["problem"], names["best"]
+    assert names["ride"]["ACC"] == pytest.approx(best["ACC"], rel=1e-6)
+    assert {one["name"]: one["value"] for one in names["numbers"]["measures"]}["DTL"] == pytest.approx(best["DTL"])
+    closed = names["car"].vehicle.closed(names["design"])
+    assert names["gain"] == pytest.approx(abs(closed["body_acceleration", "front_road"](3j * np.pi)), rel=1e-12)
+    axes = np.meshgrid(*(np.linspace(*bounds, 9) for bounds in problem.bounds.values()))
+    values = problem.evaluate(np.reshape(axes, (len(axes), -1)).T)
+    assert best["ACC"] <= values[values[:, 3] <= 0, 0].min()
+    assert best["SWS"] <= 0.025 * (1 + 1e-6)

@@ -8,7 +8,7 @@ from suspension_ctrl import load_road, load_vehicle, ride, save_system
 
 FILES = {
     *("candidates.csv", "candidates.md", "front.csv", "front.png", "front.pdf", "changes.png", "changes.pdf"),
-    "study.toml",
+    *("study.toml", "candidates"),
 }  # fmt: skip
 QUICK = ("--population", 60, "--iterations", 5)
 OBJECTIVES = ["ACC [m/s^2]", "SWS [m]", "DTL [N]"]
@@ -75,6 +75,8 @@ def test_candidates_of_another_vehicle(called, tmp_path):
         ]
         np.testing.assert_allclose(table.loc[number, OBJECTIVES].tolist(), expected, rtol=1e-6)
     assert table.loc[0, names].tolist() == [file.vehicle.coefficients(file.setting)[name] for name in file.bounds]
+    knee = load_vehicle(next((folder / "candidates").glob("3_*.toml")))
+    assert [knee.setting[name] for name in file.bounds] == table.loc[3, names].tolist()
     front = pd.read_csv(folder / "front.csv")
     assert (front["SWS [m]"] <= 0.01 * (1 + 1e-6)).all()
     page = (folder / "candidates.md").read_text(encoding="utf-8")

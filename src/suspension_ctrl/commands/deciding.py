@@ -12,6 +12,7 @@ from ..desk import figures
 from ..desk.candidate_table import PRESENT
 from ..desk.candidate_texts import decimals_of, markdown, parts_of
 from ..desk.decision import Decision
+from ..desk.exporting import save_candidates
 from ..desk.study_files import StudyFile
 from ..paper import experiment as paper
 from ..paper.optimum import TRAVEL, table5
@@ -81,6 +82,7 @@ def carry_out(request: Request, out: Path | None) -> None:
     parts = parts_of(study.problem, decision.table)
     write_csv(folder / "candidates.csv", decision.table.reset_index())
     write_text(folder / "candidates.md", markdown(study.name, parts, said))
+    save_candidates(study.problem, decision.table, folder / "candidates", study.name)
     write_csv(folder / "front.csv", decision.run.front())
     with terminal.waiting("drawing"):
         draw(folder, decision, study.name)

@@ -21,8 +21,8 @@ def optimum(
 
     Prints candidates along the front: the least of each measure, knee, compromise and others between them, with
     changes against the present design, modes and travel; and what limits and bounds do. Of the paper's problem
-    Table 5 too. Writes candidates (CSV, Markdown), front.csv, front and changes (PNG, PDF) to a folder; its path
-    is the last line printed.
+    Table 5 too. Writes candidates (CSV, Markdown, a folder of vehicle files), front.csv, front and changes (PNG,
+    PDF) to a folder; its path is the last line printed.
     """
     from ..desk.study_files import SearchSettings
     from . import deciding, studies
