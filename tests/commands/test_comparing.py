@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 
 from suspension_ctrl import Iso8608Road, RideProblem, escaping, load_vehicle, save_system
+from suspension_ctrl.commands import reports
 from suspension_ctrl.commands.studies import chosen_study
 
 TINY = ("--populations", "20,25", "--iterations", 2, "--repeats", 1)
@@ -186,3 +187,14 @@ def test_compare_on_a_problem_of_a_plant_of_another_program(called, tmp_path):
         front = pd.read_csv(tmp_path / "out" / "fronts" / f"{algorithm}_n20_i2_r1.csv")
         wanted = problem.evaluate(front[["spring [N/m]", "damper [N s/m]"]].to_numpy())
         np.testing.assert_allclose(front[["ACC [m/s^2]", "DTL [N]"]], wanted, rtol=1e-9)
+
+
+def test_an_interrupted_comparison_says_what_is_kept(called, tmp_path, monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(reports, "write_times", interrupted)
+    done = called("compare", "--vehicle", "minaker_half", *TINY, "--out", "out")
+    assert done.returncode == 130
+    kept = done.stderr.splitlines()[-1]
+    assert re.fullmatch(r"(\d+) of \1 runs are kept in out; go on with --out out", kept)
