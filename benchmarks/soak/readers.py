@@ -23,6 +23,7 @@ from suspension_ctrl import (
     exposure_by_axis,
     international_roughness_index,
     load_property,
+    load_study,
     load_system,
     load_vehicle,
     save_property,
@@ -81,6 +82,7 @@ def readers() -> dict[str, Reader]:
 def _documents() -> dict[str, Reader]:
     """Return readers of TOML files."""
     vehicles, roads, studies = map(_shipped, ("vehicles", "roads", "studies"))
+    templates = _shipped("templates")
     bodies = tuple(text for text in vehicles if b'kind = "rigid-bodies"' in text)
     measured = b'kind = "measured"\nfile = "good.csv"\n[coherence]\nkind = "constant"\nvalue = 0.5\n'
     return {
@@ -88,6 +90,7 @@ def _documents() -> dict[str, Reader]:
         "vehicle of rigid bodies": Reader(load_vehicle, ".toml", bodies),
         "road": Reader(load_road, ".toml", (*roads, measured)),
         "problem": Reader(load_problem, ".toml", studies),
+        "study": Reader(load_study, ".toml", (*templates, *studies)),
     }
 
 

@@ -197,8 +197,10 @@ OF = {
         (["--vehicle", "minaker_half", "--designs", "road.csv"], "columns must include 'front.spring [N/m]'", 2),
     ],
     "ride": [
-        (["--speed", "1e300"], "numbers must be of moderate size, got Numerical result out of range", 2),
-        (["--band", "0,1e300"], "numbers must be of moderate size, got overflow encountered in multiply", 2),
+        (["--speed", "1e300 m/s"], "numbers must be of moderate size, got Numerical result out of range", 2),
+        (["--band", "0,1e300 Hz"], "numbers must be of moderate size, got overflow encountered in multiply", 2),
+        (["--speed", "100"], "must be 0.05 to 99 m/s, or typed with its unit, got 100: 100 km/h?", 2),
+        (["--band", "0,1500"], "band must be 0.05 to 1000 Hz, or typed with its unit, got 1500: 1500 1/min?", 2),
         (["--vehicle", "\x1b[31m.toml"], r"No such file or directory: '\x1b[31m.toml'", 1),
         (["--setting", "spring"], "setting must be like front.spring=10kN/m,front.damper=2000, got 'spring'", 2),
         (["--setting", "spring=soft"], "setting spring must be a number with a unit like N/m, got 'soft'", 2),

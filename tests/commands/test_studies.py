@@ -97,6 +97,34 @@ def test_settings_of_searches_are_of_options_then_the_file_then_the_command(tmp_
     )
 
 
+def test_the_study_of_a_comparison_makes_the_same_fronts_bit_for_bit(called, tmp_path):
+    """A car from a file, a measured road and other options, then their resolved study alone."""
+    (tmp_path / "car.toml").write_text(CAR.replace("[1e4, 3e4]", "[1e4, 3e4]\ndamper_N_s_per_m = [500, 5e3]"))
+    (tmp_path / "road.csv").write_text("wavenumber [cycle/m],psd [m^3]\n0.02,1e-3\n0.1,1e-4\n1,1e-6\n")
+    options = ("--vehicle", "car.toml", "--road", "road.csv", "--speed", "85 km/h", "--weighting", "Wb")
+    sizes = (
+        "--populations",
+        20,
+        "--iterations",
+        2,
+        "--repeats",
+        2,
+        "--seed",
+        3,
+        "--algorithms",
+        "nsga2,moead-dra",
+    )
+    first = called("compare", *options, *sizes, "--out", "one")
+    assert first.returncode == 0, first.stderr
+    again = called("compare", "--study", "one/study.toml", "--reference", "front.csv", "--out", "two")
+    assert again.returncode == 0, again.stderr
+    fronts = sorted((tmp_path / "one" / "fronts").iterdir())
+    assert len(fronts) == 6
+    for front in fronts:
+        assert front.read_bytes() == (tmp_path / "two" / "fronts" / front.name).read_bytes()
+    assert (tmp_path / "one/study.toml").read_bytes() == (tmp_path / "two/study.toml").read_bytes()
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [

@@ -1,4 +1,4 @@
-"""The commands `suspension-ctrl compare|optimum|bode|weighting|ride|exposure|road` (extra `cli`)."""
+"""The commands `suspension-ctrl compare|optimum|new|bode|weighting|ride|exposure|road` (extra `cli`)."""
 
 import sys
 from typing import NoReturn

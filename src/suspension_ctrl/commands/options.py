@@ -47,11 +47,24 @@ def by_name(name: str, text: str, units: Mapping[str, str]) -> dict[str, float]:
 
 def band(text: str) -> tuple[float, float]:
     """Return the band [Hz] of a text such as ``0.5,20``, ``0.5Hz..20Hz`` or ``0.5Hz..`` (up to 20 Hz)."""
+    from ..schema.usual import check_bare
+
     if ".." in text:
         low, _, high = text.partition("..")
         text = f"{low.strip() or 0},{high.strip() or 20}"
     lower, upper = numbers("band", text, ("Hz", "Hz"))
+    if is_bare(text.partition(",")[2]):
+        check_bare("band", upper, "Hz")
     return lower, upper
+
+
+def is_bare(text: str) -> bool:
+    """Whether a text is a number without a unit."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def lengths(name: str, text: str) -> tuple[float, ...]:
@@ -70,14 +83,18 @@ def settings(weighting: str | None, frequencies: str | None) -> dict[str, Any]:
     return given if frequencies is None else given | {"band": band(frequencies)}
 
 
-def in_unit(unit: str) -> Callable[[str], float]:
-    """Return the parser of a number in this unit, bare or with a unit of the same dimension."""
+def in_unit(unit: str, usual: bool = False) -> Callable[[str], float]:
+    """Return the parser of a number in this unit, bare, perhaps only of `usual` size, or with a unit like it."""
 
     def parse(text: str) -> float:
         from ..quantities import quantity
+        from ..schema.usual import check_bare
 
         try:
-            return quantity("", str(text), unit)  # str: a default is a number
+            number = quantity("", str(text), unit)  # str: a default is a number
+            if usual and is_bare(str(text)):
+                check_bare("", number, unit)
+            return number
         except ValueError as error:
             raise BadParameter(str(error).strip()) from None
 
@@ -91,8 +108,8 @@ def _option(metavar: str | None, text: str, *name: str, parser: Callable[[str], 
 _whole = partial(_option, "NUMBER", parser=whole_number)
 
 
-def _real(text: str, unit: str = "") -> Any:
-    return _option("NUMBER", text, parser=in_unit(unit))
+def _real(text: str, unit: str = "", usual: bool = False) -> Any:
+    return _option("NUMBER", text, parser=in_unit(unit, usual))
 
 
 _ELSE = "the study's, else"
@@ -108,7 +125,7 @@ AllowOutside = Annotated[
     bool,
     _option(None, "Let TOML files of vehicles and roads name files outside their folders.", "--allow-outside"),
 ]
-Speed = Annotated[Real, _real("Speed [m/s], or with a unit: 72km/h.  [default: the study's]", "m/s")]
+Speed = Annotated[Real, _real("Speed [m/s], or with a unit: 72km/h.  [default: the study's]", "m/s", True)]
 Band = Annotated[Text, _option("LOW,HIGH", "Frequencies [Hz]: 0.5,20 or 0.5Hz..  [default: the study's]")]
 ProfileFile = Annotated[Path, Argument(metavar="FILE", help="Profile: .csv, .txt, .erd, .crg, ...")]
 Columns = Annotated[Text, _option("NAME,...", "Names of all columns: 'distance [ft],left [in],right [in]'.")]
@@ -128,7 +145,7 @@ Design = Annotated[Texts, _option("NUMBER,...", "Spring [N/m], damper [N s/m]: 2
 Designs = Annotated[File, _option("FILE", "CSV of designs with columns 'spring [N/m]', 'damper [N s/m]'.")]
 Response = Annotated[Texts, _option("NAME", "Response to draw, e.g. pitch_acceleration. Repeatable.")]
 Points = Annotated[int, _whole("Frequencies on each curve.")]
-SwsLimit = Annotated[Real, _real("Most suspension working space [m], or with a unit: 12mm.", "m")]
+SwsLimit = Annotated[Real, _real("Most suspension working space [m], or with a unit: 12mm.", "m", True)]
 Population = Annotated[Whole, _whole(f"Population of MOEA/D-DRA.  [default: {_ELSE} 4000]")]
 Generations = Annotated[Whole, _whole(f"Iterations of MOEA/D-DRA.  [default: {_ELSE} 25]", "--iterations")]
 Study = Annotated[Text, _option("FILE", "TOML file of a study, or name of one in the package.  [default: paper]")]
@@ -157,5 +174,7 @@ Step = Annotated[Real, _real("Time step [s] of a file without times, or with a u
 Duration = Annotated[Real, _real("Time of exposure in a day [s], or with a unit: 4h.  [default: 8h]", "s")]
 Settling = Annotated[Real, _real("Time [s] at the start in which filters settle, not counted.  [default: 0]", "s")]
 Certify = Annotated[Real, _real("Drive 8 random roads of this length [m] in time, or with a unit: 2km.", "m")]
+Kind = Annotated[str, Argument(metavar="KIND", help="quarter-car, half-car, full-car or multibody.")]
+NewFile = Annotated[Path, _option("FILE", "File to write, absent.", "--out")]
 Out = Annotated[File, _option("FOLDER", "Folder for the results, absent or empty.  [default: a new one]")]
 Resumed = Annotated[File, _option("FOLDER", "Folder: absent, empty, or of the same command, to resume it.")]

@@ -13,6 +13,7 @@ from ..quantities import unit
 from ..roads.files import KINDS as ROADS
 from ..schema.keys import BAD, Key, bad, keys_of
 from ..schema.reading import read
+from ..schema.usual import check_bare, is_usual
 from ..schema.writing import content, toml
 from ..tables import write_text
 from ..vehicles.files import VehicleFile, coefficient_table, read_coefficients, vehicle_table
@@ -27,7 +28,7 @@ from .bands import BAND, OwnBand
 from .case_files import FROM_TOP, CaseDocument, filled, given_at, read_cases
 from .event_files import IN_FILES
 from .load_case import Drive, LoadCase
-from .measures.limits import Limit
+from .measures.limits import Limit, has_unit
 from .measures.measure import Measure
 from .problem import RideProblem
 from .scores import NODES
@@ -55,6 +56,8 @@ class Document:
         Frequencies over which the spectra are integrated [Hz]; 0 to 20 Hz, of measured roads as far as known.
     worst_case : bool
         Whether an objective is the worst load case, in place of the mean square over them.
+    unusual : bool
+        Whether speeds, limits, bands and vehicles may be of no usual size: units are not judged by it.
     nodes : int
         Quadrature nodes; found if not given.
     bounds : table
@@ -79,6 +82,7 @@ class Document:
     weighting: str = "Wk"
     band: tuple[float, float] | None = field(default=None, metadata=unit("Hz"))
     worst_case: bool = False
+    unusual: bool = False
     nodes: int | None = field(default=None, metadata=unit("", 2, NODES[-1]))
     vehicle: str | Mapping[str, Any] = ""
     road: str | Mapping[str, Any] = ""
@@ -187,6 +191,7 @@ def problem_table(problem: RideProblem, path: Path) -> dict[str, Any]:
         weighting=weighting,
         band=None if isinstance(problem.band, OwnBand) else problem.band,
         worst_case=problem.worst_case,
+        unusual=not _of_usual_size(problem),
         nodes=problem.nodes if type(problem.nodes) is int else None,  # those that were found are of a subclass
         bounds=coefficient_table(vehicle, bounds),
         kinds=coefficient_table(vehicle, problem.kinds),
@@ -194,6 +199,13 @@ def problem_table(problem: RideProblem, path: Path) -> dict[str, Any]:
         events=dict(problem.cases[0].events),
     )
     return _with_cases(content(file), [content(one) for one in _case_documents(problem.cases, path)])
+
+
+def _of_usual_size(problem: RideProblem) -> bool:
+    """Whether a file may hold the speeds, the band and the limits of a problem without their units."""
+    sizes = [(case.speed, "m/s") for case in problem.cases] + [(problem.band[1], "Hz")]
+    sizes += [(one.value, one.measure.unit) for one in problem.constraints]
+    return all(is_usual(*size) for size in sizes)
 
 
 def _with_cases(table: dict[str, Any], cases: list[dict[str, Any]]) -> dict[str, Any]:
@@ -245,13 +257,15 @@ def read_problem(table: Table, mistakes: Mistakes) -> Content:
     if values.get("cases") in (BAD, ()) or values.get("seats") is BAD:
         return Content({}, [], BAD, BAD, False, title, present, search)
     given, events = read_cases(table, values, mistakes), values.get("events", {})
+    unusual = values.get("unusual") is True or any(one.file.unusual for one in given if one)
+    if not unusual:
+        _check_sizes(table, values, mistakes)
     values = {name: value for name, value in values.items() if name in _OF_PROBLEM and not bad(value)}
     cases = [replace(one.case, events={} if bad(events) else events) for one in filter(None, given) if one.case]
-    _check(values, cases, mistakes)
+    _check(values, cases, unusual, mistakes)
     first = given[0]
     if first:
         values |= _coefficients(values, first.file, cases[0] if first.case else None, mistakes)
-    unusual = any(one.file.unusual for one in given if one)
     vehicle = first.case.vehicle if first and first.case else BAD
     return Content(values, cases, first.file if first else BAD, vehicle, unusual, title, present, search)
 
@@ -271,7 +285,7 @@ def _keys(table: Table) -> dict[str, Key]:
     return keys
 
 
-def _check(values: Mapping[str, Any], cases: Sequence[LoadCase], mistakes: Mistakes) -> None:
+def _check(values: Mapping[str, Any], cases: Sequence[LoadCase], unusual: bool, mistakes: Mistakes) -> None:
     """Note mistakes in band, weighting, measures and limits."""
     with mistakes.noted():
         checks.interval("band_Hz", values.get("band", BAND), "Hz")
@@ -285,6 +299,23 @@ def _check(values: Mapping[str, Any], cases: Sequence[LoadCase], mistakes: Mista
                     measures += [judged] if isinstance(judged, Measure) else []
                     for case in cases:
                         judged.in_case(case, weighting)
+                    if isinstance(judged, Limit) and not (has_unit(text) or unusual):
+                        check_bare(f"limit of {judged.measure.label}", judged.value, judged.measure.unit)
+
+
+def _check_sizes(table: Table, values: Mapping[str, Any], mistakes: Mistakes) -> None:
+    """Note numbers without a unit in their text that are of no usual size: speeds, the band, limits."""
+    cases = [{} if bad(one) else {"speed": one.speed} for one in values.get("cases", ())]
+    tables = [("", table.content, values)]
+    raw = zip(table.content.get("cases", ()), cases, strict=True)
+    tables += [(f"cases[{i}].", own, one) for i, (own, one) in enumerate(raw, start=1)]
+    for name, own, read_values in tables:
+        if "speed_m_per_s" in own and not bad(read_values.get("speed", BAD)):
+            with mistakes.noted():
+                check_bare(f"{name}speed_m_per_s", read_values["speed"], "m/s")
+    if "band_Hz" in table.content and not bad(values.get("band", BAD)):
+        with mistakes.noted():
+            check_bare("band_Hz", values["band"][1], "Hz")
 
 
 def _coefficients(

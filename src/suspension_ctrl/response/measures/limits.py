@@ -103,6 +103,12 @@ class Limit(Record):
         return cls(measure, **{"maximum" if found[2] == "<=" else "minimum": value})
 
 
+def has_unit(text: str) -> bool:
+    """Whether the number in the text of a limit has a unit."""
+    found = _LIMIT.fullmatch(text)
+    return bool(found and found[4].strip())
+
+
 def _value(measure: Measure, number: str, unit: str) -> float:
     """Return a number in the unit of a measure; ValueError if its unit is another."""
     if unit in ("", measure.unit):
