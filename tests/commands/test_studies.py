@@ -114,7 +114,8 @@ def test_the_study_of_a_comparison_makes_the_same_fronts_bit_for_bit(called, tmp
         "--algorithms",
         "nsga2,moead-dra",
     )
-    first = called("compare", *options, *sizes, "--out", "one")
+    (tmp_path / "front.csv").write_text("ACC [m/s^2],SWS [m],DTL [N]\n0.5,0.02,500\n2,0.005,900\n")
+    first = called("compare", *options, *sizes, "--reference", "front.csv", "--out", "one")
     assert first.returncode == 0, first.stderr
     again = called("compare", "--study", "one/study.toml", "--reference", "front.csv", "--out", "two")
     assert again.returncode == 0, again.stderr
