@@ -310,7 +310,7 @@ def _check_sizes(table: Table, values: Mapping[str, Any], mistakes: Mistakes) ->
     raw = zip(table.content.get("cases", ()), cases, strict=True)
     tables += [(f"cases[{i}].", own, one) for i, (own, one) in enumerate(raw, start=1)]
     for name, own, read_values in tables:
-        if "speed_m_per_s" in own and not bad(read_values.get("speed", BAD)):
+        if isinstance(own, dict) and "speed_m_per_s" in own and not bad(read_values.get("speed", BAD)):
             with mistakes.noted():
                 check_bare(f"{name}speed_m_per_s", read_values["speed"], "m/s")
     if "band_Hz" in table.content and not bad(values.get("band", BAD)):
