@@ -94,7 +94,7 @@ FILES: dict[str, dict[str, Spoil]] = {
     "quality/final/*sobol*.csv": ANY | TABLE,
     "timed/runs/*nsga2*.csv": ANY | TABLE,
     "quality/records/*.json": ANY | RECORD,
-    "reference/final/grid.csv": ANY | {name: spoil for name, spoil in TABLE.items() if spoil is not _swapped},
+    "reference/final/front.csv": ANY | {name: spoil for name, spoil in TABLE.items() if spoil is not _swapped},
     "quality/plan.json": ANY | PLAN,
 }
 

@@ -7,18 +7,19 @@ import pytest
 import engineering
 import real_world
 from engineering import fronts
+from suspension_ctrl.commands import terminal
 
 SIZES = {"population": 40, "evaluations": 200}
 
 
-def test_hypervolumes_by_problem_and_algorithm(tmp_path, capsys):
+def test_hypervolumes_by_problem_and_algorithm(tmp_path):
     real_world.fronts(problems="RE24,CRE23", seeds=2, **SIZES, out=tmp_path / "results")
     runs = pd.read_csv(tmp_path / "results/runs.csv")
     assert len(runs) == 2 * 3 * 2
     assert (runs.population <= runs.archive).all()
     shown = pd.read_csv(tmp_path / "results/fronts.csv", index_col=["problem", "algorithm"])
     assert shown.archive["CRE23", "nsga2"] > shown.archive["CRE23", "random"] > 0
-    assert capsys.readouterr().out.splitlines()[-1] == str(tmp_path / "results")
+    assert terminal.report.folder == tmp_path / "results"
 
 
 @pytest.mark.filterwarnings("ignore")  # pymoo's, of its own future

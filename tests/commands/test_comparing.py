@@ -46,7 +46,7 @@ def test_compare_on_another_vehicle(called, tmp_path):
     assert "Case 1, share 1: ISO 8608 class C, geometric mean" in done.stdout
     assert "20 m/s" in done.stdout
     said = " ".join(done.stdout.split())
-    assert "The reference front is of all timed runs (no grid within 20,000,000 designs and 120 s has" in said
+    assert "The reference front is of all timed runs (no grid within 20,000,000 designs and 60 s has" in said
     front = pd.read_csv(out / "fronts" / "nsga2_n25_i2_r1.csv")
     assert list(front.columns) == [*VARIABLES, "ACC [m/s^2]", "SWS [m]", "DTL [N]"]
     problem = chosen_study(vehicle="jian_2022_full", road="C", speed=20.0).problem

@@ -75,7 +75,7 @@ def test_where_no_grid_settles_the_front_is_of_the_runs_and_the_finest_grid():
     np.testing.assert_allclose(points, np.insert(line, 100, [0.5, 0.4], axis=0), atol=1e-12)
     half, lost = 0.5 / 99, 0.5 / 199
     assert found.origin == (
-        "all timed runs and a 200 x 200 grid (no grid within 50,000 designs and 120 s settles to 1e-09: half as "
+        "all timed runs and a 200 x 200 grid (no grid within 50,000 designs and 60 s settles to 1e-09: half as "
         f"many values change its hypervolume by {(half - lost) / (0.71 - lost):.1e})"
     )
 
@@ -84,7 +84,7 @@ def test_without_a_grid_the_front_is_of_the_runs():
     runs = [np.array([[0, 1.0], [0.5, 0.5]]), np.array([[1.0, 0]])]
     found = references.sought(Line().problem(), runs, most=9_999)
     assert found.front.objectives.tolist() == [[0, 1], [0.5, 0.5], [1, 0]]
-    assert found.origin == "all timed runs (no grid within 9,999 designs and 120 s has a front)"
+    assert found.origin == "all timed runs (no grid within 9,999 designs and 60 s has a front)"
 
 
 @pytest.mark.parametrize("runs", [[], [np.empty((0, 2))], [np.array([[0.5, 0.5], [0.5, 0.6]])]])

@@ -32,7 +32,7 @@ def bode(
     points: o.Points = 800,
     out: o.Out = None,
 ) -> None:
-    """Draw Bode plots and spectra of responses: Figures 6 and 7.
+    """Draw Bode plots and spectra of responses of any vehicle.
 
     Without designs: the paper's reference car and its published optimum, or the struts of the vehicle. Under
     several wheels the Bode plot is of a road identical on all tracks, which the rear wheels meet later. Writes

@@ -6,9 +6,10 @@ KINDS = ("quarter-car", "half-car", "full-car", "multibody")
 
 
 def new(kind: o.Kind, out: o.NewFile) -> None:
-    """Write a commented study of one kind of vehicle, to be changed and run.
+    """Write a commented study of one kind of vehicle.
 
-    Kinds are quarter-car, half-car, full-car and multibody. A file that exists is not written over.
+    It runs as it is and is there to be changed. Kinds are quarter-car, half-car, full-car and multibody. A file
+    that exists is not written over.
     """
     from .. import checks, datafiles
     from ..tables import write_bytes

@@ -24,6 +24,12 @@ def end_in_order() -> None:
     sys.unraisablehook = _unraisable
 
 
+def check() -> None:
+    """Raise KeyboardInterrupt after a signal: a library may have made another error of the interrupt."""
+    if _received:
+        raise KeyboardInterrupt
+
+
 def ended() -> tuple[str, int] | None:
     """Return word and exit status of a signal received since `end_in_order`; further signals print nothing."""
     _handle(lambda number, _frame: os._exit(128 + number))

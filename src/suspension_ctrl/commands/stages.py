@@ -7,7 +7,7 @@ from time import perf_counter
 from typing import TypeVar
 
 from .. import escaping
-from . import terminal
+from . import signals, terminal
 
 T = TypeVar("T")
 
@@ -16,6 +16,7 @@ def counted(items: Iterable[T], total: int, text: str, found: int = 0) -> Iterat
     """Yield the missing `items` of a total with `terminal.progress`; then say the stage and what was found."""
     start, done = perf_counter(), found
     for item in terminal.progress(items, total - found, text):
+        signals.check()
         done += 1
         yield item
     say(f"{text}, {done} of {total} in {duration(perf_counter() - start)}{f', {found} found' if found else ''}")

@@ -27,8 +27,14 @@ class Output(Console):
     def on_broken_pipe(self) -> None:
         """Print nothing more."""
         self.quiet = True
-        if self.file is sys.__stdout__:  # else its rest would raise at the end of the process
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.__stdout__.fileno())
+        if self.file is sys.__stdout__:
+            _drop_output()
+
+
+def _drop_output() -> None:
+    """Send the rest of standard output nowhere: at the end of the process it would raise once more."""
+    if sys.__stdout__ is not None:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.__stdout__.fileno())
 
 
 PIPE = 80
@@ -60,6 +66,10 @@ def run(app: typer.Typer, *before: str, name: str | None = None) -> NoReturn:
         say(ended=True)
     except BaseException as error:
         result = signals.ended() or _ending(error)
+    try:
+        sys.stdout.flush()
+    except OSError:  # a full disk
+        _drop_output()
     message, status = signals.ended() or result
     for line in filter(None, message.split("\n")):
         complain(line)

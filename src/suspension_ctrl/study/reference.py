@@ -22,7 +22,7 @@ from .store import StoredRun
 TOLERANCE = 1e-4
 FIRST, MOST = 100, 20_000_000
 """Points per variable of the coarsest grid, and most designs of the finest."""
-SECONDS = 120.0
+SECONDS = 60.0
 """Longest time for the grids of a problem [s]."""
 FOLDER, NAME = "reference", "front"
 """Folder of the reference front in the folder of a comparison, and its name there."""
