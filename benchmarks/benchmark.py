@@ -47,6 +47,7 @@ SETTINGS: dict[str, Any] = {
     "compare": [],
     "import_repeats": 15,
     "cold_repeats": 5,
+    "cold_programs": tuple(cold_start.PROGRAMS),
 }
 QUICK = SETTINGS | {
     "repeats": 1,
@@ -66,6 +67,7 @@ QUICK = SETTINGS | {
     "compare": ["--quick"],
     "import_repeats": 1,
     "cold_repeats": 1,
+    "cold_programs": ("import", "evaluate", "MoeadDra"),
 }
 
 
@@ -114,7 +116,7 @@ def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summar
         process=kept(
             "process", process.measure(COMPARE, settings["compare"], repeats, settings["import_repeats"])
         ),
-        cold_start=kept("cold_start", cold_start.measure(settings["cold_repeats"])),
+        cold_start=kept("cold_start", cold_start.measure(settings["cold_repeats"], settings["cold_programs"])),
         errors=evaluation.errors(problem, settings["sample"], seed=0),
         memory=evaluation.memory(settings["memory_designs"], settings["nodes"]),
         evaluation=kept(

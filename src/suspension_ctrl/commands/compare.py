@@ -35,9 +35,9 @@ def compare(
     """Time NSGA-II against MOEA/D-DRA on any problem.
 
     The paper's has Tables 2 to 4 and Figure 5. With --quality the algorithms are also compared over many seeds, at
-    equal iterations, evaluations and time, with statistics and a verdict; these runs are not timed and can be spread
-    over processes and machines. Writes tables, figures, runs and fronts to a folder; its path is the last line
-    printed. An interrupted command resumes with the same --out.
+    equal iterations, evaluations and time, with statistics and a verdict; these runs are not timed and can be
+    spread over processes and machines. Writes tables, figures, runs and fronts to a folder; its path is the last
+    line printed. An interrupted command resumes with the same --out.
     """
     from ..study.workers import cluster
     from . import comparing
