@@ -1,4 +1,4 @@
-"""Mistakes of vehicle, road and problem files are a line each, five at once five; all else is read and written."""
+"""Mistakes of vehicle, road, problem and study files are a line each, five at once five; all else is read back."""
 
 import tomllib
 from collections.abc import Callable
@@ -34,7 +34,9 @@ from suspension_ctrl import (
 from suspension_ctrl.datafiles import path as data
 from suspension_ctrl.datafiles import stems
 
-READERS: dict[str, Callable] = {"vehicle": load_vehicle, "road": load_road, "problem": load_problem}
+READERS: dict[str, Callable] = {
+    "vehicle": load_vehicle, "road": load_road, "problem": load_problem, "study": load_study,
+}  # fmt: skip
 FILES = {
     "vehicle": data("vehicles/jian_2022_full.toml").read_text(),
     "road": """kind = "two-slope"
@@ -48,6 +50,32 @@ kind = "exponential"
 decay = 3.0
 """,
     "problem": data("studies/full_car.toml").read_text(),
+    "study": """title = "Mine"
+vehicle = "yuen_ramli_2010"
+road = "C"
+speed = "80 km/h"
+measures = ["ACC", "DTL"]
+constraints = ["SWS <= 12mm"]
+weighting = "Wk"
+band_Hz = [0.1, 20]
+
+[bounds]
+spring_N_per_m = [10e3, 60e3]
+damper = ["0.5 kN s/m", "5 kN s/m"]
+
+[present]
+spring_N_per_m = 25e3
+damper = "2 kN s/m"
+
+[search]
+algorithms = ["nsga2", "moead-dra"]
+populations = [40, 60]
+iterations = [3]
+repeats = 2
+seeds = 5
+seed = 0
+target = 0.9
+""",
 }
 TABLE = tomllib.loads(Path(__file__).with_name("mistakes.toml").read_text(encoding="utf-8"))
 MISTAKES = [(kind, *one.values()) for kind, listed in TABLE.items() for one in listed]
@@ -69,8 +97,9 @@ def test_a_mistake_is_one_line_with_file_line_key_value_and_what_is_allowed(tmp_
     assert said(tmp_path, kind, changed(FILES[kind], old, new)) == [message]
 
 
-def test_there_are_forty_of_all_kinds_of_files():
-    assert len(MISTAKES) >= 40
+def test_there_are_forty_of_studies_and_of_the_others():
+    assert len(TABLE["study"]) >= 40
+    assert len(MISTAKES) - len(TABLE["study"]) >= 40
     assert set(TABLE) == set(READERS)
 
 
@@ -91,6 +120,28 @@ def test_five_mistakes_at_once_are_five_lines(tmp_path, kind, places):
         text = changed(text, *MISTAKES[place][1:3])
     expected = [MISTAKES[place][3].partition(": ")[2] for place in places]  # lines move with the others
     assert sorted(line.partition(": ")[2] for line in said(tmp_path, kind, text)) == sorted(expected)
+
+
+def test_six_mistakes_of_a_study_are_six_lines(tmp_path):
+    """In the problem, the present design and the settings of searches."""
+    text = FILES["study"]
+    for old, new in (
+        ("80 km/h", "80"),
+        ('"DTL"', '"DLT"'),
+        ("[10e3, 60e3]", "[60e3, 10e3]"),
+        ('damper = "2 ', 'dampr = "2 '),
+        ("[40, 60]", "[3, 60]"),
+        ("SWS <= 12mm", "SWS < 12mm"),
+    ):
+        text = changed(text, old, new)
+    assert sorted(line.partition(" must")[0] for line in said(tmp_path, "study", text)) == [
+        ":11: bounds.spring_N_per_m",
+        ":16: present.dampr",
+        ":20: search.populations",
+        ":4: speed",
+        ":5: measures[2]: response",
+        ":6: constraints[1]: constraint",
+    ]
 
 
 def test_a_seat_that_cannot_be_read_hides_no_other_mistake(tmp_path):

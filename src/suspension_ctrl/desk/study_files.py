@@ -14,7 +14,7 @@ from ..response.problem import RideProblem
 from ..schema.keys import BAD, bad, keys_of
 from ..schema.reading import fields_named, read
 from ..schema.writing import toml
-from ..study.comparison import ALGORITHMS, Comparison
+from ..study.comparison import ALGORITHMS, Comparison, evaluations
 from ..tables import write_text
 from ..vehicles.files import coefficient_table, read_coefficients
 from ..vehicles.vehicle import Vehicle, coefficients_by_name
@@ -59,10 +59,13 @@ class SearchSettings(Record):
     def __post_init__(self) -> None:
         self._keep(**{name: tuple(getattr(self, name)) for name in ("algorithms", "populations", "iterations")})
         for name in ("algorithms", "populations", "iterations"):
-            if not getattr(self, name):
-                raise ValueError(f"{name} must be one at least, got none")
+            values = getattr(self, name)
+            if not values or len(set(values)) < len(values):
+                got = ", ".join(map(str, values)) or "none"
+                raise ValueError(f"{name} must be one at least and different, got {got}")
         for name in self.algorithms:
             checks.one_of("algorithms", name, ALGORITHMS)
+        checks.positive("target", self.target)
         checks.within("target", self.target, 0, 1)
 
     def comparison(self, problem: RideProblem) -> Comparison:
@@ -198,10 +201,13 @@ def _study(table: Table, default: SearchSettings, stem: str) -> StudyFile:
     found = read_problem(table, mistakes)
     search = _search(Table("search.", found.search), default, mistakes)
     present = _present(found, mistakes)
+    objectives = len(found.values.get("measures", ()))
+    if not bad(search) and objectives > 1:
+        with mistakes.noted(), keyed("", {"population": "search.populations"}):
+            evaluations(search.algorithms, search.populations, objectives)
     mistakes.settle()
-    problem, name = found.problem(), found.title or found.file.name or stem
-    with keyed("", {"population": "search.populations"}):
-        return StudyFile(problem=problem, name=name, present=present, search=search)
+    name = found.title or found.file.name or stem
+    return StudyFile(problem=found.problem(), name=name, present=present, search=search)
 
 
 def _search(table: Table, default: SearchSettings, mistakes: Mistakes) -> SearchSettings:
@@ -220,12 +226,17 @@ def _present(found: Content, mistakes: Mistakes) -> dict[str, float]:
     if bad(vehicle):
         return {}
     names = vehicle.variables
+    before = len(mistakes)
     given = read_coefficients(Table("present.", found.present), vehicle, float, mistakes, names)
     for name in given:
         if name not in bounds:
             needed = f"of coefficients that vary, {', '.join(bounds)}"
             mistakes.note(f"present.{name} must be {needed}, got {given[name]:g} {names[name].unit}".rstrip())
-    return present_design(vehicle, {**found.file.setting, **found.values.get("struts", {}), **given}, bounds)
+    own = {**found.file.setting, **found.values.get("struts", {}), **given}
+    design = present_design(vehicle, own, bounds)
+    if given and bounds and not design and len(mistakes) == before:
+        mistakes.note(f"present must hold all of {', '.join(bounds)}, got {', '.join(given)}")
+    return design
 
 
 def present_design(vehicle: Vehicle, setting: Mapping[str, float], bounds: Mapping[str, Any]) -> dict[str, float]:

@@ -37,6 +37,14 @@ def optimiser(algorithm: str, population: int) -> Optimiser:
     return ALGORITHMS[algorithm](population=population)
 
 
+def evaluations(
+    algorithms: Sequence[str], populations: Sequence[int], objectives: int
+) -> dict[tuple[str, int], int]:
+    """Return the evaluations of an iteration by algorithm and population; ValueError for one that is too small."""
+    pairs = product(algorithms, populations)
+    return {(name, n): optimiser(name, n).evaluations_per_iteration(objectives) for name, n in pairs}
+
+
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Comparison(Record):
     """Runs of each algorithm on one problem at each population and number of iterations."""
@@ -58,8 +66,7 @@ class Comparison(Record):
 
     def cost(self) -> dict[tuple[str, int], int]:
         """Return the evaluations of an iteration by algorithm and population."""
-        m, pairs = len(self.problem.objectives), product(self.algorithms, self.populations)
-        return {(name, n): optimiser(name, n).evaluations_per_iteration(m) for name, n in pairs}
+        return evaluations(self.algorithms, self.populations, len(self.problem.objectives))
 
     def timed_runs(self) -> list[PlannedRun]:
         """Return the timed runs in order, alternating algorithms: equal iterations, then equal evaluations."""

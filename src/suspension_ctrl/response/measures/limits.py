@@ -9,7 +9,7 @@ from ... import checks
 from ...quantities import Record, quantity, wrapped
 from ..load_case import LoadCase
 from ..weightings import Weighting
-from .measure import Measure, measure_of
+from .measure import Measure, likely, measure_of
 from .terms import NUMBER, CaseMeasure, number_text
 
 _LIMIT = re.compile(rf"((?:(?![<>]=).)+)([<>]=)\s*({NUMBER})(\s*|\s*[^\s\d.].{{0,29}})")
@@ -113,4 +113,7 @@ def _value(measure: Measure, number: str, unit: str) -> float:
     """Return a number in the unit of a measure; ValueError if its unit is another."""
     if unit in ("", measure.unit):
         return float(number)
-    return quantity(f"limit of {measure.label}", number + unit, "" if measure.unit == "-" else measure.unit)
+    try:
+        return quantity(f"limit of {measure.label}", number + unit, "" if measure.unit == "-" else measure.unit)
+    except ValueError as error:  # without a unit: of no known measure
+        raise ValueError(f"{error}{'' if measure.unit else likely(measure.label)}") from None

@@ -154,6 +154,14 @@ class Measure(Record):
         return ""
 
 
+def likely(text: str) -> str:
+    """Return a hint at the words of measures that are spelt like a text, empty without one."""
+    from difflib import get_close_matches
+
+    alike = get_close_matches(text[:100], [word for word in Measure.words if word])
+    return f": did you mean {' or '.join(alike)}?" if alike else ""
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class OwnMeasure(Measure):
     """A measure of a user's own, see `Measure`."""

@@ -14,7 +14,7 @@ from ...vehicles.varied import Varied
 from ...vehicles.vehicle import Vehicle, assembled
 from ..load_case import LoadCase
 from ..weightings import Weighting
-from .measure import Measure
+from .measure import Measure, likely
 from .terms import NUMBER, POINT, CaseMeasure, Designs, Term, checked_point, place_text
 
 _PLUS = re.compile(r"\+(?![^(]{0,99}\))")  # outside the parentheses of a point
@@ -221,7 +221,7 @@ class RootSumSquare(Measure, word=""):
         """Return the measure in a load case; ValueError for a response that the vehicle does not have."""
         for term in self.terms:
             if isinstance(term.response, str):
-                checks.one_of("response", term.response, case.vehicle.meanings)
+                _check_response(term.response, case)
         units = [signal_unit(label(term.response)) for term in self.terms]
         if len({unit.removeprefix("rad").removeprefix("m") for unit in units}) > 1:
             raise ValueError(f"measure must be a sum of responses of one kind, got {checks.shown(self._rest())}")
@@ -229,6 +229,14 @@ class RootSumSquare(Measure, word=""):
 
     def _rest(self) -> str:
         return " + ".join(map(str, self.terms))
+
+
+def _check_response(name: str, case: LoadCase) -> None:
+    """Raise ValueError, with a hint at measures of like spelling, unless the vehicle has this response."""
+    try:
+        checks.one_of("response", name, case.vehicle.meanings)
+    except ValueError as error:
+        raise ValueError(f"{error}{likely(name)}") from None
 
 
 def _term(text: str) -> Term:
