@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from matplotlib.figure import Figure
 
 from suspension_ctrl import RideProblem, commands
 from suspension_ctrl.paper import experiment as paper
@@ -48,8 +49,13 @@ def script(checkout: Path, tmp_path_factory) -> Script:
 
 
 @pytest.fixture
-def called(monkeypatch, capsys, tmp_path) -> Script:
-    """Run a script of the project in this process, which saves seconds of imports, in the test's folder."""
+def called(monkeypatch, capsys, tmp_path, request) -> Script:
+    """Run a script of the project in this process, which saves seconds of imports, in the test's folder.
+
+    Figures are made and not rendered, which takes a second each, but in tests with the mark ``drawn``.
+    """
+    if request.node.get_closest_marker("drawn") is None:
+        monkeypatch.setattr(Figure, "savefig", lambda _figure, path, **_options: Path(path).touch())
 
     def run(name: str | None, *arguments: object) -> subprocess.CompletedProcess:
         command = [str(name), *map(str, arguments)]

@@ -47,19 +47,20 @@ def test_bode_draws_any_designs(called, tmp_path):
     assert {"suspension_travel magnitude [m/m]", "tyre_load phase [deg]"} <= set(curves.columns)
 
 
+@pytest.mark.drawn
 def test_bode_draws_many_designs_and_frequencies_beyond_the_band(called, tmp_path):
     """Eight of them drawn, and without marks where there is no curve; labels alike are told apart."""
     table = tmp_path / "designs.csv"
-    rows = "".join(f"{k},{c}\n" for k in range(2000, 32000, 2000) for c in (500, 1500))
+    rows = "".join(f"{k},{c}\n" for k in range(2000, 12000, 2000) for c in (500, 1500))
     table.write_text("spring [N/m],damper [N s/m]\n" + rows + "1e6,100\n1e6,100.0001\n")
-    done = called("bode", "--designs", table, "--out", tmp_path / "out")
+    done = called("bode", "--designs", table, "--points", 50, "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
-    assert pd.read_csv(tmp_path / "out" / "curves.csv").design.nunique() == 32
+    assert pd.read_csv(tmp_path / "out" / "curves.csv").design.nunique() == 12
     assert pd.read_csv(tmp_path / "out" / "designs.csv").design.tolist()[-2:] == [
         "1000 kN/m, 0.1 kN s/m",
-        "1000 kN/m, 0.1 kN s/m (32)",
+        "1000 kN/m, 0.1 kN s/m (12)",
     ]
-    assert "Figures and tables show 8 of 32 designs, the files have all." in done.stdout
+    assert "Figures and tables show 8 of 12 designs, the files have all." in done.stdout
 
 
 def test_bode_of_a_half_car(called, tmp_path):

@@ -69,6 +69,7 @@ def test_another_speed_with_a_given_reference_front_is_not_beside_the_paper(call
     assert "Case 1, share 1: power law: " in done.stdout
 
 
+@pytest.mark.drawn
 def test_compare_on_a_study_goes_on_and_judges_quality(called, checkout, tmp_path):
     """Eight variables, three cases and limits; then the same with `--quality` in the same folder, then another."""
     path = checkout / "data/studies/full_car.toml"
@@ -107,6 +108,7 @@ def test_compare_on_a_study_goes_on_and_judges_quality(called, checkout, tmp_pat
 
 
 @pytest.mark.parametrize("measures", ['["ACC", "SWS"]', '["comfort = ACC", "SWS", "DTL front", "DTL rear"]'])
+@pytest.mark.drawn
 def test_compare_takes_any_number_of_objectives(called, tmp_path, measures):
     path = study(tmp_path, f"measures = {measures}\n")
     sizes = ("--populations", 40, "--iterations", 1, "--repeats", 1, "--quality", "--seeds", 2)

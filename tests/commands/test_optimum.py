@@ -53,6 +53,7 @@ def test_optimum_makes_table_5(script, tmp_path):
     assert exact["ACC [m/s^2]"] <= table.loc[("Wb-table", "published optimum"), "ACC [m/s^2]"] + 1e-3
 
 
+@pytest.mark.drawn
 def test_candidates_of_another_vehicle(called, tmp_path):
     done = called(
         "optimum", "--vehicle", "jian_2022_full", "--road", "C", "--sws-limit", "10mm", "--band", "0.1,20",
