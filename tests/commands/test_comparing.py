@@ -43,7 +43,7 @@ def test_compare_on_another_vehicle(called, tmp_path):
         "runs.csv", "environment.json", "study.toml", "fronts", "timed", "reference", "reference.csv",
     }  # fmt: skip
     assert_nothing_of_the_paper(done, out)
-    assert "Case 1, share 1: ISO 8608 class C, geometric mean" in done.stdout
+    assert "Road: ISO 8608 class C, geometric mean" in done.stdout
     assert "20 m/s" in done.stdout
     said = " ".join(done.stdout.split())
     assert "The reference front is of all timed runs (no grid within 20,000,000 designs and 60 s has" in said
@@ -66,7 +66,7 @@ def test_another_speed_with_a_given_reference_front_is_not_beside_the_paper(call
     assert "The reference front is of 'front.csv'." in " ".join(done.stdout.split())
     reference = pd.read_csv(tmp_path / "out" / "reference.csv")
     assert reference.to_dict("list") == {"ACC [m/s^2]": [1, 3], "SWS [m]": [0.025, 0.05], "DTL [N]": [2000, 1000]}
-    assert "Case 1, share 1: power law: " in done.stdout
+    assert "Road: power law: " in done.stdout
 
 
 @pytest.mark.drawn
@@ -78,7 +78,7 @@ def test_compare_on_a_study_goes_on_and_judges_quality(called, checkout, tmp_pat
     assert done.returncode == 0, done.stderr
     out = tmp_path / "out"
     assert_nothing_of_the_paper(done, out)
-    assert "Limits: SWS <= 0.012, roll_gradient <= 6." in done.stdout
+    assert "Limits: SWS <= 12 mm, roll_gradient <= 6" in done.stdout
     assert "Case 3, share 0.2: ISO 8608 class C, geometric mean" in done.stdout
     assert "ACC is weighted" not in done.stdout  # comfort has weightings of its own
     front = pd.read_csv(out / "fronts" / "moead-dra_n20_i2_r1.csv")
@@ -179,7 +179,7 @@ def test_compare_on_a_problem_of_a_plant_of_another_program(called, tmp_path):
     )
     done = called("compare", "--study", "p.toml", *TINY, "--reference", "front.csv", "--out", "out")
     assert done.returncode == 0, done.stderr
-    assert "Limits: SWS <= 0.03" in done.stdout
+    assert "Limits: SWS <= 30 mm." in done.stdout
     assert_nothing_of_the_paper(done, tmp_path / "out")
     problem = RideProblem(
         load_vehicle("yuen_ramli_2010").vehicle, Iso8608Road("C"), speed=20.0, measures=["ACC", "DTL"],

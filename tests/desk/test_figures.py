@@ -35,6 +35,14 @@ def test_the_front_is_drawn_in_mm_and_kn_with_candidates_by_number():
     assert figure.legends[0].get_title().get_text() == r"My \$car\$"
 
 
+def test_a_number_stands_away_from_the_present_design_other_numbers_and_the_frame():
+    near = TABLE.assign(**{"SWS [m]": [0.0062, 0.006, 0.004]}, **{"ACC [m/s^2]": [0.62, 0.6, 1.0]})
+    figure = front_figure(FREE, pd.DataFrame(), near, HEADERS[:2], {}, "")
+    first, second = (np.array(text.get_position()) for text in figure.axes[0].texts)
+    assert first @ [1.0, 1.0] < 8.0  # 60 degrees or more from the present design, above on the right
+    assert second[0] > 0 > second[1]  # the upper left corner is near
+
+
 def test_without_limits_and_present_design_there_are_only_front_and_candidates():
     figure = front_figure(FRONT, pd.DataFrame(), TABLE.iloc[1:], HEADERS[:2], {}, "")
     (ax,) = figure.axes

@@ -44,13 +44,7 @@ def test_published_values_stand_beside_the_papers_designs(table):
     assert table.drop(papers.index).filter(like="published").isna().all(axis=None)
 
 
-@pytest.mark.parametrize(
-    ("limit", "message"),
-    [
-        (0.001, r"^limits must be those of a design within the bounds, got SWS <= 0.001$"),
-        (0.0, r"^sws_limit must be finite and > 0 m, got 0.0$"),
-    ],
-)
-def test_a_travel_that_nothing_has(run, limit, message):
-    with pytest.raises(ValueError, match=message):
-        table5(paper.ride_problem(), run, limit)
+def test_of_a_travel_that_no_design_has_the_papers_designs_remain(run):
+    assert table5(paper.ride_problem(), run, 0.001).design.tolist() == ["reference car", "published optimum"]
+    with pytest.raises(ValueError, match=r"^sws_limit must be finite and > 0 m, got 0.0$"):
+        table5(paper.ride_problem(), run, 0.0)

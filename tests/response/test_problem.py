@@ -270,7 +270,7 @@ def test_kinds_are_part_of_a_problem():
     problem = paper.ride_problem(kinds={"spring": [20e3, 18e3], "damper": "log"})
     assert dict(problem.kinds) == {"spring": (18e3, 20e3), "damper": "log"}
     assert "spring 18000, 20000 N/m; damper 1000 to 5000 N s/m, log;" in " ".join(repr(problem).split())
-    assert problem.describe()[0] == "Variables: spring 18000, 20000 N/m; damper 1000 to 5000 N s/m, log."
+    assert problem.describe()[0] == "Varied: spring of 18, 20 kN/m; damper 1 to 5 kN s/m, log."
     assert pickle.loads(pickle.dumps(problem)) == problem == problem.replace()
     assert problem.replace(kinds={}) == paper.ride_problem() != problem
     with pytest.raises(

@@ -21,10 +21,12 @@ def test_curves_are_those_of_the_laws_and_rows_of_tables_are_marked():
     measured, rows, found, _ = figure.axes[0].lines
     v = measured.get_xdata()
     assert (v[0], v[-1]) == (-0.8, 0.8)
-    np.testing.assert_allclose(measured.get_ydata(), np.interp(v, [-1, -0.1, 0, 0.1, 1], TABLE.force), atol=1e-9)
+    np.testing.assert_allclose(
+        measured.get_ydata(), np.interp(v, [-1, -0.1, 0, 0.1, 1], TABLE.force) / 1e3, atol=1e-12
+    )
     np.testing.assert_array_equal(rows.get_xdata(), [-0.1, 0.0, 0.1])  # the outer ones are not shown
-    np.testing.assert_array_equal(rows.get_ydata(), [-400.0, 0.0, 600.0])
-    np.testing.assert_array_equal(found.get_ydata(), DIGRESSIVE.tension(v))
+    np.testing.assert_array_equal(rows.get_ydata(), [-0.4, 0.0, 0.6])
+    np.testing.assert_array_equal(found.get_ydata(), DIGRESSIVE.tension(v) / 1e3)
     assert found.get_label() == r"found \$x\$"
 
 

@@ -1,6 +1,6 @@
 """The steps of `suspension-ctrl optimum`: searches, files, printed tables and sentences."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Self
@@ -15,16 +15,15 @@ from ..desk.decision import Decision
 from ..desk.exporting import save_candidates
 from ..desk.study_files import StudyFile
 from ..paper import experiment as paper
-from ..paper.optimum import TRAVEL, table5
+from ..paper.optimum import KINDS, TRAVEL, table5
 from ..quantities import column_headers
 from ..response.measures.limits import Limit
 from ..response.measures.vibration import SWS
-from ..response.problem import RideProblem
 from ..search.driver import minimise
 from ..search.run import Optimiser
 from ..study.comparison import optimiser
 from ..tables import write_csv, write_figure, write_text
-from ..tables.headers import shown_range, shown_unit, shown_value
+from ..tables.headers import shown_range, shown_value
 from . import studies, terminal
 
 WEIGHTINGS = ("Wk", "Wb", "Wb-table")
@@ -75,7 +74,7 @@ def carry_out(request: Request, out: Path | None) -> None:
     with terminal.compiling(), terminal.waiting("searching"):
         decision = Decision.of(study.problem, request.optimiser, **settings)
     printed = [] if request.travel is None else tables5(request, request.travel)
-    said = [*introduced(study), *decision.describe()]
+    said = [*introduced(study), *without_designs(decision, printed), *decision.describe()]
     folder = studies.folder_with(study, out)
     if printed:
         write_csv(folder / "table5.csv", pd.concat(printed))
@@ -100,6 +99,16 @@ def tables5(request: Request, travel: float) -> list[pd.DataFrame]:
         run = minimise(problem, request.optimiser, iterations=iterations, seed=seed)
         parts.append(table5(problem, run, travel))
     return parts
+
+
+def without_designs(decision: Decision, printed: Sequence[pd.DataFrame]) -> list[str]:
+    """Return a sentence about rows that Table 5 lacks, if it does; `printed` are its parts by weighting."""
+    missing = {kind for part in printed for kind in KINDS if not part.design.str.startswith(kind).any()}
+    if not missing:
+        return []
+    travel = decision.free.front()[f"{SWS().label} [m]"]
+    have, rows = shown_range(travel.min(), travel.max(), "m"), " and ".join(sorted(missing))
+    return [f"Table 5 lacks designs {rows}: none is at the limit; the front has SWS of {have}."]
 
 
 def draw(folder: Path, decision: Decision, title: str) -> None:
@@ -131,23 +140,12 @@ def show(said: Sequence[str], printed: Sequence[pd.DataFrame], parts: Mapping[st
 
 
 def introduced(study: StudyFile) -> list[str]:
-    """Return name, load cases, band, variables and present design of a study, a sentence each."""
+    """Return name, band, variables, load cases and present design of a study, a sentence each."""
     problem, (low, high) = study.problem, study.problem.band
     weighted = f"; ACC weighted with {problem.weighting}" if problem.weighted else ""
-    lines = [f"{study.name}; {low:g} to {high:g} Hz{weighted}."]
-    for n, case in enumerate(problem.cases, start=1):
-        label = f"Case {n}, share {case.share:g}" if len(problem.cases) > 1 else "Road"
-        lines.append(f"{label}: {case.describe()}.")
     own = (f"{name} {shown_value(value, problem.units[name])}" for name, value in study.present.items())
-    return [*lines, f"Varied: {'; '.join(varied(problem))}.", f"Present design: {', '.join(own) or 'not known'}."]
-
-
-def varied(problem: RideProblem) -> Iterator[str]:
-    """Yield the text of each variable: bounds and kind, or the values of a catalogue."""
-    for name, (low, high) in problem.bounds.items():
-        kind, unit = problem.kinds.get(name, ""), problem.units[name]
-        if isinstance(kind, str):
-            yield f"{name} {shown_range(low, high, unit)}" + (kind and f", {kind}")
-        else:
-            shown, factor = shown_unit(unit)
-            yield f"{name} of {', '.join(f'{factor * value:.4g}' for value in kind)} {shown}".rstrip()
+    return [
+        f"{study.name}; {low:g} to {high:g} Hz{weighted}.",
+        *problem.describe(),
+        f"Present design: {', '.join(own) or 'not known'}.",
+    ]

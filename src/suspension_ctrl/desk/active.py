@@ -8,7 +8,6 @@ from .. import checks
 from ..quantities import Real
 from ..response.measures.limits import Limit
 from ..search.problem import Minimisable
-from ..tables.headers import shown_value
 
 NEAR = 0.01
 """Largest distance of an active bound, as a share of its range, and of an active limit, as a share of it."""
@@ -36,10 +35,7 @@ def reached(problem: Minimisable, designs: Real, constraints: Real) -> list[list
 
 def limit_text(limit: object) -> str:
     """Return a limit as an engineer reads it, ``SWS <= 12 mm``; of another constraint its name."""
-    if not isinstance(limit, Limit):
-        return str(limit)
-    sign = ">=" if limit.maximum is None else "<="
-    return f"{limit.measure.label} {sign} {shown_value(limit.value, limit.measure.unit)}"
+    return limit.describe() if isinstance(limit, Limit) else str(limit)
 
 
 def designs_by_text(texts: Sequence[Sequence[str]], first: int = 1) -> dict[str, list[int]]:

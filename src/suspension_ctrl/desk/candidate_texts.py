@@ -32,8 +32,9 @@ def parts_of(problem: Minimisable, table: pd.DataFrame) -> dict[str, pd.DataFram
 
 
 def decimals_of(part: pd.DataFrame) -> dict[str, int]:
-    """Return the decimals of changes [%]; other columns show the digits that matter."""
-    return {str(header): 1 for header in part if str(header).endswith("[%]")}
+    """Return the decimals of changes [%] and damping ratios; other columns show the digits that matter."""
+    digits = {"[%]": 1, " damping [-]": 3}
+    return {str(header): n for header in part for end, n in digits.items() if str(header).endswith(end)}
 
 
 def markdown(title: str, parts: Mapping[str, pd.DataFrame], texts: Sequence[str]) -> str:

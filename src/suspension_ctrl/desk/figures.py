@@ -1,6 +1,6 @@
 """Figures of a decision: front with limits, present design and candidates; changes against the present design."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,11 +10,13 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
 from .. import escaping
+from ..quantities import Real
 from ..study.figures import COLOURS, panels
 from ..tables.headers import shown_header
 
 _GREY = "#bbbbbb"
-_OFFSETS = ((5, 4), (5, -10), (-11, 4), (-11, -10))  # of a number from its point
+_FROM_POINT = 11.0  # distance of a number from its candidate [pt]
+_DIRECTIONS = np.exp(2j * np.pi * (np.arange(16) + 0.5) / 16)
 
 
 def front_figure(
@@ -41,12 +43,9 @@ def front_figure(
         chosen, present = table[table.index > 0], table[table.index == 0]
         x, y = _columns(chosen, pair)
         ax.plot(x, y, "o", ms=7, mfc="none", mec=COLOURS[1], mew=1.4, label="candidates")
-        for i, number in enumerate(chosen.index):
-            offset = _OFFSETS[i % len(_OFFSETS)]
-            text = ax.annotate(str(number), (x[i], y[i]), xytext=offset, textcoords="offset points", fontsize=10)
-            text.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
         if len(present):
             ax.plot(*_columns(present, pair), "X", ms=9, color="black", label="present design")
+        _numbers(ax, chosen.index, x, y)
         ax.set(xlabel=_label(across), ylabel=_label(header))
         ax.grid(alpha=0.25)
     known = {str(line.get_label()): line for ax in axes for line in ax.get_lines()}
@@ -80,6 +79,31 @@ def changes_figure(table: pd.DataFrame, objectives: Sequence[str], title: str) -
 
 def _dots(ax: Axes, frame: pd.DataFrame, pair: tuple[str, str], **style: Any) -> None:
     ax.plot(*_columns(frame, pair), ".", ms=3, rasterized=True, **style)
+
+
+def _numbers(ax: Axes, numbers: Iterable[int], x: Real, y: Real) -> None:
+    """Write numbers beside points (n,), in the directions farthest from other points, numbers and the frame."""
+    points = np.vstack(
+        [np.reshape(line.get_xydata(), (-1, 2)) for line in ax.get_lines() if line.get_marker() != "None"]
+    )
+    (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
+    width, height = (float(side) * 72 / ax.figure.dpi for side in ax.get_window_extent().size)
+
+    def on_paper(x: Real, y: Real) -> Any:
+        """Return places [pt] as complex numbers."""
+        return (x - left) / (right - left) * width + 1j * (y - low) / (high - low) * height
+
+    taken = on_paper(*points.T)
+    for number, place, xy in zip(numbers, on_paper(x, y), zip(x, y, strict=True), strict=True):
+        tried = place + _FROM_POINT * _DIRECTIONS
+        frame = np.min([tried.real, width - tried.real, tried.imag, height - tried.imag], axis=0)
+        room = np.minimum(abs(tried[:, None] - taken).min(axis=1), 2 * frame)
+        best = tried[room.argmax()]
+        taken = np.append(taken, best)
+        offset = best - place
+        style: dict[str, Any] = {"textcoords": "offset points", "ha": "center", "va": "center", "fontsize": 10}
+        text = ax.annotate(str(number), xy, xytext=(offset.real, offset.imag), **style)
+        text.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
 
 
 def _limit_lines(ax: Axes, limits: Mapping[str, float], pair: tuple[str, str]) -> None:

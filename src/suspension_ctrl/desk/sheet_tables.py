@@ -58,8 +58,7 @@ def described(problem: RideProblem) -> list[str]:
     """Return paragraphs about vehicle, roads and band."""
     vehicle = problem.cases[0].vehicle
     mass = f", sprung mass {vehicle.assembly.sprung_mass:g} kg" if isinstance(vehicle, AssembledVehicle) else ""
-    cases = [f"{n}: {one.describe()}, share {one.share:g}." for n, one in enumerate(problem.cases, start=1)]
-    road = cases if len(cases) > 1 else [f"Road: {problem.cases[0].describe()}."]
+    road = problem.describe_cases()
     low, high = problem.band
     return [
         f"Vehicle: {_words(type(vehicle).__name__)}{mass}. Frequencies from {low:g} to {high:g} Hz.",

@@ -91,8 +91,11 @@ class LoadCase(Record):
 
     def describe(self) -> str:
         """Return road and speed in words."""
-        road = self.road.describe() if hasattr(self.road, "describe") else repr(self.road)
-        return f"{road}; {self.speed:g} m/s"
+        return f"{self.describe_road()}; {self.speed:.4g} m/s"
+
+    def describe_road(self) -> str:
+        """Return the road in words."""
+        return self.road.describe() if hasattr(self.road, "describe") else repr(self.road)
 
     def drive(self, name: str) -> tuple[Event, float]:
         """Return an event with its speed [m/s]; ValueError if the load case has none of this name."""

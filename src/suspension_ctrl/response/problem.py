@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from .. import checks
 from ..quantities import FrozenMapping, Real, Record, wrapped
+from ..tables.headers import shown_range, shown_unit
 from ..vehicles.altered import plain_values
 from ..vehicles.unit_slips import warn_of_slip
 from ..vehicles.varied import Varied, ported, setting_of
@@ -237,13 +238,25 @@ class RideProblem(Record):
 
     def describe(self) -> list[str]:
         """Return variables, limits and load cases in sentences, a line each."""
-        lines = [f"Variables: {'; '.join(self._variables())}."] if self.kinds else []
-        lines += [f"Limits: {', '.join(map(str, self.constraints))}."] if self.constraints else []
+        lines = [f"Varied: {'; '.join(self._varied())}."]
+        lines += [f"Limits: {', '.join(one.describe() for one in self.constraints)}."] if self.constraints else []
         if len(self.cases) > 1:
             how = "their worst" if self.worst_case else "their mean square by shares"
             lines.append(f"Objectives are over {len(self.cases)} load cases, {how}; limits hold in each.")
-        cases = enumerate(self.cases, start=1)
-        return lines + [f"Case {n}, share {case.share:g}: {case.describe()}." for n, case in cases]
+        return lines + self.describe_cases()
+
+    def describe_cases(self) -> list[str]:
+        """Return the road and the speed of each load case, a line each; a road in common once."""
+        first, *others = self.cases
+        if not others:
+            return [f"Road: {first.describe()}."]
+        common = all(case.road == first.road for case in others)
+        told = (f"{case.speed:.4g} m/s" if common else case.describe() for case in self.cases)
+        lines = [
+            f"Case {n}, share {case.share:g}: {text}."
+            for n, (case, text) in enumerate(zip(self.cases, told, strict=True), start=1)
+        ]
+        return [f"Road of all cases: {first.describe_road()}.", *lines] if common else lines
 
     def __repr__(self) -> str:
         parts = [
@@ -254,6 +267,16 @@ class RideProblem(Record):
             f"{self.band[0]:g} to {self.band[1]:g} Hz, weighting {self.weighting}, {self.nodes} nodes",
         ]
         return wrapped(f"RideProblem({'; '.join(parts)})")
+
+    def _varied(self) -> Iterator[str]:
+        """Yield the text of each variable in units to read: bounds and kind, or the values of a catalogue."""
+        for name, (low, high) in self.bounds.items():
+            kind, unit = self.kinds.get(name, ""), self.units[name]
+            if isinstance(kind, str):
+                yield f"{name} {shown_range(low, high, unit)}" + (kind and f", {kind}")
+            else:
+                shown, factor = shown_unit(unit)
+                yield f"{name} of {', '.join(f'{factor * value:.4g}' for value in kind)} {shown}".rstrip()
 
     def _variables(self) -> Iterator[str]:
         """Yield the text of each variable: bounds and kind, or catalogue."""

@@ -46,7 +46,7 @@ def damper_figure(laws: Mapping[str, ForceLaw], rates: Mapping[str, ArrayLike]) 
     >>> laws["digressive"] = sc.DigressiveDamper(low_speed=4000.0, high_speed=1500.0, knee=0.1)
     >>> figure = sc.damper_figure(laws, {"class A": 0.05, "class D": 0.3})
     >>> [axes.get_ylabel() for axes in figure.axes]
-    ['tension [N]', 'density [s/m]']
+    ['tension [kN]', 'density [s/m]']
     """
     import matplotlib.pyplot as plt
 
@@ -63,7 +63,7 @@ def damper_figure(laws: Mapping[str, ForceLaw], rates: Mapping[str, ArrayLike]) 
     )
     _draw_laws(above, laws, np.linspace(-reach, reach, _POINTS))
     _draw_rates(below, known, reach, first=len(laws))
-    above.set(ylabel="tension [N]")
+    above.set(ylabel="tension [kN]")
     below.set(xlabel="rate, positive in extension [m/s]", ylabel="density [s/m]", xlim=(-reach, reach))
     for axes in (above, below):
         axes.axvline(0.0, color="0.7", lw=0.8, zorder=0)
@@ -86,11 +86,11 @@ def _rates(given: ArrayLike) -> Real:
 
 def _draw_laws(axes: "Axes", laws: Mapping[str, ForceLaw], v: Real) -> None:
     for i, (name, law) in enumerate(laws.items()):
-        axes.plot(v, law.tension(v), color=f"C{i}", label=escaping.figure(name))
+        axes.plot(v, law.tension(v) / 1e3, color=f"C{i}", label=escaping.figure(name))
         if isinstance(law, TableDamper):
             rows = np.asarray(law.velocity)
             rows = rows[abs(rows) <= v[-1]]
-            axes.plot(rows, law.tension(rows), ".", color=f"C{i}")
+            axes.plot(rows, law.tension(rows) / 1e3, ".", color=f"C{i}")
 
 
 def _draw_rates(axes: "Axes", rates: Mapping[str, Real], reach: float, first: int) -> None:

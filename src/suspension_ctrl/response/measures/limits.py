@@ -7,6 +7,7 @@ from math import isinf
 
 from ... import checks
 from ...quantities import Record, quantity, wrapped
+from ...tables.headers import shown_value
 from ..load_case import LoadCase
 from ..weightings import Weighting
 from .measure import Measure, likely, measure_of
@@ -70,6 +71,11 @@ class Limit(Record):
 
     def __str__(self) -> str:
         return f"{self.measure} {'>=' if self.maximum is None else '<='} {number_text(self.value)}"
+
+    def describe(self) -> str:
+        """Return the limit as an engineer reads it: ``SWS <= 12 mm``."""
+        sign = ">=" if self.maximum is None else "<="
+        return f"{self.measure.label} {sign} {shown_value(self.value, self.measure.unit)}"
 
     def __repr__(self) -> str:
         return wrapped(f"<{self} {self.measure.unit}>")
