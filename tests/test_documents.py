@@ -189,14 +189,14 @@ def test_deep_tables_are_one_line(tmp_path):
 
 def test_files_and_their_sizes_are_looked_at_first(tmp_path):
     path = tmp_path / "a.toml"
-    path.write_text("#" * 250_001)
+    path.write_text("#" * 1_000_001)
     with (
-        pytest.raises(ValueError, match=r"a.toml: the file must be a regular one of at most 0.25 MB"),
+        pytest.raises(ValueError, match=r"a.toml: the file must be a regular one of at most 1 MB"),
         document(path),
     ):
         pass
     with (
-        pytest.raises(ValueError, match=r"must be a regular one of at most 0.25 MB, got another"),
+        pytest.raises(ValueError, match=r"must be a regular one of at most 1 MB, got another"),
         document(tmp_path),
     ):
         pass

@@ -12,8 +12,9 @@ from typing import Any, NamedTuple
 from . import checks, escaping
 
 _LINES = 20  # mistakes in an error
-_MEGABYTES, _DOTS = 0.25, 500  # of a file, and in a line: the time of tomllib for a key a.b.c. ... is quadratic
+_MEGABYTES, _DOTS = 1.0, 500  # of a file, and in a line: the time of tomllib for a key a.b.c. ... is quadratic
 _QUOTED = re.compile(r"(character|declare|namespace|key) ['\"(].*(?=\(at )")  # what tomllib quotes of a file
+_NUMBERS = re.compile(r"[\[,]\s*[-+]?\d+\.\d+(?:e[-+]?\d+)?(?=\s*[,\]])")  # in an array: their dots are of no key
 _HEADER = re.compile(r"\s*(\[\[?)([^\[\]]{1,200})\]")
 _KEY = re.compile(r"\s*([\w.\"'-]{1,200})\s*=")
 
@@ -127,7 +128,7 @@ def document(path: Path, allow_outside: bool = False) -> Iterator[Table]:
         checks.regular(path, _MEGABYTES)
         try:
             text = path.read_bytes().decode("utf-8-sig")
-            if (dots := max(line.count(".") for line in text.split("\n"))) > _DOTS:
+            if (dots := max(line.count(".") for line in _NUMBERS.sub("", text).split("\n"))) > _DOTS:
                 raise ValueError(f"a line of {dots} dots, {_DOTS} are the most")
             content = tomllib.loads(text)
         except ValueError as error:  # quotes nothing of the file

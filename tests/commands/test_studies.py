@@ -142,3 +142,12 @@ def test_the_study_of_a_comparison_makes_the_same_fronts_bit_for_bit(called, tmp
 def test_bad_choices_are_one_line(options, message):
     with pytest.raises(ValueError, match=rf"^{message}$"):
         chosen_study(**options)
+
+
+def test_the_study_of_an_optimum_makes_the_same_candidates_bit_for_bit(called, tmp_path):
+    options = ("--speed", 25, "--road", "B", "--seed", 3, "--population", 20, "--iterations", 2)
+    for given in ((*options, "--out", "one"), ("--study", "one/study.toml", "--out", "two")):
+        done = called("optimum", *given)
+        assert done.returncode == 0, done.stderr
+    for name in ("front.csv", "candidates.csv", "study.toml"):
+        assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()

@@ -2,11 +2,13 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from suspension_ctrl import (
     Iso8608Road,
     LoadCase,
+    MeasuredRoad,
     Plant,
     RideProblem,
     SearchSettings,
@@ -126,3 +128,27 @@ def test_objects_are_checked(tmp_path):
         save_study(tmp_path / "s.toml", 3)
     with pytest.raises(ValueError, match=r"^population must be >= 15 for 3 objectives, .* got 14$"):
         replace(study, search=SearchSettings(populations=[14]))
+
+
+def test_a_study_holds_a_long_measured_road(path):
+    """The longest that a file may have, with all digits."""
+    n = np.geomspace(0.01, 10.0, 10_000)
+    road = f"{{kind = 'measured', wavenumber_cycle_per_m = {n.tolist()}, density_m3 = {(1e-9 / n**2.1).tolist()}}}"
+    path.write_text("nodes = 64" + STUDY.replace('"C"', road))
+    assert load_study(path).problem.cases[0].road == MeasuredRoad(n, 1e-9 / n**2.1)
+
+
+def test_unusual_sizes_are_read_where_the_file_says_so_or_with_units(path):
+    odd = STUDY.replace('speed = "80 km/h"', "speed_m_per_s = 0.01").replace("12mm", "12")
+    odd = odd.replace("measures", "band_Hz = [0.1, 2e3]\nmeasures", 1)
+    path.write_text(odd)
+    with pytest.raises(ValueError, match="must be") as error:
+        load_study(path)
+    assert [line.partition(" must")[0].removeprefix(str(path)) for line in str(error.value).split("\n")] == [
+        ":4: speed_m_per_s",
+        ":5: band_Hz",
+        ":7: constraints[1]: limit of SWS",
+    ]
+    path.write_text(f"unusual = true\n{odd}")
+    problem = load_study(path).problem
+    assert (problem.cases[0].speed, problem.band, problem.constraints[0].value) == (0.01, (0.1, 2e3), 12.0)
