@@ -31,7 +31,7 @@ def test_ride_of_a_file_with_a_coefficient_changed(called, tmp_path):
     np.testing.assert_allclose(modes["frequency [Hz]"], of_vehicle["frequency [Hz]"], rtol=1e-12)
     np.testing.assert_allclose(modes["damping ratio [-]"], of_vehicle["damping ratio [-]"], rtol=1e-12)
     said = done.stdout
-    assert "front.damper 1500 N s/m" in said
+    assert "front.damper 1.5 kN s/m" in said
     assert "Road: ISO 8608 class C, geometric mean" in said
     assert "25 m/s; 0.5 to 20 Hz." in said
     assert "ACC weighted with Wb" in said
@@ -91,7 +91,7 @@ def test_spring_alone_changes_the_car_of_a_file(called, tmp_path):
         "ride", "--spring", "12389.2", "--damper", "1616.3", "--weighting", "Wb-table", "--band", "0.1,20"
     )
     assert done.returncode == 0, done.stderr
-    assert "spring 12389.2 N/m, damper 1616.3 N s/m" in done.stdout  # the published optimum
+    assert "spring 12.3892 kN/m, damper 1.6163 kN s/m" in done.stdout  # the published optimum
     assert " 2.066" in done.stdout
 
 

@@ -138,8 +138,10 @@ def given(values: Mapping[str, float | None]) -> dict[str, Any]:
 
 def told(values: Mapping[str, float], vehicle: "Vehicle") -> str:
     """Return the values of struts in words, each with its unit."""
+    from ..tables.headers import shown_value
+
     units = {one.name: one.unit for one in vehicle.strut_coefficients}
-    return ", ".join(f"{name} {value:g} {units[name]}".rstrip() for name, value in values.items())
+    return ", ".join(f"{name} {shown_value(value, units[name], 6)}" for name, value in values.items())
 
 
 def tables_of(linear: "LinearisedVehicle | None", values: Mapping[str, float]) -> "dict[str, pd.DataFrame]":
