@@ -49,7 +49,7 @@ def front_figure(
         ax.set(xlabel=_label(across), ylabel=_label(header))
         ax.grid(alpha=0.25)
     known = {str(line.get_label()): line for ax in axes for line in ax.get_lines()}
-    style: dict[str, Any] = {"loc": "outside upper center", "ncols": 3, "frameon": False}
+    style: dict[str, Any] = {"loc": "outside upper center", "ncols": 3 if len(up) > 1 else 2, "frameon": False}
     figure.legend(list(known.values()), list(known), title=escaping.figure(title), **style)
     return figure
 
