@@ -48,7 +48,19 @@ def toml(table: Mapping[str, Any], record: T, reader: Callable[[Table], T], fold
     """Return the text of a file in a folder; ValueError unless its `reader` reads an equal record from it."""
     import tomlkit
 
-    text = tomlkit.dumps(table)
+    text = tomlkit.dumps(_arrays(table))
     if reader(Table("", tomllib.loads(text), folder)) != record:
         raise ValueError(f"a file must hold all of what is written, got {checks.shown(record)}")
     return text
+
+
+def _arrays(value: Any) -> Any:
+    """Return a value with lists of numbers as arrays of tomlkit, which makes them of lists in quadratic time."""
+    import tomlkit
+
+    if isinstance(value, Mapping):
+        return {key: _arrays(part) for key, part in value.items()}
+    if not isinstance(value, list) or not value:
+        return value
+    numbers = all(type(part) in (int, float) for part in value)
+    return tomlkit.value(repr(value)) if numbers else [_arrays(part) for part in value]
