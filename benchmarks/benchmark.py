@@ -67,7 +67,7 @@ QUICK = SETTINGS | {
     "compare": ["--quick"],
     "import_repeats": 1,
     "cold_repeats": 1,
-    "cold_programs": ("import", "evaluate", "MoeadDra"),
+    "cold_programs": ("import", "evaluate"),
 }
 
 

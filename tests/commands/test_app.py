@@ -169,8 +169,6 @@ OF = {
     "optimum": [
         BOUNDS,
         (["--sws-limit", "0"], "sws_limit must be finite and > 0 m, got 0.0", 2),
-        (["--sws-limit", "1"], "limits must be those of a design within the bounds, got SWS <= 1", 2),
-        (["--sws-limit", "0.0449", "--population", "20"], "within must leave a design of the front, whose ", 2),
         (["--sws-limit", "soft"], "must be a number with a unit like m, got 'soft'", 2),
         (["--population", "3"], "population must be a whole number >= 4, got 3", 2),
         (["--iterations", "0"], "iterations must be a whole number >= 1, got 0", 2),

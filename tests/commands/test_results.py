@@ -1,4 +1,5 @@
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -13,6 +14,17 @@ def test_new_folders_are_made_and_empty_ones_taken(tmp_path, monkeypatch):
     names = {results.results_folder(None) for _ in range(3)}  # within one second
     assert len(names) == 3
     assert all(path.parent.name == "results" for path in names)
+
+
+def test_a_folder_that_can_serve_is_not_made_by_the_check(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "empty").mkdir()
+    for out in (None, Path("empty"), Path("a/b/c")):
+        results.check(out)
+    assert [path.name for path in tmp_path.iterdir()] == ["empty"]
+    (tmp_path / "empty" / "file").touch()
+    with pytest.raises(ValueError, match=r"^out must be a folder that is absent or empty, got 'empty'"):
+        results.check(Path("empty"))
 
 
 def test_folders_that_cannot_serve_are_named(tmp_path):

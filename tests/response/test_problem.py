@@ -69,7 +69,7 @@ def test_error_is_below_1e_9_over_the_whole_box():
     np.testing.assert_allclose(p.evaluate(grid), replace(p, nodes=1280).evaluate(grid), rtol=1e-9)
 
 
-@settings(max_examples=5)
+@settings(max_examples=3)
 @given(
     st.floats(150, 600), st.floats(20, 80), st.floats(1e5, 3e5), st.floats(8e3, 40e3), st.floats(800, 4000),
     st.floats(5, 40),

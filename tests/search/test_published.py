@@ -104,7 +104,7 @@ def test_moead_dra_gets_there_with_twice_the_evaluations():
     H. Li and Q. Zhang, "Multiobjective optimization problems with complicated Pareto sets, MOEA/D and NSGA-II",
     IEEE Trans. Evol. Comput. 13(2), 2009, for the settings.
     """
-    found = medians(MoeadDra(population=100, neighbourhood=0.2, replacement_limit=0.02), 50_000, seeds=5)
+    found = medians(MoeadDra(population=100, neighbourhood=0.2, replacement_limit=0.02), 50_000, seeds=3)
     for name, published in NSGA2.items():
         assert published - 3e-3 < found.hypervolume[name] < BEST[name]
     check_igd_plus_and_dtlz2(found)

@@ -24,7 +24,7 @@ from ..search.run import Optimiser
 from ..study.comparison import optimiser
 from ..tables import write_csv, write_figure, write_text
 from ..tables.headers import shown_range, shown_value
-from . import studies, terminal
+from . import results, studies, terminal
 
 WEIGHTINGS = ("Wk", "Wb", "Wb-table")
 """Weightings of ACC in Table 5."""
@@ -68,6 +68,7 @@ class Request:
 
 def carry_out(request: Request, out: Path | None) -> None:
     """Search, write all files, then print."""
+    results.check(out)
     study = request.study
     iterations, seed = request.budget
     settings: dict[str, Any] = {"iterations": iterations, "seed": seed, "present": study.present or None}

@@ -35,6 +35,15 @@ def results_folder(out: Path | None, resumed_by: str | None = None) -> Path:
         raise ValueError(f"out must be a folder that can be written, {reason}") from error
 
 
+def check(out: Path | None) -> None:
+    """Raise ValueError where `results_folder` would, before any work, and leave no folder behind."""
+    if out is not None:
+        absent = [path for path in (out, *out.parents) if not path.exists()]
+        results_folder(out)
+        for path in absent:
+            path.rmdir()
+
+
 def _made_new(folder: Path) -> Path:
     """Make and return `folder`, or if it exists the first free one of folder_2, folder_3, ..."""
     for path in chain([folder], (folder.with_name(f"{folder.name}_{number}") for number in count(2))):
