@@ -234,7 +234,7 @@ def test_the_reference_front_of_a_grid_is_made_once_for_a_folder(tmp_path):
     line = Line()
     campaign = Campaign(compared(line), tmp_path, tolerance=0.02)
     found = campaign.reference({})
-    assert found.origin.startswith("a 200 x 200 grid (")
+    assert found.origin.startswith("a grid of 200 x 200 values (")
     assert found.front.volume == pytest.approx(0.71, abs=0.5 / 199)  # closed form, less triangles between points
     before = line.designs
     assert campaign.reference({}) == found

@@ -44,7 +44,7 @@ def test_a_grid_has_the_values_of_discrete_variables_and_none_of_a_held_one():
     found = references.refined(line)
     np.testing.assert_array_equal(np.unique(found.objectives, axis=0), [[0, 1.5], [0.25, 1.25], [1, 0.5]])
     assert found.points == 200
-    assert found.describe(line) == "3 x 4 grid"
+    assert found.describe(line) == "grid of 3 x 4 values"
 
 
 def test_a_front_comes_back_from_its_tables_to_the_last_bit(tmp_path):
@@ -75,8 +75,8 @@ def test_where_no_grid_settles_the_front_is_of_the_runs_and_the_finest_grid():
     np.testing.assert_allclose(points, np.insert(line, 100, [0.5, 0.4], axis=0), atol=1e-12)
     half, lost = 0.5 / 99, 0.5 / 199
     assert found.origin == (
-        "all timed runs and a 200 x 200 grid (no grid within 50,000 designs and 60 s settles to 1e-09: half as "
-        f"many values change its hypervolume by {(half - lost) / (0.71 - lost):.1e})"
+        "all timed runs and a grid of 200 x 200 values (no grid within 50,000 designs and 60 s settles to 1e-09: "
+        f"half as many values change its hypervolume by {(half - lost) / (0.71 - lost):.1e})"
     )
 
 

@@ -42,8 +42,8 @@ class Refined(NamedTuple):
         return abs(self.change) <= tolerance and abs(self.second) <= tolerance
 
     def describe(self, problem: Minimisable) -> str:
-        """Return the numbers of values of the variables, ``"400 x 400 grid"``."""
-        return f"{' x '.join(str(axis.size) for axis in Coding(problem).grid_axes(self.points))} grid"
+        """Return the numbers of values of the variables, ``"grid of 400 x 400 values"``."""
+        return f"grid of {' x '.join(str(axis.size) for axis in Coding(problem).grid_axes(self.points))} values"
 
 
 class Reference(NamedTuple):
