@@ -135,9 +135,14 @@ def _changes(problem: Minimisable, objectives: Real) -> "pd.DataFrame":
     """Return the changes of objectives (n, m) against the first row [%], NaN against 0."""
     import pandas as pd
 
-    size = np.abs(objectives[0])
-    changes = 100 * (objectives - objectives[0]) / np.where(size > 0, size, np.nan)
+    changes = changes_of(objectives, objectives[0])
     return pd.DataFrame(changes, columns=[f"{name} change [%]" for name in problem.objectives])
+
+
+def changes_of(values: ArrayLike, present: ArrayLike) -> Real:
+    """Return the changes of values (..., m) against present ones (m,) [%], NaN against 0."""
+    size = np.abs(present)
+    return np.asarray(100 * np.subtract(values, present) / np.where(size > 0, size, np.nan))
 
 
 def _modes(problem: RideProblem, designs: Real) -> "pd.DataFrame":

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..response.problem import RideProblem
-from .candidate_table import reaching
+from .candidate_table import changes_of, reaching
 
 
 class Judged(NamedTuple):
@@ -31,8 +31,9 @@ def judged(problem: RideProblem, design: Mapping[str, float], present: Mapping[s
         for one in problem.constraints
     }
     return [
-        Judged(name, units[name], value, was := before.get(name, nan), _change(value, was), verdicts.get(name, ""))
+        Judged(name, units[name], value, was, float(changes_of(value, was)), verdicts.get(name, ""))
         for name, value in values.items()
+        for was in [before.get(name, nan)]
     ]
 
 
@@ -44,8 +45,3 @@ def measured(problem: RideProblem, design: Mapping[str, float]) -> dict[str, flo
     found = {one.label: one.sign * value for one, value in zip(problem.measures, values[:m], strict=True)}
     limits = zip(problem.constraints, values[m:], strict=True)
     return found | {str(one): (value - one.offset) / one.scale for one, value in limits}
-
-
-def _change(value: float, before: float) -> float:
-    """Return the change of a value in %, NaN from 0."""
-    return 100 * (value / before - 1) if before else nan
