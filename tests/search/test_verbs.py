@@ -165,6 +165,18 @@ def test_misspelt_and_missing_verbs_are_refused():
         minimise(PROBLEM, NSGA2, iterations=1, toolbox=toolbox)
 
 
+def test_a_given_toolbox_of_a_ride_problem_is_swept_compiled(table1_problem, monkeypatch):
+    """A method such as `evaluate` is another object each time that it is looked up."""
+    calls = []
+    evaluate = type(table1_problem).evaluate
+    monkeypatch.setattr(
+        type(table1_problem), "evaluate", lambda self, x: calls.append(len(x)) or evaluate(self, x)
+    )
+    toolbox = MOEAD.toolbox(table1_problem)
+    minimise(table1_problem, MOEAD, iterations=5, seed=1, toolbox=toolbox)
+    assert calls == [40, 1]  # the start, and the comparison with the kernel
+
+
 def test_a_kernel_of_another_function_is_noticed():
     whole = dtlz2(4, compiled=True)
     other = whole.replace(evaluate=lambda x: whole.evaluate(x) + 0.01)

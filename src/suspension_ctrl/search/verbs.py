@@ -38,7 +38,7 @@ def is_compiled(verb: Any) -> bool:
 
 
 def _same(verb: Any, own: Any) -> bool:
-    if not isinstance(verb, partial) or verb.func is not own.func:
+    if not isinstance(verb, partial) or verb.func != own.func:  # bound methods are equal, not the same
         return False
     return verb.func is not call_compiled or type(verb.args[0]) is type(own.args[0])
 
