@@ -57,6 +57,16 @@ def test_neighbourhoods_hold_the_nearest_and_begin_with_oneself():
     )
 
 
+@pytest.mark.parametrize("order", ["random", "ascending"])
+@pytest.mark.parametrize(("n", "count"), [(40, 7), (700, 1), (1000, 100), (1000, 990), (1234, 60)])
+def test_least_keys_are_those_of_a_whole_sort(n, count, order):
+    """Ascending keys all lie in the first part of a row."""
+    keys = np.random.default_rng(n).permuted(np.tile(np.arange(n), (5, 1)), axis=1)
+    if order == "ascending":
+        keys[::2].sort(axis=1)
+    np.testing.assert_array_equal(decomposition.least(keys, count), np.sort(keys, axis=1)[:, :count])
+
+
 vectors = st.lists(st.floats(0, 100), min_size=3, max_size=3).map(np.array)
 
 
