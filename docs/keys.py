@@ -17,6 +17,7 @@ from suspension_ctrl.quantities import Real
 from suspension_ctrl.response.event_files import EVENTS, DriveKeys
 from suspension_ctrl.response.files import CaseDocument
 from suspension_ctrl.response.files import Document as ProblemDocument
+from suspension_ctrl.response.scatter_files import ScatterKeys
 from suspension_ctrl.roads.coherence import COHERENCES
 from suspension_ctrl.roads.files import KINDS as ROADS
 from suspension_ctrl.roads.files import MeasuredFile, TabulatedFile
@@ -179,6 +180,18 @@ populations = [200]
 iterations = [50]
 ```
 """
+SCATTER = """
+Beside them stand deviations by name, as of `Scatter`: a number or a text for both sides, or an array of the least
+and the largest one. A name is that of a coefficient or a parameter without its unit, or the end of several.
+
+```toml
+[scatter]
+spring = "5 %"
+damper = [-0.25, 0.1]
+front_tyre_stiffness = 0.1
+samples = 512
+```
+"""
 LAYOUTS = """### `[strut]`, `[front_strut]`, `[rear_strut]`, `[suspensions.strut]`
 A strut is elements between its two ends. Its `layout` joins them by name: `|` in parallel, `-` in series (before
 `|`), parentheses, and an installation ratio of a group, `0.8*(...)`. An element has a table with its `kind` and
@@ -297,6 +310,7 @@ def page() -> str:
     parts += [table(f'`[coherence]`, `kind = "{kind}"`', record) for kind, record in COHERENCES.items()]
     parts.append(table('`[coherence]`, `kind = "tabulated"` of a CSV file', TabulatedFile))
     parts += ["## Problems\n", table("A problem", ProblemDocument), table("`[[cases]]`", CaseDocument)]
+    parts += [table("`[scatter]`", ScatterKeys) + SCATTER]
     parts += ["## Studies\n", STUDIES, table("`[search]`", SearchSettings)]
     parts.append(table("`[[cases.payload]]`, also `[[payload]]` of a vehicle", Payload))
     parts += [table(f'`[events.<name>]`, `kind = "{kind}"`', record) for kind, record in EVENTS.items()]

@@ -6,7 +6,7 @@ import runpy
 import pytest
 
 from spoilt import changed
-from suspension_ctrl import load_vehicle
+from suspension_ctrl import Scatter, load_problem, load_vehicle
 from suspension_ctrl.quantities import quantity
 
 
@@ -62,7 +62,7 @@ def test_the_pages_lorry_is_read(checkout, tmp_path):
 
 def test_the_pages_strut_is_that_of_a_vehicle(checkout, tmp_path):
     page = (checkout / "docs/files.md").read_text(encoding="utf-8")
-    van, _, strut, _ = re.findall(r"```toml\n(.*?)```", page, re.DOTALL)
+    van, _, strut, *_ = re.findall(r"```toml\n(.*?)```", page, re.DOTALL)
     linear = [line for line in van.splitlines() if not line.startswith("front.damper")]
     (tmp_path / "van.toml").write_text("\n".join([*linear, strut]))
     file = load_vehicle(tmp_path / "van.toml")
@@ -70,3 +70,12 @@ def test_the_pages_strut_is_that_of_a_vehicle(checkout, tmp_path):
     assert setting["front.damper.scale"] == 1.0
     assert setting["front.mount"] == 250e3
     assert setting["front.bump_stop.gap"] == 0.024
+
+
+def test_the_pages_scatter_is_read(checkout, tmp_path):
+    page = (checkout / "docs/files.md").read_text(encoding="utf-8")
+    (scatter,) = (text for text in re.findall(r"```toml\n(.*?)```", page, re.DOTALL) if "[scatter]" in text)
+    head = 'vehicle = "minaker_half"\nroad = "C"\nspeed = "20 m/s"\nmeasures = ["mean ACC", "q95 DTL"]\n'
+    (tmp_path / "robust.toml").write_text(head + "band_Hz = [0.3, 20.0]\n" + scatter)
+    given = {"spring": 0.05, "damper": (-0.25, 0.1), "front_tyre_stiffness": 0.1}
+    assert load_problem(tmp_path / "robust.toml").scatter == Scatter(given, samples=512)

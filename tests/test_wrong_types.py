@@ -64,6 +64,7 @@ CALLS = {
             "cases": PROBLEM.cases,
             "measures": ("ACC", "SWS"),
             "band": (0.5, 9.0),
+            "scatter": {"spring": 0.05},
         },
     ),
     "RideProblem.evaluate": (PROBLEM.evaluate, {0: [[22e3, 1500.0]]}),
@@ -85,6 +86,9 @@ CALLS = {
     "Term": (sc.Term, {0: "body_acceleration", 1: "Wk", 2: 1.0}),
     "RootSumSquare": (sc.RootSumSquare, {0: [sc.Term("body_acceleration")]}),
     "Limit": (sc.Limit, {0: "SWS", 1: 0.01}),
+    "Scatter": (sc.Scatter, {0: {"spring": 0.05}, "samples": 8, "seed": 1, "distribution": "normal"}),
+    "Quantile": (sc.Quantile, {0: "SWS", 1: 95.0}),
+    "robustness": (sc.robustness, {0: PROBLEM, 1: SETTING, 2: {"spring": 0.05}, 3: 8, 4: 1}),
     "Plant": (sc.Plant, {0: CAR.plant(), 1: {"": (0.0, 0.0)}}),
     "Problem": (
         sc.Problem,

@@ -3,6 +3,8 @@ from .desk.choosing import knee as knee
 from .desk.choosing import pick as pick
 from .desk.designs import vehicle_file as vehicle_file
 from .desk.exporting import export as export
+from .desk.scatter_figures import robustness_figure as robustness_figure
+from .desk.scatter_table import robustness as robustness
 from .desk.study_files import SearchSettings as SearchSettings
 from .desk.study_files import StudyFile as StudyFile
 from .desk.study_files import load_study as load_study
@@ -37,6 +39,9 @@ from .response.measures.modal import ModeDamping as ModeDamping
 from .response.measures.modal import ModeFrequency as ModeFrequency
 from .response.measures.peak import Peak as Peak
 from .response.measures.power import DamperPower as DamperPower
+from .response.measures.robust import CVaR as CVaR
+from .response.measures.robust import Mean as Mean
+from .response.measures.robust import Quantile as Quantile
 from .response.measures.terms import Term as Term
 from .response.measures.vibration import ACC as ACC
 from .response.measures.vibration import DLC as DLC
@@ -48,6 +53,7 @@ from .response.responses import response_psds as response_psds
 from .response.responses import ride as ride
 from .response.road_of_index import road_of_iri as road_of_iri
 from .response.roughness import international_roughness_index as international_roughness_index
+from .response.scatter import Scatter as Scatter
 from .response.weighted_spectra import weighted_rms as weighted_rms
 from .response.weightings import weighting as weighting
 from .response.zones import time_in_zones as time_in_zones

@@ -31,6 +31,8 @@ from .load_case import Drive, LoadCase
 from .measures.limits import Limit, has_unit
 from .measures.measure import Measure
 from .problem import RideProblem
+from .scatter import Scatter
+from .scatter_files import IN_TABLE
 from .scores import NODES
 
 
@@ -66,6 +68,8 @@ class Document:
         By the keys of ``bounds``: "integer", "log", "fixed" or an array of values.
     struts : table
         Coefficients that do not vary; those of the first case's vehicle if not given.
+    scatter : table
+        Deviations by name for robust measures such as ``q95 SWS``, and their sample, see ``[scatter]``.
     seats : array of tables
         Seats that are put on the vehicle of every case.
     events : table
@@ -90,6 +94,7 @@ class Document:
     bounds: Mapping[str, Any] = field(default_factory=dict)
     kinds: Mapping[str, Any] = field(default_factory=dict)
     struts: Mapping[str, Any] = field(default_factory=dict)
+    scatter: Scatter | None = field(default=None, metadata=IN_TABLE)
     present: Mapping[str, Any] = field(default_factory=dict)
     search: Mapping[str, Any] = field(default_factory=dict)
     roll_geometry: RollGeometry | None = None
@@ -196,6 +201,7 @@ def problem_table(problem: RideProblem, path: Path) -> dict[str, Any]:
         bounds=coefficient_table(vehicle, bounds),
         kinds=coefficient_table(vehicle, problem.kinds),
         struts=coefficient_table(vehicle, problem.struts),
+        scatter=problem.scatter,
         events=dict(problem.cases[0].events),
     )
     return _with_cases(content(file), [content(one) for one in _case_documents(problem.cases, path)])
@@ -271,7 +277,18 @@ def read_problem(table: Table, mistakes: Mistakes) -> Content:
 
 
 _OF_PROBLEM = {
-    *("measures", "constraints", "weighting", "band", "worst_case", "nodes", "bounds", "kinds", "struts"),
+    *(
+        "measures",
+        "constraints",
+        "weighting",
+        "band",
+        "worst_case",
+        "nodes",
+        "bounds",
+        "kinds",
+        "struts",
+        "scatter",
+    ),
 }
 
 
@@ -298,7 +315,7 @@ def _check(values: Mapping[str, Any], cases: Sequence[LoadCase], unusual: bool, 
                     judged = Limit.parse(text, measures) if name == "constraints" else Measure.parse(text)
                     measures += [judged] if isinstance(judged, Measure) else []
                     for case in cases:
-                        judged.in_case(case, weighting)
+                        judged.nominal.in_case(case, weighting)
                     if isinstance(judged, Limit) and not (has_unit(text) or unusual):
                         check_bare(f"limit of {judged.measure.label}", judged.value, judged.measure.unit)
 

@@ -23,7 +23,11 @@ from .bounds import checked_bounds
 from .load_case import LoadCase, Road, load_cases
 from .measures.limits import Limit
 from .measures.measure import Measure, MeasureLike, measure_of
+from .measures.robust import Robust
 from .measures.terms import CaseMeasure
+from .robust_scores import RobustKernel, RobustScores, ScatteredScores, Statistics
+from .scatter import Scatter, Tolerance, scatter_of
+from .scattered import Scattered
 from .scores import NODES, RESOLVED, Kernel, Score, Scores
 from .weightings import Weighting, checked
 
@@ -75,6 +79,10 @@ class RideProblem(Record):
         Several load cases; a vehicle, road or speed replaces theirs. An objective is the root mean square over
         them by their shares, of handling and a `Measure` the mean, or if `worst_case` the worst of them.
     worst_case : bool
+    scatter : Scatter or mapping, optional
+        Deviations of coefficients and parameters by name, for robust measures and limits: a `Mean`, a `Quantile`
+        or a `CVaR` of another measure, in texts ``"mean ACC"``, ``"q95 SWS <= 30mm"``, ``"CVaR90 DTL front"``.
+        All other measures are those of the nominal vehicle.
     events : mapping of str to Event or (Event, float), optional
         Events by name for `Peak` in every load case, see `LoadCase`.
     nodes : int, optional
@@ -113,6 +121,7 @@ class RideProblem(Record):
     measures: tuple[Measure, ...]
     constraints: tuple[Limit, ...]
     worst_case: bool
+    scatter: Scatter | None
     nodes: int
 
     def __init__(
@@ -132,6 +141,7 @@ class RideProblem(Record):
         constraints: Sequence[Limit | str] = (),
         cases: Sequence[LoadCase] = (),
         worst_case: bool = False,
+        scatter: Scatter | Mapping[str, Tolerance] | None = None,
         events: Mapping[str, Any] | None = None,
         nodes: int | None = None,
     ) -> None:
@@ -147,6 +157,7 @@ class RideProblem(Record):
             band=band_of(None if isinstance(band, OwnBand) else band, ((one.road, one.speed) for one in every)),
             measures=tuple(map(measure_of, measures)),
             worst_case=bool(worst_case),
+            scatter=scatter_of(scatter),
         )
         limits = (one if isinstance(one, Limit) else Limit.parse(one, self.measures) for one in constraints)
         self._keep(constraints=tuple(limits))
@@ -157,6 +168,13 @@ class RideProblem(Record):
     def replace(self, **changes: Any) -> "RideProblem":
         """Return the problem with other parameters, as `dataclasses.replace`; nodes not given are found anew."""
         return replace(self, **changes)
+
+    @property
+    def nominal(self) -> "RideProblem":
+        """The problem of the nominal vehicle: robust measures are replaced by those of one vehicle."""
+        measures = list(dict.fromkeys(one.nominal for one in self.measures))
+        constraints = list(dict.fromkeys(one.nominal for one in self.constraints))
+        return self.replace(measures=measures, constraints=constraints, scatter=None) if self.scatter else self
 
     @property
     def vehicle(self) -> Vehicle:
@@ -209,7 +227,7 @@ class RideProblem(Record):
     def weighted(self) -> bool:
         """Whether a measure depends on the weighting of the problem."""
         case, weightings = self.cases[0], (None, self.weighting)
-        plain, weighted = ([one.in_case(case, w).terms for one in self.measures] for w in weightings)
+        plain, weighted = ([one.nominal.in_case(case, w).terms for one in self.measures] for w in weightings)
         return plain != weighted
 
     def evaluate(self, designs: ArrayLike) -> Real:
@@ -229,12 +247,16 @@ class RideProblem(Record):
         """
         x = checks.designs(designs, len(self.variables))
         checks.rows_within("designs", x, self.lower, self.upper)
-        return self._scores.evaluate(x, self.nodes)
+        values = self._scores.evaluate(x, self.nodes)
+        return self._robust.put(values, x, self.nodes) if self._robust else values
 
     @cached_property
-    def kernel(self) -> Kernel | None:
+    def kernel(self) -> Kernel | RobustKernel | None:
         """The compiled evaluation of one design; None with measures of handling or of a user's own."""
-        return self._scores.kernel(self.nodes) if self._scores.compiled else None
+        if not self._scores.compiled:
+            return None
+        nominal = self._scores.kernel(self.nodes)
+        return self._robust.kernel(nominal, self.nodes) if self._robust else nominal
 
     def describe(self) -> list[str]:
         """Return variables, limits and load cases in sentences, a line each."""
@@ -243,6 +265,7 @@ class RideProblem(Record):
         if len(self.cases) > 1:
             how = "their worst" if self.worst_case else "their mean square by shares"
             lines.append(f"Objectives are over {len(self.cases)} load cases, {how}; limits hold in each.")
+        lines += [f"Scatter: {self.scatter.describe()}."] if self.scatter else []
         return lines + self.describe_cases()
 
     def describe_cases(self) -> list[str]:
@@ -263,6 +286,7 @@ class RideProblem(Record):
             ", ".join(f"{name} [{self.units[name]}]" for name in self.objectives),
             *map(str, self.constraints),
             *self._variables(),
+            *([f"scatter {self.scatter.describe()}"] if self.scatter else []),
             *(f"{type(case.vehicle).__name__} at {case.speed:g} m/s" for case in self.cases),
             f"{self.band[0]:g} to {self.band[1]:g} Hz, weighting {self.weighting}, {self.nodes} nodes",
         ]
@@ -314,28 +338,70 @@ class RideProblem(Record):
         for names, what in ((list(self.objectives), "measures"), (texts, "constraints")):
             if len({*names, *self.bounds}) < len(names) + len(self.bounds):
                 raise ValueError(f"{what} must have names of their own, got {checks.shown(names)}")
-        scores = [Score(self.in_cases(one), self.worst_case, one.sign) for one in self.measures]
-        scores += [Score(self.in_cases(one), True, one.scale, one.offset) for one in self.constraints]
-        if not any(one.of_ride for one in (*self.measures, *(limit.measure for limit in self.constraints))):
+        if not any(
+            one.nominal.of_ride for one in (*self.measures, *(limit.measure for limit in self.constraints))
+        ):
             raise ValueError(f"measures must hold one of the ride, got {checks.shown(list(self.objectives))}")
-        return self.scores_of(scores)
+        return self.scores_of([self._score(one, self._ported) for one in self._judged])
+
+    @cached_property
+    def _robust(self) -> RobustScores | None:
+        """Scores over the scatter; None without robust measures."""
+        limited = [one if isinstance(one, Measure) else one.measure for one in self._judged]
+        robust = {column: one for column, one in enumerate(limited) if isinstance(one, Robust)}
+        if not robust:
+            if self.scatter:
+                self.scattered([], self.scatter)  # which raises ValueError about its names
+            return None
+        if self.scatter is None:
+            raise ValueError(f"scatter must be given for {next(iter(robust.values())).label}, got none")
+        scattered = self.scattered([self._judged[column] for column in robust], self.scatter)
+        scores = [self._scores.scores[column] for column in robust]
+        samples, signs = self.scatter.samples, scattered.signs
+        weight = [one.weights(samples, sign) for one, sign in zip(robust.values(), signs, strict=True)]
+        scale, offset = (np.array([getattr(one, name) for one in scores]) for name in ("scale", "offset"))
+        return RobustScores(scattered, Statistics(np.array([*robust]), np.array(weight), signs, scale, offset))
+
+    def scattered(self, judged: Sequence[Measure | Limit], scatter: Scatter) -> ScatteredScores:
+        """Return measures and limits of the samples of designs, as of the nominal vehicle of each."""
+        fixed = coefficients_by_name(self.struts, {})
+        scattered = Scattered.of(scatter, self.cases, self.variables, fixed)
+        scores = [self._score(one, scattered.cases) for one in judged]
+        return ScatteredScores(scattered, scores, np.array(self._middle), self.band)
+
+    @property
+    def _middle(self) -> list[float]:
+        """The middle (d,) of the box."""
+        return [(low + high) / 2 for low, high in self.bounds.values()]
+
+    @property
+    def _judged(self) -> tuple[Measure | Limit, ...]:
+        """Objectives, then limits."""
+        return (*self.measures, *self.constraints)
+
+    def _score(self, one: Measure | Limit, cases: Sequence[LoadCase]) -> Score:
+        """Return the score of a measure or a limit in load cases."""
+        found = tuple(one.nominal.in_case(case, self.weighting) for case in cases)
+        if isinstance(one, Limit):
+            return Score(found, True, one.scale, one.offset)
+        return Score(found, self.worst_case, one.sign)
 
     def scores_of(self, scores: Sequence[Score]) -> Scores:
         """Return scores of designs in the load cases."""
-        middle = {name: (low + high) / 2 for name, (low, high) in self.bounds.items()}
+        middle = dict(zip(self.variables, self._middle, strict=True))
         settings = [setting_of(case.vehicle, middle, self.struts) for case in self._ported]
         return Scores(self._ported, scores, settings, self.variables, self.band)
 
     def _warn_of_slips(self) -> None:
         """Warn the caller of a likely slip of units in the vehicles, in the middle of the bounds."""
-        middle = {name: (low + high) / 2 for name, (low, high) in self.bounds.items()}
+        middle = dict(zip(self.variables, self._middle, strict=True))
         for case in self.cases:
             with suppress(ValueError):  # of values that do not fit, which are told later
                 warn_of_slip(*case.vehicle.at({**coefficients_by_name(self.struts, {}), **middle}), caller=4)
 
     def in_cases(self, judged: Measure | Limit) -> tuple[CaseMeasure, ...]:
         """Return a measure or a limit in each load case."""
-        return tuple(judged.in_case(case, self.weighting) for case in self._ported)
+        return tuple(judged.nominal.in_case(case, self.weighting) for case in self._ported)
 
     def without_parameters(self, design: Real) -> "tuple[RideProblem, Real]":
         """Return the problem of coefficients alone at the parameters of a design (d,), and its coefficients there.
@@ -375,4 +441,8 @@ class RideProblem(Record):
 
     def _error(self, nodes: int) -> float:
         """Return the largest error of a term at corners of the box: there resonances are sharpest."""
-        return max(float(errors.max(initial=0.0)) for errors in self._scores.errors(self._corners, nodes))
+        errors = self._scores.errors(self._corners, nodes)
+        if self._robust:
+            lower, upper = np.array(self.lower), np.array(self.upper)
+            errors = [*errors, *self._robust.scattered.errors(self._corners, lower, upper, nodes)]
+        return max(float(one.max(initial=0.0)) for one in errors)

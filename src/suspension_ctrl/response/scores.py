@@ -97,7 +97,8 @@ class Kernel(NamedTuple):
 class Scores:
     """Scores of designs in load cases, at any number of quadrature nodes.
 
-    A setting for each case has all coefficients, of those that vary a value in the middle of the range.
+    A setting for each case has all coefficients, of those that vary a value in the middle of the range. A measure
+    by a function of designs gets the first variables that are `seen`, by default all.
     """
 
     def __init__(
@@ -107,9 +108,10 @@ class Scores:
         settings: Sequence[Mapping[str, float]],
         variables: Sequence[str],
         band: tuple[float, float],
+        seen: int | None = None,
     ) -> None:
         self.cases, self.scores, self.settings = cases, scores, settings
-        self.variables, self.band = variables, band
+        self.variables, self.band, self.seen = variables, band, seen
         shares = np.array([case.share for case in cases])
         self.shares = shares / shares.sum()
         self._kernels: dict[int, Kernel] = {}
@@ -253,7 +255,9 @@ class Scores:
                 own, setting = vehicle.with_design(design)
                 yield own, np.array([list(setting.values())])
 
-        return Designs(designs, coefficients, spectra, mean_squares, mean_travels, law_powers, vehicles)
+        return Designs(
+            designs[:, : self.seen], coefficients, spectra, mean_squares, mean_travels, law_powers, vehicles
+        )
 
     def _coefficients(self, c: int, linear: Real) -> Real:
         """Return all coefficients (p, c) of a load case by those that vary (p, w)."""

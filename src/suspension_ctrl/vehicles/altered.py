@@ -109,15 +109,23 @@ class Slots(dict[str, int]):
 
 
 def sheet_of(
-    assembly: Assembly, reference: Assembly, variables: Sequence[str], fixed: Mapping[str, float]
+    assembly: Assembly,
+    reference: Assembly,
+    variables: Sequence[str],
+    fixed: Mapping[str, float],
+    relative: Iterable[str] = (),
 ) -> tuple[Sheet, Slots]:
     """Return formulas in the making, and the slots of all coefficients and parameters, at variables in this order.
 
-    Frequencies and ratios are those of the reference, as without the payload of another load case.
+    Frequencies and ratios are those of the reference, as without the payload of another load case. Variables that
+    are `relative` are parameters over those of the assembly.
     """
     sheet, parameters, derived = Sheet(len(variables)), parameters_of(assembly), derived_of(reference)
     usual = {one.name: one.default for one in assembly.strut_coefficients if one.default is not None}
     slots = Slots(sheet, {**usual, **{name: one.default for name, one in parameters.items()}, **fixed}, variables)
+    for name in relative:
+        if name in parameters:
+            slots[name] = sheet.sum((parameters[name].default, {slots[name]: 1.0}))
     by_corner: dict[str, dict[str, int]] = {}
     for name in (*variables, *fixed):
         if one := derived.get(name):
@@ -133,6 +141,21 @@ def sheet_of(
         at_wheel = sheet.constant(corner.wheel) if wheel is None else slots[wheel]
         slots |= resolve(sheet, corner, mass, at_wheel, slots, given)
     return sheet, slots
+
+
+def plain_sheet(
+    vehicle: Vehicle, variables: Sequence[str], fixed: Mapping[str, float]
+) -> tuple[Sheet, Slots, dict[str, str]]:
+    """Return formulas in the making, slots by name, and what stands for each frequency and ratio."""
+    if not isinstance(vehicle, AssembledVehicle):
+        usual = {one.name: one.default for one in vehicle.strut_coefficients if one.default is not None}
+        sheet = Sheet(len(variables))
+        return sheet, Slots(sheet, {**usual, **fixed}, variables), {}
+    check_variables("setting", vehicle, [*variables, *fixed])
+    reference, rest = with_parameters(vehicle, fixed)
+    derived = derived_of(reference.assembly)
+    sheet, slots = sheet_of(reference.assembly, reference.assembly, variables, rest)
+    return sheet, slots, {name: derived[name].replaces for name in (*variables, *rest) if name in derived}
 
 
 def _check_alone(assembly: Assembly, variables: Sequence[str], spring: str) -> None:

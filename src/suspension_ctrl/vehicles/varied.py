@@ -25,13 +25,15 @@ _OF_PLACE = ("suspension_travel", "suspension_travel_rate", *(f"floor_{kind}" fo
 class Varied(Record, AssembledVehicle):
     """A vehicle with further ports, of which the coefficients are formulas of the variables of a design.
 
-    Values of coefficients, frequencies and ratios that do not vary are `fixed`.
+    Values of coefficients, frequencies and ratios that do not vary are `fixed`. Variables that are `relative` are
+    parameters over those of the vehicle, without effect on a vehicle that lacks them.
     """
 
     vehicle: AssembledVehicle
     reference: AssembledVehicle  # with its frequencies and ratios
     names: tuple[str, ...]
     fixed: Mapping[str, float]
+    relative: tuple[str, ...] = ()
 
     @property
     def assembly(self) -> Assembly:
@@ -61,7 +63,15 @@ class Varied(Record, AssembledVehicle):
     def with_design(self, design: Real) -> tuple[AssembledVehicle, dict[str, float]]:
         """Return the vehicle without ports and its coefficients at a design (v,)."""
         given = dict(zip(self.names, design.tolist(), strict=True))
-        return self.vehicle.at(plain_values(self.reference, {**self.fixed, **given}))
+        shares = {name: given.pop(name) for name in self.relative}
+        values = {**self.fixed, **given}
+        plain = plain_values(self.reference, values) if self.has_frequencies else values
+        own = {
+            name: share * self._parameters[name].default
+            for name, share in shares.items()
+            if name in self._parameters
+        }
+        return self.vehicle.at({**plain, **own})
 
     def plant(self, responses: Sequence[ResponseName] | None = None) -> control.StateSpace:
         """Return the vehicle without its struts, see `Vehicle.plant`."""
@@ -85,7 +95,7 @@ class Varied(Record, AssembledVehicle):
     def _ported(self) -> tuple[Assembly, Formulas, tuple[str, ...]]:
         """Masses and links, formulas, and the names of the coefficients that vary."""
         base = self.vehicle.assembly
-        sheet, slots = sheet_of(base, self.reference.assembly, self.names, self.fixed)
+        sheet, slots = sheet_of(base, self.reference.assembly, self.names, self.fixed, self.relative)
         slots |= self._by_ratio(sheet, slots)
         ports = AddedPorts(base)
         for one in self._parameters.values():
@@ -121,20 +131,34 @@ class Varied(Record, AssembledVehicle):
             ports.turn(strut, axes[0].body, [one.axis for one in axes], moved, sheet, slots)
 
 
-def ported(vehicle: Vehicle, names: Sequence[str], fixed: Mapping[str, float], first: Vehicle) -> Vehicle:
+def ported(
+    vehicle: Vehicle,
+    names: Sequence[str],
+    fixed: Mapping[str, float],
+    first: Vehicle,
+    relative: Sequence[str] = (),
+) -> Vehicle:
     """Return the vehicle with ports for the variables among `names` that are no coefficients, itself without any.
 
-    Frequencies and damping ratios are those of the `first` vehicle.
+    Frequencies and damping ratios are those of the `first` vehicle. Further variables are `relative`.
     """
     given = [*names, *fixed]
     plain = {one.name for one in vehicle.strut_coefficients}
-    if not (isinstance(vehicle, AssembledVehicle) and isinstance(first, AssembledVehicle)) or plain >= {*given}:
+    if not (isinstance(vehicle, AssembledVehicle) and isinstance(first, AssembledVehicle)):
+        return vehicle
+    if plain >= {*given} and not relative:
         return vehicle
     check_variables("setting", first, given)
     changed, rest = with_parameters(vehicle, fixed)
     reference, _ = with_parameters(first, fixed)
     values = {name: float(value) for name, value in rest.items()}
-    return Varied(vehicle=changed, reference=reference, names=tuple(names), fixed=FrozenMapping(values))
+    return Varied(
+        vehicle=changed,
+        reference=reference,
+        names=(*names, *relative),
+        fixed=FrozenMapping(values),
+        relative=tuple(relative),
+    )
 
 
 def setting_of(vehicle: Vehicle, design: Mapping[str, float], fixed: Struts) -> dict[str, float]:

@@ -5,6 +5,6 @@ own in ``comfort = ACC driver``. `Measure.parse` reads it, ``str`` writes it. A 
 word, its unit, and its terms in a load case.
 """
 
-from . import comfort, dose, gaussian, handling, limits, modal, peak, power, vibration
+from . import comfort, dose, gaussian, handling, limits, modal, peak, power, robust, vibration
 
-__all__ = ["comfort", "dose", "gaussian", "handling", "limits", "modal", "peak", "power", "vibration"]
+__all__ = ["comfort", "dose", "gaussian", "handling", "limits", "modal", "peak", "power", "robust", "vibration"]

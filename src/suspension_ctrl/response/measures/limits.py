@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isinf
 
 from ... import checks
@@ -58,6 +58,11 @@ class Limit(Record):
     def value(self) -> float:
         """The maximum or the minimum."""
         return next(value for value in (self.maximum, self.minimum) if value is not None)
+
+    @property
+    def nominal(self) -> "Limit":
+        """The limit on one vehicle: itself, but of one on a measure over a scatter."""
+        return replace(self, measure=self.measure.nominal)
 
     @property
     def scale(self) -> float:

@@ -105,6 +105,11 @@ class Measure(Record):
         return self.name or self._text()
 
     @property
+    def nominal(self) -> "Measure":
+        """The measure of one vehicle: itself, but of a measure over a scatter."""
+        return self
+
+    @property
     def sign(self) -> float:
         """Factor of the objective: -1 if more is better."""
         return -1.0 if self.maximise else 1.0
@@ -136,7 +141,7 @@ class Measure(Record):
             raise ValueError(f"measure must be a text such as 'SWS front' or 'name = SWS front', got {got}")
         plain = body.removeprefix("-").strip()
         first = re.split(r"\W", plain, maxsplit=1)[0]
-        word = first if first in Measure.words else ""
+        word = next((one for one in (first, first.rstrip("0123456789")) if one in Measure.words), "")
         rest, options = plain.removeprefix(word).strip(), {"maximise": plain != body}
         found = Measure.words[word].read(rest, name="".join(name), **options)
         return found if name or str(found) == written else replace(found, name=written)
