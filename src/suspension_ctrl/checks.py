@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 _LARGEST = sys.float_info.max
 _SLACK = 1e-9  # tolerance of a bound, as a share of the range of the variable
 _SHOWN = 40  # characters of a value in an error
-_CHOICES, _TOLD = 16, 7  # most names in an error, and how many of more
+_ALL, _TOLD = 12, 8  # most names in an error, and how many of more
 _KINDS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
     "integer": (
         "hold a whole number of at most 1e15",
@@ -175,17 +175,27 @@ def listed(name: str, value: object) -> None:
 
 
 def one_of(name: str, value: object, allowed: Collection[object]) -> None:
-    """Raise ValueError unless `value` is one of `allowed`; of many it names those alike, then the first."""
-    if any(value == choice for choice in allowed):
-        return
-    names, others = list(map(str, allowed)), ""
-    if len(names) > _CHOICES:
-        from difflib import get_close_matches
+    """Raise ValueError unless `value` is one of `allowed`."""
+    if not any(value == choice for choice in allowed):
+        raise ValueError(f"{name} must be one of {listing(allowed, value)}, got {shown(value)}")
 
-        alike = get_close_matches(shown(value), names)
-        names = list(dict.fromkeys([*alike, *names]))[:_TOLD]
-        others = f" or {len(allowed) - _TOLD} others"
-    raise ValueError(f"{name} must be one of {', '.join(names)}{others}, got {shown(value)}")
+
+def listing(names: Iterable[object], near: object = "") -> str:
+    """Return names for an error: all up to 12, of more the 8 that are most like `near`, then the first.
+
+    >>> listing(["front", "rear"])
+    'front, rear'
+    >>> listing([f"axle_{n}" for n in range(30)], "axle29")
+    'axle_29, axle_9, axle_2, axle_0, axle_1, axle_3, axle_4, axle_5, ... and 22 more'
+    """
+    texts = list(map(str, names))
+    if len(texts) <= _ALL:
+        return ", ".join(texts)
+    from difflib import get_close_matches
+
+    alike = get_close_matches(near[:100] if isinstance(near, str) else shown(near), texts)
+    told = list(dict.fromkeys([*alike, *texts]))[:_TOLD]
+    return f"{', '.join(told)}, ... and {len(texts) - len(told)} more"
 
 
 def ordered(lower_name: str, upper_name: str, lower: ArrayLike, upper: ArrayLike) -> None:

@@ -23,7 +23,7 @@ def named(kind: str, folder: str, source: str | PathLike[str]) -> Path:
         return Path(source)
     shipped = stems(folder)
     if str(source) not in shipped:
-        allowed = f"one of {', '.join(shipped)} or the path of a .toml file"
+        allowed = f"one of {checks.listing(shipped, source)} or the path of a .toml file"
         raise ValueError(f"{kind} must be {allowed}, got {checks.shown(str(source))}")
     return path(f"{folder}/{source}.toml")
 

@@ -86,7 +86,7 @@ RATES = (
 )  # fmt: skip
 FRONT, REAR = {"front": (2e4, 1500.0)}, {"rear": (2e4, 1500.0)}
 KNOWN = "front.spring, front.damper, rear.spring, rear.damper"
-FURTHER = "front_tyre_stiffness, rear_tyre_stiffness, front_tyre_damping or 13 others"
+FURTHER = "front_tyre_stiffness, rear_tyre_stiffness, front_tyre_damping, rear_tyre_damping, ... and 12 more"
 HALF_VARIES, BY_SPRING = (
     f"{names}, {FURTHER}" for names in (KNOWN, "rear.spring, front.spring, front.damper, rear.damper")
 )
@@ -115,7 +115,8 @@ QUARTER_VARIES = (
         (HALF, (FRONT | REAR | {"middle": (1.0, 1.0)},), {},
          f"setting must be one of {BY_SPRING}, got 'middle.spring'"),
         (HALF, (FRONT | REAR | {"front_antiroll": 1e4},), {},
-         f"setting must be one of {HALF_VARIES}, got 'front_antiroll'"),
+         f"setting must be one of front.damping_ratio, {KNOWN}, front_tyre_stiffness, rear_tyre_stiffness, "
+         "front_tyre_damping, ... and 12 more, got 'front_antiroll'"),
         (FULL, (FRONT | REAR | {"front_antiroll": -1.0},), {},
          "front_antiroll must be finite and >= 0 N m/rad, got -1.0"),
         (DRIVER.on(FULL), (FRONT | REAR | {"driver.spring": 0.0},), {},

@@ -111,7 +111,8 @@ class StudyFile(Record):
         checks.mapped("present", self.present)
         variables = self.problem.variables
         if self.present and set(self.present) != set(variables):
-            raise ValueError(f"present must hold {', '.join(variables)}, got {', '.join(map(str, self.present))}")
+            needed, got = checks.listing(variables), checks.listing(self.present)
+            raise ValueError(f"present must hold {needed}, got {got}")
         self._keep(present=FrozenMapping({name: float(self.present[name]) for name in variables if self.present}))
         self.search.comparison(self.problem)
 
@@ -230,12 +231,12 @@ def _present(found: Content, mistakes: Mistakes) -> dict[str, float]:
     given = read_coefficients(Table("present.", found.present), vehicle, float, mistakes, names)
     for name in given:
         if name not in bounds:
-            needed = f"of coefficients that vary, {', '.join(bounds)}"
+            needed = f"of coefficients that vary, {checks.listing(bounds, name)}"
             mistakes.note(f"present.{name} must be {needed}, got {given[name]:g} {names[name].unit}".rstrip())
     own = {**found.file.setting, **found.values.get("struts", {}), **given}
     design = present_design(vehicle, own, bounds)
     if given and bounds and not design and len(mistakes) == before:
-        mistakes.note(f"present must hold all of {', '.join(bounds)}, got {', '.join(given)}")
+        mistakes.note(f"present must hold all of {checks.listing(bounds)}, got {checks.listing(given)}")
     return design
 
 

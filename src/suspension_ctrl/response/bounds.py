@@ -29,7 +29,7 @@ def checked_bounds(
     low, high = (tuple(map(float, x if len(x) else of_pairs)) for x, of_pairs in ((lower, low), (upper, high)))
     checks.ordered("lower", "upper", low, high)
     if len(low) != len(names):
-        raise ValueError(f"lower and upper must bound {', '.join(names)}, got {checks.shown(low)}")
+        raise ValueError(f"lower and upper must bound {checks.listing(names)}, got {checks.shown(low)}")
     for name, value in zip(names, low, strict=True):
         known[name].check(f"lower bound of {name}", value)
     if both := set(names) & fixed.keys():

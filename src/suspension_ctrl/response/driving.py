@@ -278,8 +278,8 @@ def _rows_of(speed: Any) -> Real:
 def _checked_points(contact_points: ArrayLike, roads: list[str]) -> Real:
     points = np.asarray(contact_points, dtype=float)
     if points.shape != (len(roads), 2) or not np.isfinite(points).all():
-        each = ", ".join(roads)
-        raise ValueError(f"contact_points must be finite, x and y [m] for each of {each}, got {points.tolist()}")
+        needed = f"finite, x and y [m] for each of {checks.listing(roads)}"
+        raise ValueError(f"contact_points must be {needed}, got {points.tolist()}")
     return points
 
 

@@ -189,7 +189,9 @@ def problem_table(problem: RideProblem, path: Path) -> dict[str, Any]:
     vehicle, bounds, weighting = problem.cases[0].vehicle, problem.bounds, cast(str, problem.weighting)
     order = [name for name in vehicle.variables if name in bounds]
     if list(bounds) != order:
-        raise ValueError(f"bounds must be in the vehicle's order, {', '.join(order)}, got {', '.join(bounds)}")
+        right, wrong = next((a, b) for a, b in zip(order, bounds, strict=True) if a != b)
+        needed = checks.listing(order, right)
+        raise ValueError(f"bounds must be in the vehicle's order, {needed}, got {wrong} in place of {right}")
     file = Document(
         measures=tuple(map(str, problem.measures)),
         constraints=tuple(map(str, problem.constraints)),

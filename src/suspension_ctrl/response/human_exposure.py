@@ -178,5 +178,5 @@ def axis_of(name: object) -> str:
     text = " ".join(str(name).lower().replace("_", " ").split())
     full = f"seat {text}" if f"seat {text}" in AXES else text
     if full not in AXES:
-        raise ValueError(f"axis must be one of {', '.join(AXES)}, got {checks.shown(name)}")
+        raise ValueError(f"axis must be one of {checks.listing(AXES, text)}, got {checks.shown(name)}")
     return full

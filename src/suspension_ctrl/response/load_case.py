@@ -100,7 +100,7 @@ class LoadCase(Record):
     def drive(self, name: str) -> tuple[Event, float]:
         """Return an event with its speed [m/s]; ValueError if the load case has none of this name."""
         if name not in self.events:
-            known = ", ".join(self.events) or "those in events=, of which there are none"
+            known = checks.listing(self.events, name) or "those in events=, of which there are none"
             raise ValueError(f"event must be one of {known}, got {checks.shown(name)}")
         event, speed = self.events[name]
         return event, self.speed if speed is None else speed

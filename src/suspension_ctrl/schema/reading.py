@@ -31,7 +31,7 @@ def read(table: Table, keys: Mapping[str, Key], mistakes: Mistakes, others: bool
         one = keys.get(key) or with_unit.get(key)
         if one is None and not others:
             misspelt.add(near := _nearest(key, keys))
-            allowed = "a known key" if near else f"one of the keys {', '.join(keys)}"
+            allowed = "a known key" if near else f"one of the keys {checks.listing(keys, key)}"
             hint = f": did you mean {near}?" if near else ""
             named = table.name + escaping.terminal(key)[:40]
             mistakes.note(f"{named} must be {allowed}, got {checks.shown(value)}{hint}")

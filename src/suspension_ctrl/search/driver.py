@@ -132,7 +132,12 @@ def resumed(
     """Return the run of a continued search, see `Run.resume`."""
     names = headers_of(problem)
     if names != run.headers:
-        raise ValueError(f"problem must be that of the run, {', '.join(run.headers)}, got {', '.join(names)}")
+        other, missing = (
+            next((one for one in some if one not in others), "")
+            for some, others in ((names, run.headers), (run.headers, names))
+        )
+        needed, got = checks.listing(run.headers, missing), checks.listing(names, other)
+        raise ValueError(f"problem must be that of the run, {needed}, got {got}")
     count = _iteration_count(0, run.checkpoint.optimiser, problem, **limits)
     search = _Search(problem, run.checkpoint.optimiser, toolbox, run.seed, failures)
     search.go_on_from(run)
@@ -235,7 +240,8 @@ def _start_designs(problem: Minimisable, start: Any) -> Real:
     elif hasattr(start, "columns"):
         variables = list(headers_of(problem)[: len(problem.lower)])
         if missing := [name for name in variables if name not in start.columns]:
-            raise ValueError(f"start must have the columns {', '.join(variables)}, got none called {missing[0]}")
+            needed = checks.listing(variables, missing[0])
+            raise ValueError(f"start must have the columns {needed}, got none called {missing[0]}")
         start = start[variables].to_numpy()
     designs = checks.reals("start must be", start)
     if designs.ndim != 2 or designs.shape[1] != len(problem.lower):

@@ -21,7 +21,7 @@ def with_checked_verbs(toolbox: Toolbox, default: Toolbox, problem: SearchProble
     """Return a copy of a toolbox that checks the results of its verbs; default ones are left out."""
     wanted = set(vars(default))
     if wrong := sorted(set(vars(toolbox)) ^ wanted):
-        verbs = ", ".join(sorted(wanted - {"clone", "map"}))
+        verbs = checks.listing(sorted(wanted - {"clone", "map"}), wrong[0])
         raise ValueError(f"toolbox must have the verbs {verbs}, got {'no ' * (wrong[0] in wanted)}{wrong[0]}")
     checked = copy(toolbox)
     swept = VERBS if getattr(getattr(default, "sweep", None), "func", None) is sweep_sequential else ()

@@ -149,7 +149,7 @@ class Assembly(Record):
         given = {tyre.name: tyre.lower for tyre in self.tyres}
         named = dict(zip(self.contacts, self.roads, strict=True))
         if len(given) < len(self.tyres) or not needed.items() <= given.items() <= named.items():
-            names = ", ".join(needed) or "those of contacts"
+            names = checks.listing(needed) or "those of contacts"
             raise ValueError(f"tyres must be {names}, each from its road, got {self.tyres}")
         check_strut_names("struts", (strut.name for strut in self.struts))
         for end in (*(end for strut in self.struts for end in strut[1:3]), *(place for _, place in self.payload)):

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .. import checks
 from ..quantities import Checked, Real, unit
 from .assembly import GRAVITY, Assembly, Network
 
@@ -58,7 +59,7 @@ class RollGeometry(Checked):
 def check_roll(measure: str, assembly: Assembly) -> None:
     """Raise ValueError about a measure unless the body rolls."""
     if "roll" not in assembly.coordinates:
-        coordinates = ", ".join(assembly.coordinates)
+        coordinates = checks.listing(assembly.coordinates)
         raise ValueError(f"{measure} must be of a vehicle that rolls, got one with {coordinates}")
 
 
@@ -68,9 +69,9 @@ def check_cornering(measure: str, assembly: Assembly) -> None:
     corners = [f"{axle}_{side}" for axle in _AXLES for side in _SIDES]
     wheels = {f"{corner}_wheel" for corner in corners}
     if set(assembly.contacts) != set(corners) or not wheels <= set(assembly.coordinates):
-        needed, got = f"tyres {', '.join(corners)} on wheels of these names", ", ".join(assembly.contacts)
+        needed, got = f"tyres {', '.join(corners)} on wheels of these names", checks.listing(assembly.contacts)
         if set(assembly.contacts) == set(corners):
-            got += f" on {', '.join(sorted(assembly.unsprung)) or 'the body'}"
+            got += f" on {checks.listing(sorted(assembly.unsprung)) or 'the body'}"
         raise ValueError(f"{measure} must be of a vehicle with {needed}, got tyres {got}")
 
 

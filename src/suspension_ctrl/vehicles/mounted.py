@@ -250,7 +250,8 @@ class FlexibleBody(Part):
             raise ValueError(f"vehicle must have a rigid body, got one with modes at {list(assembly.bending)}")
         names = [f"bending_{i + 1}" for i in range(len(self.frequencies))]
         if taken := set(names) & set(assembly.movements):
-            raise ValueError(f"vehicle must have nothing called {', '.join(names)}, got {', '.join(taken)}")
+            free, got = checks.listing(names), checks.listing(taken)
+            raise ValueError(f"vehicle must have nothing called {free}, got {got}")
         omega = 2 * np.pi * np.asarray(self.frequencies, dtype=float)
         damping = 2 * omega * np.asarray(self.damping_ratios, dtype=float)
         supports = [Link(name, None, name, w**2, c) for name, w, c in zip(names, omega, damping, strict=True)]

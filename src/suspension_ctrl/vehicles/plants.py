@@ -120,7 +120,8 @@ class Plant(Record, Vehicle):
         checks.listed("axles", self.axles)
         for axle in self.axles:
             if missing := [side for side in _sides(axle) if side not in struts]:
-                raise ValueError(f"axles must have two struts like {missing[0]!r}, got {', '.join(struts)}")
+                got = checks.listing(struts, missing[0])
+                raise ValueError(f"axles must have two struts like {missing[0]!r}, got {got}")
         self._keep(axles=tuple(self.axles))
         self._keep(contacts=contacts, struts=struts, system=_ported(system, tuple(contacts), struts))
 
@@ -274,7 +275,8 @@ def _checked_contacts(contacts: Mapping[str, Position]) -> FrozenMapping[str, Po
 def _check_signals(system: System, roads: Sequence[str], struts: Sequence[str], tensions: Sequence[str]) -> None:
     """Raise ValueError unless the system has these roads and struts, no other inputs, and finite values."""
     if not struts:
-        raise ValueError(f"system must have an input like 'front_strut', got {', '.join(system.input_labels)}")
+        got = checks.listing(system.input_labels, "strut")
+        raise ValueError(f"system must have an input like 'front_strut', got {got}")
     inputs, outputs = system.input_labels, system.output_labels
     by_rate = [f"{road}_rate" if f"{road}_rate" in inputs and road not in inputs else road for road in roads]
     ports = [*by_rate, *(joined(strut, "strut") for strut in struts)]
@@ -282,12 +284,11 @@ def _check_signals(system: System, roads: Sequence[str], struts: Sequence[str], 
     for kind, needed, labels in (("input", ports, inputs), ("output", deflections, outputs)):
         for name in needed:
             if name not in labels:
-                raise ValueError(f"system must have the {kind} {name!r}, got {', '.join(labels)}")
+                raise ValueError(f"system must have the {kind} {name!r}, got {checks.listing(labels, name)}")
     for name in system.input_labels:
         if name.removesuffix("_rate") not in roads and name not in tensions:
-            raise ValueError(
-                f"input must be {', '.join(roads)}, its rate, or like 'front_strut', got {checks.shown(name)}"
-            )
+            needed = f"{checks.listing(roads, name)}, its rate, or like 'front_strut'"
+            raise ValueError(f"input must be {needed}, got {checks.shown(name)}")
     if not all(np.isfinite(array).all() for array in numbers_of(system)):
         raise ValueError("system must hold finite values throughout, got others")
 

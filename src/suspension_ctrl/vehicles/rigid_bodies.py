@@ -272,7 +272,7 @@ def _check_masses(assembly: Assembly) -> None:
         np.linalg.cholesky(assembly.mass_matrix)
     except np.linalg.LinAlgError:
         free = [name for name, value in zip(assembly.movements, assembly.inertia, strict=True) if value == 0]
-        names = ", ".join(name for name in free if name in assembly.coordinates) or ", ".join(free)
+        names = checks.listing(one for one in free if one in assembly.coordinates) or checks.listing(free)
         raise ValueError(
             f"bodies must have mass and inertia where no joint moves them, got 0 of {names}"
         ) from None

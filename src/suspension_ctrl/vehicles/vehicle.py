@@ -304,7 +304,8 @@ def _complete(vehicle: Vehicle, given: Mapping[str, float]) -> dict[str, float]:
         checks.one_of("setting", name, known)
     missing = [name for name, one in known.items() if name not in given and one.default is None]
     if missing:
-        raise ValueError(f"setting must have {', '.join(known)}, got none for {', '.join(missing)}")
+        needed = checks.listing(known, missing[0])
+        raise ValueError(f"setting must have {needed}, got none for {checks.listing(missing)}")
     for name, value in given.items():
         known[name].check(name, value)
     return {name: given.get(name, p.default or 0.0) for name, p in known.items()}
@@ -326,7 +327,7 @@ def anti_roll_bar(name: str, difference: Sequence[float], track: float) -> Strut
 def coefficients_by_name(setting: Setting | None, struts: Mapping[str, Any]) -> dict[str, float]:
     """Return the coefficients of a setting, or of `struts` without one, each by its own name."""
     if setting is not None and struts:
-        raise ValueError(f"setting must be one mapping or keywords, got both and {', '.join(struts)}")
+        raise ValueError(f"setting must be one mapping or keywords, got both and {checks.listing(struts)}")
     if isinstance(setting, Sequence | np.ndarray) and not isinstance(setting, str):
         setting = {"": setting}  # of the one strut that has no name
     if not isinstance(setting, Mapping | None):

@@ -144,7 +144,7 @@ class SEAT(PlacedMeasure, word="SEAT", unit="-"):
         """Return the measure in a load case; ValueError if the vehicle has no such seat."""
         seats = [name.removesuffix(_FLOOR) for name in case.vehicle.meanings if name.endswith(_FLOOR)]
         if self.where not in seats:
-            known = ", ".join(seats) or "seats, of which the vehicle has none"
+            known = checks.listing(seats, self.where) or "seats, of which the vehicle has none"
             raise ValueError(f"{self.word} must be of one of {known}, got {checks.shown(self.where)}")
         terms = tuple(Term(f"{self.where}{part}", *VERTICAL) for part in ("_acceleration", _FLOOR))
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from ... import checks
 from ...quantities import Real
 from ...vehicles.handling import Mechanics, RollGeometry, check_cornering, check_roll
 from ...vehicles.vehicle import assembled
@@ -28,7 +29,7 @@ class RollDamping(Measure, word="roll_damping", unit="-"):
         vehicle = assembled(case.vehicle)
         check_roll(self.word, vehicle.assembly)
         if vehicle.networks:
-            others = ", ".join(one.name for network in vehicle.networks for one in network.strut.elements)
+            others = checks.listing(one.name for network in vehicle.networks for one in network.strut.elements)
             raise ValueError(f"{self.word} must be of struts of a spring beside a damper, got {others}")
         return _of_statics(lambda statics, given: statics.roll_damping(given))
 

@@ -56,7 +56,7 @@ class ModeFrequency(Measure, word="frequency", unit="Hz"):
         motions = motions_of(vehicle.assembly)
         checks.one_of(self.word, self.mode, motions)
         if vehicle.networks:
-            others = ", ".join(one.name for network in vehicle.networks for one in network.strut.elements)
+            others = checks.listing(one.name for network in vehicle.networks for one in network.strut.elements)
             raise ValueError(f"{self.word} must be of struts of springs and dampers in parallel, got {others}")
         return CaseMeasure(
             values=lambda designs: designs.by_vehicle(lambda one, given: self._of(one.statics, given))

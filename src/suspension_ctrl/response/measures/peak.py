@@ -128,4 +128,4 @@ def responses_at(vehicle: Vehicle, text: str) -> list[str]:
     for names in ([text], at_axle, at_wheels):
         if found := [name for name in names if name in known]:
             return found
-    raise ValueError(f"response must be one of {', '.join(known)}, got {checks.shown(text)}")
+    raise ValueError(f"response must be one of {checks.listing(known, text)}, got {checks.shown(text)}")

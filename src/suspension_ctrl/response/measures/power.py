@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ... import checks
 from ...quantities import Real
 from ...vehicles.elements import Damper, Inerter, Spring
 from ...vehicles.force_laws import ForceLaw
@@ -84,4 +85,5 @@ class DamperPower(WheelMeasure, word="damper_power", unit="W"):
             for part in strut.parts:
                 yield from self._beside(part, ratio)
         elif lossy := [one.name for one in strut.elements if not isinstance(one, Spring | Inerter | ForceLaw)]:
-            raise ValueError(f"{self.word} must be of dampers beside springs, or of laws, got {', '.join(lossy)}")
+            got = checks.listing(lossy)
+            raise ValueError(f"{self.word} must be of dampers beside springs, or of laws, got {got}")

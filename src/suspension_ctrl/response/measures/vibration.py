@@ -52,7 +52,7 @@ class AccelerationMeasure(PlacedMeasure):
         known = ((name, vehicle.meanings[name]) for name in vehicle.responses)
         vertical = [r for r, m in known if m.kind == "acceleration" and not turns(m.where)]
         if (name := f"{self.where or 'body'}_acceleration") not in vertical:
-            places = ", ".join(r.removesuffix("_acceleration") for r in vertical)
+            places = checks.listing((r.removesuffix("_acceleration") for r in vertical), self.where)
             got = checks.shown(self.where)
             raise ValueError(f"{self.word} must be of one of {places} or a point (x, y), got {got}")
         return name
@@ -102,7 +102,7 @@ class WheelMeasure(PlacedMeasure):
         if not found:
             raise ValueError(f"{self.word} must be of a vehicle that has it by name, got one without")
         if not chosen:
-            known = ", ".join(filter(None, found)) or "all wheels"
+            known = checks.listing(filter(None, found), self.where) or "all wheels"
             raise ValueError(f"{self.word} must be of one of {known}, got {checks.shown(self.where)}")
         return chosen
 
