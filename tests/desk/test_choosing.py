@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from suspension_ctrl import Nsga2, Problem, knee, minimise, pick
-from suspension_ctrl.desk.choosing import chosen, scaled
+from suspension_ctrl.desk.choosing import SAME, chosen, flat, scaled
 from suspension_ctrl.search.indicators import best_of
 from suspension_ctrl.search.population import Population
 
@@ -100,6 +100,21 @@ def test_candidates_are_of_the_front_have_names_and_do_not_depend_on_units(rows,
     assert all(text.count(name) == 1 for name in ("least a", "least b", "least c", "knee", "compromise"))
     assert [tuple(front[row]) for row in names] == sorted(tuple(front[row]) for row in names)
     np.testing.assert_allclose(scaled(front * units), scaled(front), atol=1e-9)
+
+
+def test_designs_of_equal_objectives_are_listed_once():
+    """A front of one point, one with an objective that is equal throughout, and one that two designs share."""
+    names = ("a", "b", "c")
+    point = np.tile([[2.0, 3.0, 0.0]], (9, 1)) * (1 + 1e-9 * np.arange(9)[:, None])  # ends of descents
+    assert flat(point).all()
+    assert list(chosen(point, names, 7).values()) == ["least a, least b, least c, knee, compromise"]
+    line = np.linspace(0, 1, 101)
+    held = np.column_stack([line, np.full(101, 5.0), 1 - line])
+    assert flat(held).tolist() == [False, True, False]
+    assert list(chosen(held, names, 7)) == list(chosen(held[:, [0, 2]], ("a", "c"), 7))
+    twice = np.repeat([[0.0, 1.0], [0.5, 0.4], [1.0, 0.0]], 5, axis=0) + SAME / 5 * np.arange(15)[:, None]
+    assert list(chosen(twice, ("a", "b"), 7).values()) == ["least a", "knee, compromise", "least b"]
+    assert len(chosen(twice + 10 * SAME * np.arange(15)[:, None], ("a", "b"), 7)) == 7
 
 
 def test_ten_objectives_have_a_knee_and_ten_ends():

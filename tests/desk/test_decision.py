@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 import garage
-from suspension_ctrl import Iso8608Road, Limit, MoeadDra, Nsga2, RideProblem
+from suspension_ctrl import Iso8608Road, Limit, Measure, MoeadDra, Nsga2, RideProblem
 from suspension_ctrl.desk.decision import Decision, measured
 from suspension_ctrl.search.indicators import best_of
+from suspension_ctrl.vehicles.modes import FREQUENCY
 
 SEARCH = {"iterations": 20, "seed": 1}
 
@@ -53,10 +54,29 @@ def test_the_limits_that_are_possible_are_those_of_the_grid(within, grid):
     )
 
 
-def test_a_limit_that_does_nothing_names_the_design_nearest_to_it(grid):
+def test_a_limit_that_does_nothing_tells_how_near_the_front_comes_to_it(grid):
+    """The nearest design is that of the most travel, of a least heave frequency that of the softest spring."""
     (line,) = [one for one in decide("SWS <= 40mm").describe() if "nothing" in one]
-    assert line.startswith("SWS <= 40 mm does nothing: the least-ACC design has ")
+    assert line.startswith("SWS <= 40 mm does nothing: the nearest design of the front has ")
     assert numbers(line)[1] == pytest.approx(1e3 * best_of(grid)[:, 1].max(), rel=2e-3)
+    (line,) = [one for one in decide("frequency heave >= 0.5").describe() if "nothing" in one]
+    assert line.startswith("frequency heave >= 0.5 Hz does nothing: the nearest design of the front has ")
+    softest = garage.QUARTER.modes({"spring": 10e3, "damper": 500.0})[FREQUENCY].min()
+    assert numbers(line)[1] == pytest.approx(softest, rel=2e-3)
+
+
+def test_measures_that_are_equal_on_the_front_are_told():
+    """On a quarter car DLC is DTL over a fixed load, and of statics all designs have the same load."""
+    load = Measure("load", "N", lambda designs: np.full(len(designs), garage.QUARTER.body_mass * 9.81))
+    problem = problem_of(measures=["SWS", "DTL", load])
+    told = Decision.of(problem, Nsga2(population=40), iterations=3, seed=1).describe()
+    assert told[0] == "All designs of the front have load of 3.115 kN: only other measures are traded."
+    assert told[1].startswith("No limit is set. The front has SWS from ")
+    assert "load" not in told[1]
+    point = Decision.of(problem_of(measures=["DTL", "DLC"]), Nsga2(population=40), iterations=10, seed=1)
+    assert point.describe()[0].startswith("The front is one point, the best of every measure: DTL of ")
+    assert point.describe()[1] == "No limit is set."
+    assert point.table.name.tolist() == ["least DTL, least DLC, knee, compromise"]
 
 
 def test_a_limit_that_nothing_meets_tells_the_least_that_is_possible(grid):

@@ -49,7 +49,7 @@ def candidates(
     present : mapping of str to float, or (d,) array_like, optional
         The design of today, by variable or in their order; it may be outside the bounds.
     count : int
-        Number of candidates, more if more of them have names, fewer if the front has fewer designs.
+        Number of candidates, more if more of them have names, fewer if the front has fewer designs that differ.
 
     Returns
     -------
@@ -113,11 +113,12 @@ def design_of(problem: Minimisable, present: Present, name: str = "present") -> 
     names = list(problem.variables)
     if isinstance(present, Mapping):
         if missing := [one for one in names if one not in present]:
-            raise ValueError(f"{name} must have {', '.join(names)}, got none for {', '.join(missing)}")
+            needed, lacking = checks.listing(names, missing[0]), checks.listing(missing)
+            raise ValueError(f"{name} must have {needed}, got none for {lacking}")
         present = [present[one] for one in names]
     values = checks.reals(f"{name} must be", present)
     if values.shape != (len(names),) or not np.isfinite(values).all():
-        raise ValueError(f"{name} must be finite values of {', '.join(names)}, got {checks.shown(present)}")
+        raise ValueError(f"{name} must be finite values of {checks.listing(names)}, got {checks.shown(present)}")
     return values
 
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .. import checks
 from ..quantities import Real, quantity
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
     import pandas as pd
 
 KNEE, COMPROMISE, BETWEEN = "knee", "compromise", "between"
+SAME = 1e-4
+"""Largest difference of scaled objectives of designs that count as one."""
+_FLAT = 1e-6  # largest span of an objective that is equal throughout a front, as a share of its size
 
 Within = Mapping[str, float | str | tuple[float | str, float | str]]
 
@@ -43,28 +47,40 @@ def front_of(problem: Minimisable, run: Population) -> Front:
     return Front(run.designs[rows], run.objectives[rows], run.constraints[rows])
 
 
+def flat(objectives: Real) -> NDArray[np.bool_]:
+    """Return which objectives (m,) are equal throughout a front (k, m), but for rounding and ends of descents."""
+    return np.ptp(objectives, axis=0) <= _FLAT * np.abs(objectives).max(axis=0)
+
+
 def scaled(objectives: Real) -> Real:
-    """Return objectives (k, m) of a front from 0 at their least to 1 at their largest value."""
-    span = np.ptp(objectives, axis=0)
-    return (objectives - objectives.min(axis=0)) / np.where(span > 0, span, 1.0)
+    """Return objectives (k, m) of a front from 0 at their least to 1 at their largest value, 0 of flat ones."""
+    equal = flat(objectives)
+    span = np.where(equal, np.inf, np.ptp(objectives, axis=0))
+    return np.asarray((objectives - objectives.min(axis=0)) / span)
 
 
 def chosen(objectives: Real, names: tuple[str, ...], count: int) -> dict[int, str]:
     """Return the names of candidates by row of objectives (k, m), by rising first objective.
 
     First the least of each objective, of several equal ones that of the least sum; knee and compromise; then, up
-    to `count`, repeatedly the row farthest from all before it.
+    to `count`, repeatedly the row farthest from all before it. Rows that are equal up to `SAME` are one.
     """
     points = scaled(objectives)
     total = points.sum(axis=1)
     found: dict[int, list[str]] = {}
-    for j, name in enumerate(names):
-        found.setdefault(int(np.lexsort((total, objectives[:, j]))[0]), []).append(f"least {name}")
-    found.setdefault(_knee(points), []).append(KNEE)
-    found.setdefault(_compromise(points), []).append(COMPROMISE)
+
+    def equal(row: int) -> int | None:
+        """Return the row found so far that is equal to another."""
+        return next((one for one in found if np.abs(points[one] - points[row]).max() <= SAME), None)
+
+    least = [(int(np.lexsort((total, points[:, j]))[0]), f"least {name}") for j, name in enumerate(names)]
+    for row, name in [*least, (_knee(points), KNEE), (_compromise(points), COMPROMISE)]:
+        known = equal(row)
+        found.setdefault(row if known is None else known, []).append(name)
     size = min(max(count, len(found)), len(points))
     for row in farthest_first(points, np.array(list(found)), size).tolist():
-        found.setdefault(row, [BETWEEN])
+        if equal(row) is None:
+            found[row] = [BETWEEN]
     order = sorted(found, key=lambda row: tuple(objectives[row].tolist()))
     return {row: ", ".join(found[row]) for row in order}
 

@@ -15,7 +15,7 @@ from ..search.run import Optimiser, Run
 from ..tables.headers import shown_range, shown_value
 from .active import designs_by_text, limit_text
 from .candidate_table import Present, candidates
-from .choosing import front_of
+from .choosing import flat, front_of
 from .descent import with_least
 
 if TYPE_CHECKING:
@@ -53,35 +53,42 @@ class Decision(NamedTuple):
         return cls(problem, run, free if problem.constraints else run, candidates(problem, run, present=present))
 
     def describe(self) -> list[str]:
-        """Return what limits and bounds do, a sentence each."""
-        return [*self._limits(), self._active()]
+        """Return what limits and bounds do, and which measures are equal on the front, a sentence each."""
+        return [*self._equal(), *self._limits(), self._active()]
+
+    def _equal(self) -> Iterator[str]:
+        """Yield a sentence about measures that all designs of the front have alike."""
+        front = front_of(self.problem, self.run).objectives
+        equal = flat(front)
+        pairs = zip(self.problem.measures, front[0].tolist(), equal.tolist(), strict=True)
+        have = [f"{one.label} of {shown_value(one.sign * value, one.unit)}" for one, value, same in pairs if same]
+        if equal.all():
+            yield f"The front is one point, the best of every measure: {', '.join(have)}."
+        elif have:
+            yield f"All designs of the front have {' and '.join(have)}: only other measures are traded."
 
     def _limits(self) -> Iterator[str]:
         """Yield a sentence about each limit, or about the limits that are possible."""
         problem = self.problem
         if not problem.constraints:
             front = front_of(problem, self.run).objectives
-            ranges = zip(problem.measures, front.min(axis=0), front.max(axis=0), strict=True)
-            yield (
-                "No limit is set. The front has "
-                + "; ".join(
-                    f"{one.label} from {shown_range(low, high, one.unit)}"
-                    for one, low, high in ranges
-                    if not one.maximise
-                )
-                + ": limits between these are possible."
+            ranges = zip(problem.measures, front.min(axis=0), front.max(axis=0), flat(front), strict=True)
+            possible = "; ".join(
+                f"{one.label} from {shown_range(low, high, one.unit)}"
+                for one, low, high, equal in ranges
+                if not (one.maximise or equal)
             )
+            between = f" The front has {possible}: limits between these are possible."
+            yield "No limit is set." + between * bool(possible)
             return
         front = self.free.designs[self.free.on_front()]
         values = problem.evaluate(front)
-        names, where = list(problem.objectives), " in the worst load case" * (len(problem.cases) > 1)
-        for limit, g in zip(problem.constraints, values[:, len(names) :].T, strict=True):
+        m, where = len(problem.objectives), " in the worst load case" * (len(problem.cases) > 1)
+        for limit, g in zip(problem.constraints, values[:, m:].T, strict=True):
             found, unit = measured(limit, g), limit.measure.unit
             if (g <= 0).all():
-                worst = int(g.argmax())
-                least = [f"least-{names[j]}" for j in range(len(names)) if values[:, j].argmin() == worst]
-                which = f"the {least[0]} design" if least else "the nearest design"
-                yield f"{limit_text(limit)} does nothing: {which} has {shown_value(found[worst], unit)}{where}."
+                nearest = shown_value(found[g.argmax()], unit)
+                yield f"{limit_text(limit)} does nothing: the nearest design of the front has {nearest}{where}."
             else:
                 possible = shown_range(found.min(), found.max(), unit)
                 yield f"{limit_text(limit)} cuts the front: limits from {possible} are possible{where}."
