@@ -23,12 +23,13 @@ from ..search.driver import minimise
 from ..search.run import Optimiser
 from ..study.comparison import optimiser
 from ..tables import write_csv, write_figure, write_text
-from ..tables.headers import shown_range, shown_value
+from ..tables.headers import name_and_unit, readable, shown_range, shown_value
 from . import results, studies, terminal
 
 WEIGHTINGS = ("Wk", "Wb", "Wb-table")
 """Weightings of ACC in Table 5."""
-DECIMALS = {"[m": 4, "[N]": 1, "[N": 0, "[%]": 2}
+DECIMALS = {"mm": 1, "kN": 4, "kN/m": 4, "kN s/m": 4, "m/s^2": 4, "%": 2}
+"""Decimals of Table 5 by unit, as in print."""
 
 
 @dataclass(frozen=True)
@@ -132,8 +133,9 @@ def show(said: Sequence[str], printed: Sequence[pd.DataFrame], parts: Mapping[st
     """Print Table 5 if there is one, then the problem, the parts of the table, and what limits and bounds do."""
     for part in printed:
         shown = part.drop(columns="weighting")
-        digits = {name: next((d for unit, d in DECIMALS.items() if unit in name), 4) for name in shown.columns[1:]}
-        terminal.show(f"Table 5, ACC weighted by {part.weighting.iloc[0]}", shown, digits)
+        units = {header: name_and_unit(header)[1] for header in map(str, readable(shown))}
+        digits = {header: DECIMALS[unit] for header, unit in units.items() if unit}
+        terminal.show(f"Table 5, ACC weighted by {part.weighting.iloc[0]}", shown, digits, readable=True)
     for title, table in parts.items():
         terminal.show(title, table, decimals_of(table), readable=True)
     for line in said:
