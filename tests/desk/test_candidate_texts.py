@@ -3,7 +3,7 @@
 import pandas as pd
 
 from suspension_ctrl import Problem
-from suspension_ctrl.desk.candidate_texts import markdown, parts_of
+from suspension_ctrl.desk.candidate_texts import decimals_of, markdown, parts_of
 
 TABLE = pd.DataFrame(
     {
@@ -40,3 +40,17 @@ def test_a_page_of_markdown_has_the_sentences_and_the_parts_in_mm_and_kn():
     assert ["", "1", "knee", "9.98", "1.000", ""] in rows
     assert ["", "1", "-65.2", "", ""] in rows
     assert "nan" not in page
+
+
+def test_many_modes_stand_in_rows():
+    """Of a car with wheels of its own, seven: their columns would stand in blocks."""
+    names = ["heave", "roll", "pitch", "front wheel hop", "rear wheel hop"]
+    modes = {f"{name} [Hz]": [1.0 + n, 2.0 + n] for n, name in enumerate(names)}
+    modes |= {f"{name} damping [-]": [0.1 * n, 0.2 * n] for n, name in enumerate(names)}
+    parts = parts_of(PROBLEM, TABLE.drop(columns=["heave [Hz]", "heave damping [-]"]).assign(**modes))
+    frequencies, ratios = (part for title, part in parts.items() if "by candidate" in title)
+    assert frequencies.to_dict("list") == {"mode": names, "0": [1.0, 2, 3, 4, 5], "1": [2.0, 3, 4, 5, 6]}
+    assert ratios["1"].tolist() == [0.2 * n for n in range(5)]
+    assert decimals_of(ratios) == {"mode": 3, "0": 3, "1": 3}
+    assert "Modes, without dampers, and damping ratios" not in parts
+    assert "| heave           | 1.000 | 2.000 |" in markdown("A car", parts, [])

@@ -9,9 +9,16 @@ from ..search.problem import Minimisable, headers_of
 from ..tables.headers import readable
 from ..tables.rounding import rounded
 
+_MODES = 4  # that stand side by side, in two columns each; the columns of more do not fit a page
+_MODE = "mode"
+_OF_MODES = {
+    "Natural frequencies [Hz], without dampers, by candidate": " [Hz]",
+    "Damping ratios [-] by candidate": " damping [-]",
+}
+
 
 def parts_of(problem: Minimisable, table: pd.DataFrame) -> dict[str, pd.DataFrame]:
-    """Return parts of a table of `candidates` by title, in SI units."""
+    """Return parts of a table of `candidates` by title, in SI units; of many modes with a row for each mode."""
     d, headers = len(problem.variables), list(headers_of(problem))
     given = [str(one) for one in table]
     changes = {f"{name} change [%]": f"{name} [%]" for name in problem.objectives}
@@ -21,18 +28,32 @@ def parts_of(problem: Minimisable, table: pd.DataFrame) -> dict[str, pd.DataFram
         "Candidates": ["name", *headers[d:]],
         "Changes against the present design": [one for one in given if one in changes],
         "Designs and largest travel" if travels else "Designs": [*headers[:d], *travels],
-        "Modes, without dampers, and damping ratios": modes,
+        "Modes, without dampers, and damping ratios": [] if len(modes) > 2 * _MODES else modes,
     }
     numbered = table.rename(columns=changes).rename_axis("no.").reset_index()
-    return {
+    parts = {
         title: numbered[["no.", *(changes.get(name, name) for name in names)]]
         for title, names in columns.items()
         if names
     }
+    return parts if len(modes) <= 2 * _MODES else parts | _by_mode(table[modes])
+
+
+def _by_mode(modes: pd.DataFrame) -> dict[str, pd.DataFrame]:
+    """Return frequencies and damping ratios by title, a row for each mode and a column for each candidate."""
+    parts = {}
+    for title, end in _OF_MODES.items():
+        headers = [header for header in map(str, modes) if header.endswith(end)]
+        part = pd.DataFrame(modes[headers].to_numpy().T, columns=list(map(str, modes.index)))
+        part.insert(0, _MODE, [header.removesuffix(end) for header in headers])
+        parts[title] = part
+    return parts
 
 
 def decimals_of(part: pd.DataFrame) -> dict[str, int]:
-    """Return the decimals of changes [%] and damping ratios; other columns show the digits that matter."""
+    """Return the decimals of changes [%] and of modes; other columns show the digits that matter."""
+    if _MODE in part:
+        return dict.fromkeys(map(str, part), 3)
     digits = {"[%]": 1, " damping [-]": 3}
     return {str(header): n for header in part for end, n in digits.items() if str(header).endswith(end)}
 
