@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from suspension_ctrl.commands.text_tables import Column, lines_of
+from suspension_ctrl.commands.text_tables import Column, lines_of, sides_in_one
 
 NAMES = Column("name", ["front_left_suspension_travel", "front_right_suspension_travel"], right=False)
 VALUES = Column("natural frequency [N s/m]", ["1.25", "-3"], right=True)
@@ -83,3 +83,17 @@ def test_nothing_is_cut_and_no_line_is_too_wide(names, numbers, room):
 @pytest.mark.parametrize("room", [40, 80])
 def test_an_empty_table_is_its_header(room):
     assert lines([Column("name", [], False), Column("value", [], True)], room)[0].split() == ["name", "value"]
+
+
+def test_left_and_right_are_one_row_where_all_their_cells_are_equal():
+    names = [f"{axle}_{side}_tyre_load" for axle in ("front", "rear") for side in ("left", "right")]
+    table = [Column("name", ["body", *names], False), Column("value", ["1", "2.50", "2.50", "3", "4"], True)]
+    found = sides_in_one(table)
+    assert found[0].cells == ["body", "front_tyre_load (left and right)", *names[2:]]
+    assert found[1].cells == ["1", "2.50", "3", "4"]
+    assert (
+        sides_in_one([Column("name", ["left", "right"], False), Column("v", ["1", "1"], True)])[1].cells
+        == ["1"] * 2
+    )
+    twice = [Column("name", ["a_left", "a_left"], False), Column("v", ["1", "1"], True)]
+    assert sides_in_one(twice) == twice

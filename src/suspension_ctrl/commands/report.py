@@ -36,12 +36,13 @@ class Table(NamedTuple):
     decimals: Mapping[str, int]  # of columns by the header that is printed
     keys: int  # first columns, repeated where the columns stand in blocks
     readable: bool  # printed in mm, kN, kN/m and kN s/m
+    sides: bool = False  # left and right printed as one row where they are equal to the digits shown
 
     def lines(self, room: int, *, plain: bool) -> Iterator[str]:
         """Yield the lines of the table; NaN is blank."""
         from ..tables.headers import readable
         from ..tables.rounding import rounded
-        from .text_tables import Column, lines_of
+        from .text_tables import Column, lines_of, sides_in_one
 
         frame = readable(self.frame) if self.readable else self.frame
         columns = []
@@ -49,6 +50,7 @@ class Table(NamedTuple):
             cells = rounded(frame[name].tolist(), self.decimals.get(str(name)), alike="unit" not in frame)
             texts = [_shown(cell, plain=plain) for cell in cells]
             columns.append(Column(_shown(str(name), plain=plain), texts, frame[name].dtype.kind in "iuf"))
+        columns = sides_in_one(columns) if self.sides else columns
         yield from lines_of(columns, self.keys, room, "-" if plain else "─")
 
     def record(self) -> dict[str, Any]:

@@ -63,7 +63,8 @@ def ride(
     results.write_tables(folder, tables)
     terminal.note(f"{file.name or vehicle}: {told(values, car)}.")
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
-    terminal.show(f"Ride: root mean squares, ACC weighted with {problem.weighting}", table, readable=True)
+    title = f"Ride: root mean squares, ACC weighted with {problem.weighting}"
+    terminal.show(title, table, readable=True, sides=True)
     show_tables(tables, linear)
     show_certificate(certificate, folder)
     terminal.end(folder)
@@ -170,12 +171,12 @@ def show_tables(tables: "Mapping[str, pd.DataFrame]", linear: "LinearisedVehicle
     terminal.show("Springs" + " at the working point" * bool(linear.laws), tables["springs"], readable=True)
     if "static" in tables:
         loads = tables["static"][tables["static"]["name"].str.endswith("wheel_load")]
-        terminal.show("Static loads", loads, readable=True)
+        terminal.show("Static loads", loads, readable=True, sides=True)
     if linear.laws:
         terminal.show("Force laws, linearised on this road: SI units", tables["laws"])
         travel = [(strut or "strut", mean) for strut, mean in linear.mean_travel.items()]
         table = pd.DataFrame(travel, columns=["strut", "mean travel [m]"])
-        terminal.show("Mean travel", table, {"mean travel [mm]": 1}, readable=True)
+        terminal.show("Mean travel", table, {"mean travel [mm]": 1}, readable=True, sides=True)
 
 
 def chosen_vehicle(name: str | None, masses: Mapping[str, float | None], allow_outside: bool) -> "VehicleFile":

@@ -83,7 +83,7 @@ def _ending(error: BaseException) -> tuple[str, int]:
     if isinstance(error, ValueError):
         from ..documents import lines_of
 
-        return "\n".join(lines_of(error)), 2
+        return "\n".join(lines_of(error)), 1 if isinstance(error, OSError) else 2
     if isinstance(error, ArithmeticError | RuntimeWarning):
         return f"numbers must be of moderate size, got {error.args[-1]}", 2
     if isinstance(error, OSError | ImportError):
@@ -178,13 +178,15 @@ def show(
     keys: int = 1,
     *,
     readable: bool = False,
+    sides: bool = False,
 ) -> None:
     """Add a table to the report; `digits` is the number of decimals by column; NaN is blank.
 
     The columns of a table wider than the terminal are printed in blocks, each with the first `keys` columns. A
-    `readable` table is in SI units and printed in mm, kN, kN/m and kN s/m.
+    `readable` table is in SI units and printed in mm, kN, kN/m and kN s/m; with `sides` left and right are printed
+    as one row where they are equal to the digits shown.
     """
-    report.items.append(Table(title, table, digits or {}, keys, readable))
+    report.items.append(Table(title, table, digits or {}, keys, readable, sides))
 
 
 def end(folder: Path) -> None:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from rich.cells import cell_len
 
 from ..tables.blocks import blocks
+from ..vehicles.parameters import alike
 
 _GAP = 2  # characters between two columns
 _TEXT = 24  # characters to which a text may be wrapped
@@ -39,6 +40,19 @@ class Column(NamedTuple):
         widest = max(map(cell_len, self.cells), default=0)
         body = widest if self.right else max(min(widest, _TEXT), self.word)
         return max([body, *map(cell_len, _bound(self.header).split(" "))])
+
+
+def sides_in_one(columns: Sequence[Column]) -> list[Column]:
+    """Return a table with one row for left and right where all cells beside the name are equal."""
+    names = list(columns[0].cells)
+    rows = dict(zip(names, zip(*(one.cells for one in columns[1:]), strict=True), strict=True))
+    if len(rows) < len(names):  # names that stand twice
+        return list(columns)
+    pairs = {own[0]: f"{common} (left and right)" for common, own in alike(rows).items() if len(own) == 2}
+    left_out = {own[1] for own in alike(rows).values() if len(own) == 2}
+    kept = [i for i, name in enumerate(names) if name not in left_out]
+    named = columns[0]._replace(cells=[pairs.get(name, name) for name in names])
+    return [one._replace(cells=[one.cells[i] for i in kept]) for one in (named, *columns[1:])]
 
 
 def lines_of(columns: Sequence[Column], keys: int, room: int, rule: str) -> Iterator[str]:

@@ -6,7 +6,7 @@ and its place: ports of the plant with the value minus that of the vehicle.
 
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from .. import checks
@@ -163,7 +163,7 @@ def parameters_of(assembly: Assembly) -> dict[str, Parameter]:
     return {one.name: one for one in every if one.name not in taken}
 
 
-def alike(values: Mapping[str, float]) -> dict[str, list[str]]:
+def alike(values: Mapping[str, Hashable]) -> dict[str, list[str]]:
     """Return names by what they have in common: left and right of an axle where their values are equal."""
     groups: dict[str, list[str]] = {}
     for name in values:
