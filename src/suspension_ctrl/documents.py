@@ -23,16 +23,21 @@ class FileError(ValueError):
     """Mistakes in a file, one per line."""
 
 
+class UnreadFileError(FileError, OSError):
+    """Mistakes in a file, one per line; among them a file that it names and that cannot be read."""
+
+
 def lines_of(error: ValueError) -> list[str]:
     """Return the mistakes that an error lists, each as one line."""
     return str(error).split("\n") if isinstance(error, FileError) else [" ".join(str(error).split())]
 
 
 class Mistakes:
-    """Collected mistakes in a file."""
+    """Collected mistakes in a file; a file that it names and that cannot be read is one."""
 
     def __init__(self) -> None:
         self._lines: dict[str, None] = {}
+        self._unread: list[OSError] = []
 
     def __len__(self) -> int:
         return len(self._lines)
@@ -43,16 +48,20 @@ class Mistakes:
 
     @contextmanager
     def noted(self, prefix: str = "") -> Iterator[None]:
-        """Note the lines of a ValueError of the block, each after the prefix, and suppress the error."""
+        """Note the lines of an error of the block, each after the prefix, and suppress the error."""
         try:
             yield
-        except ValueError as error:
-            self._lines |= dict.fromkeys(f"{prefix}{line}" for line in lines_of(error))
+        except (ValueError, OSError) as error:
+            lines = [str(error)] if not isinstance(error, ValueError) else lines_of(error)
+            self._unread += [error] if isinstance(error, OSError) else []
+            self._lines |= dict.fromkeys(f"{prefix}{line}" for line in lines)
 
     def settle(self) -> None:
-        """Raise a FileError with the mistakes, if any."""
+        """Raise a FileError with the mistakes, if any; an OSError that is the only one as it is."""
+        if self._unread and len(self._lines) == 1:
+            raise self._unread[0]
         if self._lines:
-            raise FileError("\n".join(self._lines))
+            raise (UnreadFileError if self._unread else FileError)("\n".join(self._lines))
 
 
 @contextmanager
@@ -65,7 +74,8 @@ def naming(path: str | PathLike[str], numbers: Mapping[str, int] | None = None) 
         lines = lines_of(error) if isinstance(error, ValueError) else [f"{far} {type(error).__name__}"]
         more = [f"{len(lines) - _LINES} further mistakes"] if len(lines) > _LINES else []
         named = [f"{path}{_place(line, numbers or {})}: {line}" for line in [*lines[:_LINES], *more]]
-        raise FileError("\n".join(map(escaping.terminal, named))) from None
+        kind = UnreadFileError if isinstance(error, UnreadFileError) else FileError
+        raise kind("\n".join(map(escaping.terminal, named))) from None
 
 
 @contextmanager
