@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from suspension_ctrl import Iso8608Road, RideProblem, escaping, load_vehicle, save_system
+from suspension_ctrl import Iso8608Road, RideProblem, escaping, load_study, load_vehicle, save_system
 from suspension_ctrl.commands import reports
 from suspension_ctrl.commands.studies import chosen_study
 
@@ -89,9 +89,12 @@ def test_compare_on_a_study_goes_on_and_judges_quality(called, checkout, tmp_pat
     ]  # fmt: skip
     assert front.violation.eq(0).all()
     before = {path: path.stat().st_mtime_ns for path in (out / "timed" / "runs").iterdir()}
+    assert load_study(out / "study.toml").search.seeds == 31
 
-    again = called(*command, "--quality", "--seeds", 2)
+    again = called(*command, "--quality", "--seeds", 2, "--target", 0.9)
     assert again.returncode == 0, again.stderr
+    for text in (r"timed runs, 6 of 6 in .* s, 6 found", r"reference front in .* s, found"):
+        assert re.search(f"^{text}$", again.stderr, re.MULTILINE)
     assert {path: path.stat().st_mtime_ns for path in (out / "timed" / "runs").iterdir()} == before
     assert {f"{kind}_n{n}.png" for kind in ("anytime", "boxes", "attainment") for n in (20, 25)} <= {
         path.name for path in out.glob("[!.]*")
@@ -100,6 +103,14 @@ def test_compare_on_a_study_goes_on_and_judges_quality(called, checkout, tmp_pat
     assert len(runs[~runs.timing]) == 2 * 2 * 2
     assert (out / "verdict.md").read_text().startswith("No verdict: 2 runs against 2 cannot differ")
     assert not (out / "verdict.csv").exists()
+
+    kept = (out / "study.toml").read_bytes()
+    search = load_study(out / "study.toml").search
+    assert (search.seeds, search.target, search.populations) == (2, 0.9, (20, 25))
+    more = called(*command, "--quality", "--seeds", 3)
+    assert (more.returncode, more.stderr.startswith("error: seeds must be 2 as in ")) == (2, True)
+    assert called(*command).returncode == 0  # without judged runs, of which there are 31 by default
+    assert (out / "study.toml").read_bytes() == kept
 
     other = study(tmp_path, 'measures = ["ACC", "SWS", "DTL"]\n')
     refused = called("compare", "--study", other, *TINY, "--out", "out")

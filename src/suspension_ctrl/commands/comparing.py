@@ -1,15 +1,15 @@
 """The steps of `suspension-ctrl compare`: timed runs, reference front, quality over seeds; files before prints."""
 
 from collections.abc import Mapping
-from contextlib import AbstractContextManager
-from dataclasses import dataclass
+from contextlib import AbstractContextManager, suppress
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Self
 
 import pandas as pd
 import typer
 
-from ..desk.study_files import StudyFile
+from ..desk.study_files import StudyFile, load_study
 from ..paper import experiment as paper
 from ..quantities import column_headers
 from ..response.problem import RideProblem
@@ -89,7 +89,10 @@ def carry_out(request: Request, cluster: AbstractContextManager[Any] | None) -> 
 def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) -> int:
     """Return the number of runs that raised."""
     campaign, record = request.campaign, request.campaign.folder / RECORD
-    if not (campaign.folder / studies.FILE).exists():
+    judged, resumed = cluster is not None, (campaign.folder / studies.FILE).exists()
+    if resumed:
+        campaign.check_seeds(judged=judged)
+    else:  # marks the folder as one to resume
         studies.save_resolved(campaign.folder, request.study)
     if not record.exists():  # written by the command that started the timed runs
         texts = {name: str(value) if isinstance(value, Path) else value for name, value in request.options.items()}
@@ -97,11 +100,13 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
             write_json(record, machine.describe(texts))
     with terminal.compiling():
         store = campaign.time()
+    if resumed:  # by settings with which the runs in the folder agree
+        studies.save_resolved(campaign.folder, settled(request, judged=judged))
     timed = timing.tidy(campaign.comparison, store).assign(timing=True)
     reports.write_times(request, store, timed)
     reports.say_times(request, store, timed)
     terminal.say()
-    with stages.stage("reference front"):
+    with stages.stage("reference front", found=campaign.has_reference):
         reference = campaign.reference(store, request.reference)
     if reference is None:
         terminal.note("Quality is not judged: no two designs found within the limits differ in every objective.")
@@ -111,6 +116,16 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
     reports.say_quality(request, timed, reference)
     terminal.say()
     return 0 if cluster is None else _judge(request, cluster, store, timed, reference.front)
+
+
+def settled(request: Request, *, judged: bool) -> StudyFile:
+    """Return the study of all results in a folder that is resumed: runs judged before keep seeds and target."""
+    folder, study = request.campaign.folder, request.study
+    if not judged and request.campaign.has_judged:
+        with suppress(ValueError, OSError):  # of a file that was changed
+            kept = load_study(folder / studies.FILE).search
+            return replace(study, search=replace(study.search, seeds=kept.seeds, target=kept.target))
+    return study
 
 
 def _judge(

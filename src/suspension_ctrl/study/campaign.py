@@ -11,7 +11,7 @@ import pandas as pd
 
 from ..search.constraints import InfeasibleWarning
 from ..search.indicators import ReferenceFront
-from . import lock, machine, reference, timing
+from . import lock, machine, plans, reference, timing
 from .comparison import Comparison
 from .reference import Reference
 from .store import FolderStore, count_runs
@@ -57,6 +57,21 @@ class Campaign:
         if judged:
             plan[QUALITY] = sum(len(study.runs()) for study in self.comparison.studies().values())
         return sum(count_runs(self.folder / name) for name in plan), sum(plan.values())
+
+    @property
+    def has_reference(self) -> bool:
+        """Whether the folder has a reference front."""
+        return count_runs(self.folder / reference.FOLDER) > 0
+
+    @property
+    def has_judged(self) -> bool:
+        """Whether the folder has judged runs."""
+        return count_runs(self.folder / QUALITY) > 0
+
+    def check_seeds(self, *, judged: bool) -> None:
+        """Raise ValueError if judged runs are to be made of other seeds than those in the folder."""
+        if judged and self.has_judged:
+            plans.agree(self.folder / QUALITY / plans.FILE, {"seeds": self.comparison.seeds}, "to resume there")
 
     def reference(self, store: FolderStore, given: Reference | None = None) -> Reference | None:
         """Return the reference front, stored in the folder: the given one or that of `reference.sought`."""
