@@ -135,7 +135,10 @@ def test_the_study_of_a_comparison_makes_the_same_fronts_bit_for_bit(called, tmp
         ({"road": ""}, "road must be a class of ISO 8608 .* got ''"),
         ({"vehicle": ""}, "vehicle must be one of bmw_320i_full, .* got ''"),
         ({"vehicle": "cantero_2022_half"}, "vehicle must be a file with bounds, got 'cantero_2022_half'"),
-        ({"study": "mine"}, "study must be one of damper_curve, full_car, half_car, motorcycle, paper or .*"),
+        (
+            {"study": "mine"},
+            "study must be one of damper_curve, full_car, half_car, matlab_quarter_car, .*, paper or .*",
+        ),
         ({"study": "full_car", "vehicle": "minaker_half"}, "response must be one of .* got 'driver_acceleration'"),
     ],
 )
