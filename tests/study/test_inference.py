@@ -1,6 +1,7 @@
 """Statistics against worked examples and against straightforward second computations."""
 
 import itertools
+from collections.abc import Sequence
 from math import comb
 
 import numpy as np
@@ -108,6 +109,40 @@ def test_the_least_p_is_of_samples_that_do_not_overlap():
 def test_as_many_runs_as_needed_differ_and_one_less_do_not(tests):
     runs = statistics.runs_needed(tests)
     assert 2 * tests / comb(2 * runs, runs) < 0.05 <= 2 * tests / comb(2 * runs - 2, runs - 1)
+
+
+def p_by_counting(first: Sequence[float], second: Sequence[float]) -> float:
+    """Share of the ways to deal the values into two samples that differ as much, in either direction."""
+    values = [*first, *second]
+    ways = list(itertools.combinations(range(len(values)), len(first)))
+    ranks = stats.rankdata(values)
+    sums = np.array([ranks[list(way)].sum() for way in ways])
+    here = ranks[: len(first)].sum()
+    return min(1.0, 2 * min(np.mean(sums <= here), np.mean(sums >= here)))
+
+
+@given(st.lists(st.integers(-1000, 1000), min_size=2, max_size=9, unique=True), st.data())
+def test_the_rank_test_is_that_of_all_permutations_and_of_scipy(values, data):
+    at = data.draw(st.integers(1, len(values) - 1))
+    first, second = values[:at], values[at:]
+    p = statistics.rank_test(first, second)
+    assert p == pytest.approx(p_by_counting(first, second), rel=1e-12)
+    assert p == stats.mannwhitneyu(first, second, method="exact").pvalue
+
+
+def test_the_runs_that_are_needed_are_those_of_all_permutations():
+    """Of 2 to 5 runs of each the least p of any order; as many tests as five runs can bear."""
+    least = {n: min(map(p_by_counting, *halves(n))) for n in range(2, 6)}
+    assert [statistics.least_p(n, n) for n in least] == pytest.approx(list(least.values()), rel=1e-12)
+    for tests in range(1, int(0.05 / least[5]) + 1):
+        enough = next(n for n, p in least.items() if tests * p < 0.05)
+        assert statistics.runs_needed(tests) == enough
+
+
+def halves(n: int) -> tuple[list[list[int]], list[list[int]]]:
+    """All ways to deal 2 n ranks into two samples of n: first samples, and second ones."""
+    firsts = [list(way) for way in itertools.combinations(range(2 * n), n)]
+    return firsts, [sorted({*range(2 * n)}.difference(way)) for way in firsts]
 
 
 def test_ties_are_left_to_the_normal_approximation():
