@@ -152,3 +152,24 @@ def test_unusual_sizes_are_read_where_the_file_says_so_or_with_units(path):
     path.write_text(f"unusual = true\n{odd}")
     problem = load_study(path).problem
     assert (problem.cases[0].speed, problem.band, problem.constraints[0].value) == (0.01, (0.1, 2e3), 12.0)
+
+
+def test_files_that_are_absent_hide_no_other_mistakes(path):
+    """All lines at once; with an absent file among them it is an OSError too, and alone it is that error itself."""
+    text = STUDY.replace('"yuen_ramli_2010"', '"no.toml"').replace('"C"', '"no.csv"')
+    path.write_text(text.replace("SWS <= 12mm", "SWS < 12mm").replace("[40, 60]", "[40, 40]"))
+    with pytest.raises(ValueError, match="must be") as error:
+        load_study(path)
+    assert isinstance(error.value, OSError)
+    said = [line.removeprefix(str(path)) for line in str(error.value).split("\n")]
+    starts = {
+        ":2: vehicle: [Errno 2] No such file or directory: ",
+        ":3: road: [Errno 2] No such file or directory: ",
+        ":6: constraints[1]: constraint must be like ",
+        ":13: search.populations must be one at least and different, got 40, 40",
+    }
+    assert len(said) == len(starts)
+    assert all(any(line.startswith(start) for line in said) for start in starts)
+    path.write_text(STUDY.replace('"yuen_ramli_2010"', '"no.toml"'))
+    with pytest.raises(FileNotFoundError, match=r"no\.toml"):
+        load_study(path)
