@@ -49,8 +49,9 @@ def test_many_modes_stand_in_rows():
     modes |= {f"{name} damping [-]": [0.1 * n, 0.2 * n] for n, name in enumerate(names)}
     parts = parts_of(PROBLEM, TABLE.drop(columns=["heave [Hz]", "heave damping [-]"]).assign(**modes))
     frequencies, ratios = (part for title, part in parts.items() if "by candidate" in title)
-    assert frequencies.to_dict("list") == {"mode": names, "0": [1.0, 2, 3, 4, 5], "1": [2.0, 3, 4, 5, 6]}
+    assert frequencies.to_dict("list") == {"frequency of": names, "0": [1.0, 2, 3, 4, 5], "1": [2.0, 3, 4, 5, 6]}
     assert ratios["1"].tolist() == [0.2 * n for n in range(5)]
-    assert decimals_of(ratios) == {"mode": 3, "0": 3, "1": 3}
+    assert decimals_of(frequencies) == {"frequency of": 2, "0": 2, "1": 2}
+    assert decimals_of(ratios) == {"damping of": 3, "0": 3, "1": 3}
     assert "Modes, without dampers, and damping ratios" not in parts
-    assert "| heave           | 1.000 | 2.000 |" in markdown("A car", parts, [])
+    assert "| heave           | 1.00 | 2.00 |" in markdown("A car", parts, [])

@@ -155,7 +155,7 @@ def test_unusual_sizes_are_read_where_the_file_says_so_or_with_units(path):
 
 
 def test_files_that_are_absent_hide_no_other_mistakes(path):
-    """All lines at once; with an absent file among them it is an OSError too, and alone it is that error itself."""
+    """All lines at once; with an absent file among them it is an OSError too, and alone that error itself."""
     text = STUDY.replace('"yuen_ramli_2010"', '"no.toml"').replace('"C"', '"no.csv"')
     path.write_text(text.replace("SWS <= 12mm", "SWS < 12mm").replace("[40, 60]", "[40, 40]"))
     with pytest.raises(ValueError, match="must be") as error:

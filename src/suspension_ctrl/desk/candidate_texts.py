@@ -10,10 +10,9 @@ from ..tables.headers import readable
 from ..tables.rounding import rounded
 
 _MODES = 4  # that stand side by side, in two columns each; the columns of more do not fit a page
-_MODE = "mode"
-_OF_MODES = {
-    "Natural frequencies [Hz], without dampers, by candidate": " [Hz]",
-    "Damping ratios [-] by candidate": " damping [-]",
+_OF_MODES = {  # first header, end of the columns of a table of candidates, and decimals
+    "Natural frequencies [Hz], without dampers, by candidate": ("frequency of", " [Hz]", 2),
+    "Damping ratios [-] by candidate": ("damping of", " damping [-]", 3),
 }
 
 
@@ -42,18 +41,19 @@ def parts_of(problem: Minimisable, table: pd.DataFrame) -> dict[str, pd.DataFram
 def _by_mode(modes: pd.DataFrame) -> dict[str, pd.DataFrame]:
     """Return frequencies and damping ratios by title, a row for each mode and a column for each candidate."""
     parts = {}
-    for title, end in _OF_MODES.items():
+    for title, (first, end, _) in _OF_MODES.items():
         headers = [header for header in map(str, modes) if header.endswith(end)]
         part = pd.DataFrame(modes[headers].to_numpy().T, columns=list(map(str, modes.index)))
-        part.insert(0, _MODE, [header.removesuffix(end) for header in headers])
+        part.insert(0, first, [header.removesuffix(end) for header in headers])
         parts[title] = part
     return parts
 
 
 def decimals_of(part: pd.DataFrame) -> dict[str, int]:
     """Return the decimals of changes [%] and of modes; other columns show the digits that matter."""
-    if _MODE in part:
-        return dict.fromkeys(map(str, part), 3)
+    for first, _, decimals in _OF_MODES.values():
+        if first in part:
+            return dict.fromkeys(map(str, part), decimals)
     digits = {"[%]": 1, " damping [-]": 3}
     return {str(header): n for header in part for end, n in digits.items() if str(header).endswith(end)}
 

@@ -287,8 +287,8 @@ def _check_signals(system: System, roads: Sequence[str], struts: Sequence[str], 
                 raise ValueError(f"system must have the {kind} {name!r}, got {checks.listing(labels, name)}")
     for name in system.input_labels:
         if name.removesuffix("_rate") not in roads and name not in tensions:
-            needed = f"{checks.listing(roads, name)}, its rate, or like 'front_strut'"
-            raise ValueError(f"input must be {needed}, got {checks.shown(name)}")
+            allowed = f"{checks.listing(roads, name)}, its rate, or like 'front_strut'"
+            raise ValueError(f"input must be {allowed}, got {checks.shown(name)}")
     if not all(np.isfinite(array).all() for array in numbers_of(system)):
         raise ValueError("system must hold finite values throughout, got others")
 
