@@ -41,7 +41,7 @@ PUBLIC = {
     "SearchSettings", "StudyFile", "load_study", "save_study",
     "FailureWarning", "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run",
     "Sampling", "minimise", "non_dominated", "Study", "as_pymoo", "as_scipy",
-    "candidates", "knee", "pick",
+    "candidates", "knee", "pick", "attainable", "attainable_figure", "attained", "skyhook",
     "export", "supplier_sheet", "vehicle_file",
 }  # fmt: skip
 

@@ -42,7 +42,8 @@ def printed(ran):
 
 
 def test_they_are_numbered_and_of_a_page_each():
-    assert [int(path.name[:2]) for path in EXAMPLES] == list(range(1, len(EXAMPLES) + 1))
+    numbers = [int(path.name[:2]) for path in EXAMPLES]
+    assert numbers == sorted(set(numbers))
     assert len(EXAMPLES) >= 13
     assert all(20 <= len(path.read_text(encoding="utf-8").splitlines()) <= 60 for path in EXAMPLES)
 
@@ -219,3 +220,21 @@ def test_every_file_of_a_design_is_that_design(ran):
     values = problem.evaluate(np.reshape(axes, (len(axes), -1)).T)
     assert best["ACC"] <= values[values[:, 3] <= 0, 0].min()
     assert best["SWS"] <= 0.025 * (1 + 1e-6)
+
+
+def test_the_share_of_what_is_attainable_is_that_of_the_front(ran, printed):
+    """The passive optimum again among designs of the front, the bound above all of them."""
+    _, names = ran(20)
+    shares, front, table = names["shares"], names["front"], names["table"]
+    own = shares.loc["present design"]
+    inside = front[(front["SWS [m]"] <= own["SWS [m]"]) & (front["DTL [N]"] <= own["DTL [N]"])]
+    best, active = inside["ACC [m/s^2]"].min(), shares["ACC [m/s^2]"]["active optimum"]
+    found = 100 * (own["ACC [m/s^2]"] - best) / (own["ACC [m/s^2]"] - active)
+    assert found == pytest.approx(names["passive"], abs=1.0)  # of a front of 300 designs
+    assert f"takes {names['passive']:.0f} % of what is attainable" in printed(20)
+    weights = table.filter(like="weight [-]").dropna().to_numpy()
+    squares = (front[["ACC [m/s^2]", "SWS [m]", "DTL [N]"]].to_numpy() / table.attrs["present"]) ** 2
+    assert (squares @ weights.T > table["least [-]"].dropna().to_numpy()).all()
+    f, gain = names["invariant"]
+    closed = names["closed"]["body_acceleration", "road"](2j * np.pi * f)
+    assert closed == pytest.approx(gain, rel=1e-9)

@@ -1,8 +1,11 @@
+from .desk.attaining import attainable as attainable
+from .desk.attaining import attained as attained
 from .desk.candidate_table import candidates as candidates
 from .desk.choosing import knee as knee
 from .desk.choosing import pick as pick
 from .desk.designs import vehicle_file as vehicle_file
 from .desk.exporting import export as export
+from .desk.figures import attainable_figure as attainable_figure
 from .desk.scatter_figures import robustness_figure as robustness_figure
 from .desk.scatter_table import robustness as robustness
 from .desk.study_files import SearchSettings as SearchSettings
@@ -121,6 +124,7 @@ from .vehicles.plants import Plant as Plant
 from .vehicles.property_files import load_property as load_property
 from .vehicles.property_files import save_property as save_property
 from .vehicles.rigid_bodies import RigidBodies as RigidBodies
+from .vehicles.sky_dampers import skyhook as skyhook
 from .vehicles.stops import BumpStop as BumpStop
 from .vehicles.stops import ReboundStop as ReboundStop
 from .vehicles.stops import TableSpring as TableSpring

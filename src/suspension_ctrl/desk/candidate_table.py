@@ -1,7 +1,7 @@
 """Candidates of a front as a table: designs, changes against the present one, modes, travel, active bounds."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,6 +29,7 @@ DISTANCE = 1000.0
 """Distance of the expected largest travel [m]."""
 
 Present = Mapping[str, float] | ArrayLike
+P = TypeVar("P", bound=Minimisable)
 
 
 def candidates(
@@ -122,14 +123,15 @@ def design_of(problem: Minimisable, present: Present, name: str = "present") -> 
     return values
 
 
-def reaching(problem: Minimisable, design: Real) -> Minimisable:
+def reaching(problem: P, design: Real) -> P:
     """Return the problem with bounds that reach a design (d,), without kinds where they do not."""
     inside = (np.asarray(problem.lower) <= design) & (design <= np.asarray(problem.upper))
     if inside.all() or not isinstance(problem, RideProblem):
         return problem
     pairs = zip(problem.bounds.items(), design.tolist(), strict=True)
     bounds = {name: (min(low, value), max(high, value)) for (name, (low, high)), value in pairs}
-    return problem.replace(bounds=bounds, kinds={})
+    wide: Any = problem.replace(bounds=bounds, kinds={})
+    return wide
 
 
 def _changes(problem: Minimisable, objectives: Real) -> "pd.DataFrame":

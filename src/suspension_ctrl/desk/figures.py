@@ -1,4 +1,4 @@
-"""Figures of a decision: front with limits, present design and candidates; changes against the present design."""
+"""Figures of a decision: front with limits, present design and candidates, beside what is attainable; changes."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
@@ -9,10 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
-from .. import escaping
+from .. import checks, escaping
 from ..quantities import Real
 from ..study.figures import COLOURS, panels
 from ..tables.headers import shown_header
+from .attaining import LQR, SKYHOOK, edge
 
 _GREY = "#bbbbbb"
 _FROM_POINT = 11.0  # distance of a number from its candidate [pt]
@@ -52,6 +53,84 @@ def front_figure(
     style: dict[str, Any] = {"loc": "outside upper center", "ncols": 3 if len(up) > 1 else 2, "frameon": False}
     figure.legend(list(known.values()), list(known), title=escaping.figure(title), **style)
     return figure
+
+
+def attainable_figure(table: pd.DataFrame, front: pd.DataFrame) -> Figure:
+    """Draw a front and what an active suspension could attain, over the travel.
+
+    Parameters
+    ----------
+    table : DataFrame
+        Of `attainable`.
+    front : DataFrame
+        Front of passive designs, ``run.front()``, with the measures of the table.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        A panel for each further measure. A controller in the grey area, with the measures that the panel does not
+        show at most as large as on the front, costs more beyond the band than an optimal one: see `attainable`.
+
+    Raises
+    ------
+    ValueError
+        If the front lacks a measure of the table.
+
+    Examples
+    --------
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("yuen_ramli_2010")
+    >>> problem = sc.RideProblem(file.vehicle, sc.Iso8608Road("C"), speed=20.0, bounds=file.bounds)
+    >>> run = sc.minimise(problem, sc.Nsga2(population=100), iterations=20, seed=1)
+    >>> figure = sc.attainable_figure(sc.attainable(problem, points=16), run.front())
+    >>> [ax.get_ylabel() for ax in figure.axes]
+    ['ACC [m/s²]', 'DTL [kN]']
+    """
+    objectives = table.attrs["measures"]
+    checks.listed("front", front)
+    for header in objectives:
+        checks.one_of("measures of the table", header, list(front.columns))
+    across = next((one for one in objectives if one.endswith(" [m]")), objectives[0])
+    up = [one for one in objectives if one != across]
+    figure, axes = panels(len(up), columns=min(2, len(up)))
+    for ax, header in zip(axes, up, strict=True):
+        pair = (across, header)
+        _dots(ax, front, pair, color=COLOURS[0], label="front of passive designs")
+        controllers(ax, table, front, pair)
+        ax.set(xlabel=_label(across), ylabel=_label(header))
+        ax.grid(alpha=0.25)
+    lines, labels = axes[0].get_legend_handles_labels()
+    figure.legend(lines, labels, loc="outside upper center", ncols=2, frameon=False)
+    return figure
+
+
+def controllers(ax: Axes, table: pd.DataFrame, front: pd.DataFrame, pair: tuple[str, str]) -> None:
+    """Draw optimal controllers, skyhook and the area beyond the bound beside a front.
+
+    Other measures of those drawn are at most as large as on the front.
+    """
+    (left, right), (low, high) = (
+        _frame(np.concatenate([front[one], table.loc[table.controller == SKYHOOK, one]])) for one in pair
+    )
+    x = np.linspace(left, right, 200)
+    y = edge(table, front, pair, x)
+    across, up = (shown_header(one)[1] for one in pair)
+    style: dict[str, Any] = {"ls": "none", "rasterized": True}
+    others = [one for one in table.attrs["measures"] if one not in pair]
+    inside = table[(table[others] <= front[others].max()).all(axis=1)]
+    for name, marker, colour in ((LQR, "^", COLOURS[1]), (SKYHOOK, "s", COLOURS[2])):
+        rows = inside[inside.controller == name]
+        label = "active, LQR" if name == LQR else name
+        ax.plot(*_columns(rows, pair), marker, ms=3, mfc="none", color=colour, label=label, **style)
+    ax.fill_between(
+        across * x, up * low, up * np.maximum(y, low), color="0.88", lw=0, label="only with more beyond the band"
+    )
+    ax.set(xlim=(across * left, across * right), ylim=(up * low, up * high))
+
+
+def _frame(values: Real) -> tuple[float, float]:
+    """Return the least value, less a half, and the largest, and a tenth more."""
+    return 0.5 * float(values.min()), 1.1 * float(values.max())
 
 
 def changes_figure(table: pd.DataFrame, objectives: Sequence[str], title: str) -> Figure:

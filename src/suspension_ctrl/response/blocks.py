@@ -61,7 +61,8 @@ def in_blocks(
     """Return mean squares of m responses at n frequencies, for spectra of roads (n, r, r) and densities (m, n)."""
     m, r, (p, x) = ports.m, ports.r, pairs
     gain = p @ variables.gain @ p.T
-    varied = _coupled(gain).any(axis=0)
+    coupled = _coupled(gain)
+    varied = (coupled | coupled.T).any(axis=0)
     p, gain = p[varied], gain[:, varied][:, :, varied]
     by_road, feedback = _cleared(p @ ports.h[:, m:, :r] @ x.T), p @ ports.h[:, m:, r:] @ p.T
     paired_roads, root = x @ roads @ x.T, np.sqrt(densities.T)[:, :, None]

@@ -75,16 +75,8 @@ def case_of(
     """Return the mean squares (k,) of terms over the variables (v,), around a setting in the middle of the box."""
     kind = kind or kind_of([load_case], variables)
     variables = varying(load_case.vehicle, variables)
-    weights = [term.weighting and weightings.by_name(term.weighting) for term in terms]
-    kinks = {f for weighting in weights if weighting for f in weighting.breakpoints}
-    f, w = frequency_nodes(band, nodes, kinks.union(load_case.breakpoints))
+    f, w, densities = quadrature_of(load_case, terms, band, nodes)
     omega, vehicle = 2 * np.pi * f, load_case.vehicle
-    densities = np.array(
-        [
-            w * omega**term.moment * (weighting.factor(f) ** 2 if weighting else 1.0)
-            for term, weighting in zip(terms, weights, strict=True)
-        ]
-    ).reshape(len(terms), f.size)
     responses = [term.response for term in terms]
     if kind is OneStrut:
         return OneStrut.around(Ports.of(vehicle, f, responses), omega, densities * load_case.psd(f))
@@ -98,3 +90,19 @@ def case_of(
     ports, roads = Ports.of(vehicle, f, responses, setting), load_case.cross_spectrum(f)
     varied = Variables.of(vehicle.strut_coefficients, {name: setting[name] for name in variables})
     return in_blocks(ports, omega, roads, densities, varied, apart)
+
+
+def quadrature_of(
+    load_case: LoadCase, terms: Sequence[Term], band: tuple[float, float], nodes: int
+) -> tuple[Real, Real, Real]:
+    """Return nodes f (n,) [Hz], weights (n,), and densities (k, n): weights times squared factors of terms."""
+    weights = [term.weighting and weightings.by_name(term.weighting) for term in terms]
+    kinks = {f for weighting in weights if weighting for f in weighting.breakpoints}
+    f, w = frequency_nodes(band, nodes, kinks.union(load_case.breakpoints))
+    densities = np.array(
+        [
+            w * (2 * np.pi * f) ** term.moment * (weighting.factor(f) ** 2 if weighting else 1.0)
+            for term, weighting in zip(terms, weights, strict=True)
+        ]
+    )
+    return f, w, densities.reshape(len(terms), f.size)

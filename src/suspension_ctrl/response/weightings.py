@@ -70,6 +70,11 @@ class SystemWeighting(Record):
         """The system of the weighting."""
         return control.tf(*self.numbers) if self.numbers[0].ndim == 1 else system_of(self.numbers)
 
+    @property
+    def is_measured(self) -> bool:
+        """Whether it is known at lines alone."""
+        return isinstance(self.system, control.FrequencyResponseData)
+
     def factor(self, f: ArrayLike) -> Real:
         """Magnitude of the weighting at the frequencies `f` (n,) [Hz], shape (n,) [-]."""
         return np.abs(self.response(f))

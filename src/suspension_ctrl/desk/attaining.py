@@ -1,0 +1,248 @@
+"""What an active suspension could attain: fronts of optimal controllers and of skyhook, and the share taken."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .. import checks
+from ..quantities import Real, column_headers
+from ..response.controllers.active_suspension import EFFORT, ActiveSuspension
+from ..response.controllers.within_limits import least_controlled
+from ..response.measures.limits import Limit
+from ..response.problem import RideProblem
+from ..search.driver import minimise as search
+from ..search.nsga2 import Nsga2
+from ..vehicles.sky_dampers import SKY, skyhook
+from ..vehicles.vehicle import AssembledVehicle
+from .candidate_table import PRESENT, Present, design_of, reaching
+from .descent import least_within_limits
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+LQR, SKYHOOK, PASSIVE, ACTIVE = "LQR", "skyhook", "passive optimum", "active optimum"
+LEAST, WITHIN = "least [-]", "within band [-]"
+SHARE = "share [%]"
+
+_RATIO = 100.0  # largest ratio of two weights
+_POPULATION, _ITERATIONS = 100, 40
+_SLACK = 1e-9  # share by which limits are above the measures of the present design, for rounding
+
+
+def attainable(problem: RideProblem, *, present: Present | None = None, points: int = 64) -> "pd.DataFrame":
+    """Return the front of an optimal active suspension of a ride problem, and that of skyhook.
+
+    Actuators stand in place of the struts on wheels, on the vehicle, road and load case of the problem. The linear
+    quadratic regulator with full information, of the vehicle, of the road under its first axle and of its delay to
+    the others, has the least weighted sum of squares of the measures over all frequencies [1]_: with squares over
+    those of a present design, no controller, linear or not, is below ``least``. Squares are convex over linear
+    controllers, so that weights reach the whole front. Measures are those of the problem's own quadrature.
+
+    Parameters
+    ----------
+    problem : RideProblem
+        In one load case, with root mean squares as measures, such as ACC, SWS and DTL, and coefficients of struts
+        as variables. Limits do not count.
+    present : mapping of str to float, or (d,) array_like, optional
+        Design with whose measures squares are compared; that in the middle of the bounds by default. Struts that
+        stand on no wheel keep its coefficients.
+    points : int
+        Number of controllers with different weights.
+
+    Returns
+    -------
+    DataFrame
+        By ``controller``, ``LQR`` and ``skyhook``, the measures with units. Of LQR the weights; ``least``, the
+        criterion over all frequencies; ``within band``, its part in the band: less than that costs more beyond the
+        band. Where measures leave forces free, the squares of forces over those of the present design count too,
+        by 1/1000. Of skyhook springs and dampers within their bounds, beside sky dampers of at most the largest
+        bound of a damper, by NSGA-II. ``attrs`` has the measures of the present design; errors of the roads'
+        shaping filters (``spectrum error``, relative, root mean square and largest, by track) and of the delays
+        between axles (``delay error``, largest within the band); and the orders of both.
+
+    Raises
+    ------
+    ValueError
+        If the problem is not as above, the vehicle is no state space or its weighting no filter.
+
+    References
+    ----------
+    .. [1] D. Hrovat, "Survey of advanced suspension developments and related optimal control applications",
+       Automatica 33(10), 1997.
+
+    Examples
+    --------
+    With these weights no controller has a criterion below 0.79 of that of the present design:
+
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("yuen_ramli_2010")
+    >>> problem = sc.RideProblem(file.vehicle, sc.Iso8608Road("C"), speed=20.0, bounds=file.bounds)
+    >>> table = sc.attainable(problem, present=file.setting, points=16)
+    >>> print(table.loc[1, table.columns[4:]].to_frame().astype(float).round(2).T.to_string(index=False))
+     ACC weight [-]  SWS weight [-]  DTL weight [-]  least [-]  within band [-]
+               0.45            0.45             0.1       0.79             0.76
+    """
+    import pandas as pd
+
+    checks.of_kind("problem", problem, RideProblem)
+    checks.at_least("points", points, 1)
+    problem = problem.replace(constraints=())
+    design = _middle(problem) if present is None else design_of(problem, present)
+    active = ActiveSuspension.of(reaching(problem, design), design)
+    names = list(problem.objectives)
+    headers = column_headers(names, problem.units)
+    rows = []
+    for weights in _weights(len(names), points):
+        factors = active.factors(weights)
+        found = active.controlled(factors)
+        rows.append([*found.measures, *weights, found.regulator.least, factors @ found.mean_squares])
+    labels = [*headers, *(f"{name} weight [-]" for name in names), LEAST, WITHIN]
+    table = pd.DataFrame(rows, columns=labels)
+    table.insert(0, "controller", LQR)
+    if _takes_sky(problem):
+        front = search(with_sky(problem), Nsga2(population=_POPULATION), iterations=_ITERATIONS, seed=1).front()
+        table = pd.concat([table, front[headers].assign(controller=SKYHOOK)], ignore_index=True)
+    table.attrs.update(_attributes(active, headers))
+    return table
+
+
+def attained(problem: RideProblem, present: Present, *, minimise: str | None = None) -> "pd.DataFrame":
+    """Return how much of what an active suspension could attain a passive one takes.
+
+    That is the share in the reduction of one measure, from the present design to the optimal controller, with all
+    other measures at most those of the present design.
+
+    Parameters
+    ----------
+    problem : RideProblem
+        As of `attainable`. Limits, catalogues and whole numbers do not count.
+    present : mapping of str to float, or (d,) array_like
+        The design of today.
+    minimise : str, optional
+        Name of the measure; the first of the problem by default.
+
+    Returns
+    -------
+    DataFrame
+        By ``present design``, ``passive optimum``, ``skyhook`` (if it can be had) and ``active optimum`` the
+        measures with units, and the ``share`` of the reduction [%]. Searches are by sequential quadratic
+        programming.
+
+    Raises
+    ------
+    ValueError
+        As `attainable`, or if the measure is unknown or cannot be reduced.
+
+    Examples
+    --------
+    Its springs and dampers take a sixth of what is attainable by comfort at the same travel and tyre load:
+
+    >>> import suspension_ctrl as sc
+    >>> file = sc.load_vehicle("yuen_ramli_2010")
+    >>> problem = sc.RideProblem(file.vehicle, sc.Iso8608Road("C"), speed=20.0, bounds=file.bounds)
+    >>> table = sc.attained(problem, file.setting)
+    >>> table["share [%]"].round().to_dict()
+    {'present design': 0.0, 'passive optimum': 16.0, 'skyhook': 21.0, 'active optimum': 100.0}
+    """
+    import pandas as pd
+
+    names = list(problem.objectives)
+    j = 0 if minimise is None else names.index(_known(minimise, names))
+    problem = problem.replace(constraints=(), kinds={})
+    design = design_of(problem, present)
+    wide = reaching(problem, design)
+    active = ActiveSuspension.of(wide, design)
+    own = active.measures_of(active.present)
+    measure = problem.measures[j]
+    others = [one for k, one in enumerate(problem.measures) if k != j]
+    limits = [Limit(one, value * (1 + _SLACK)) for one, value in zip(others, np.delete(own, j), strict=True)]
+    limited = problem.replace(constraints=limits)
+    passive = np.array(least_within_limits(limited, measure, _inside(problem, design)[None]))
+    rows = {PRESENT: own, PASSIVE: problem.evaluate(passive[None])[0]}
+    if _takes_sky(problem):
+        sky = with_sky(limited)
+        more = len(sky.variables) - design.size
+        starts = np.array([[*passive, *[0.0] * more], [*passive, *(0.3 * np.array(sky.upper[-more:]))]])
+        rows[SKYHOOK] = sky.evaluate([least_within_limits(sky, measure, starts)])[0, : len(names)]
+    rows[ACTIVE] = least_controlled(active, j, own).measures
+    table = pd.DataFrame(rows.values(), columns=column_headers(names, problem.units), index=list(rows))
+    reduced = own[j] - table.iloc[:, j]
+    if not reduced[ACTIVE] > 0:
+        raise ValueError(f"present must leave {names[j]} to be reduced, got a design that has the least")
+    return table.assign(**{SHARE: 100 * reduced / reduced[ACTIVE]}).rename_axis("suspension")
+
+
+def criterion(table: "pd.DataFrame", objectives: Real) -> Real:
+    """Return the criterion (n, k) of objectives (n, m) by the weights of each LQR of a table of `attainable`."""
+    rows = table[table["controller"] == LQR]
+    weights = rows.filter(regex=r" weight \[-\]$").to_numpy()
+    return np.asarray((objectives / table.attrs["present"]) ** 2 @ weights.T)
+
+
+def edge(table: "pd.DataFrame", front: "pd.DataFrame", pair: tuple[str, str], x: Real) -> Real:
+    """Return the least value (n,) of the second of a pair of measures at values x (n,) of the first.
+
+    It is that with all other measures at most as large as on a front, by the criterion of each LQR of a table
+    within the band.
+    """
+    headers, present = table.attrs["measures"], np.array(table.attrs["present"])
+    across, up = (headers.index(one) for one in pair)
+    rows = table[table["controller"] == LQR]
+    weights = rows.filter(regex=r" weight \[-\]$").to_numpy()
+    most = (front[headers].max().to_numpy() / present) ** 2
+    most[[across, up]] = 0.0
+    left = rows[WITHIN].to_numpy() - weights @ most - np.outer((x / present[across]) ** 2, weights[:, across])
+    return np.asarray(present[up] * np.sqrt(np.maximum(left / weights[:, up], 0.0).max(axis=1)))
+
+
+def with_sky(problem: RideProblem) -> RideProblem:
+    """Return the problem with sky dampers up to the largest bound of a damper."""
+    dampers = [problem.bounds[name][1] for name in problem.variables if problem.units[name] == "N s/m"]
+    if not dampers:
+        raise ValueError(f"variables must hold a damper for skyhook, got {', '.join(problem.variables)}")
+    vehicle = skyhook(problem.vehicle)
+    names = [one.name for one in vehicle.strut_coefficients if one.name.rpartition(".")[2] == SKY]
+    return problem.replace(
+        vehicle=vehicle, bounds={**problem.bounds, **{name: (0.0, max(dampers)) for name in names}}
+    )
+
+
+def _takes_sky(problem: RideProblem) -> bool:
+    """Whether the vehicle can have sky dampers, see `skyhook`."""
+    return isinstance(problem.vehicle, AssembledVehicle) and not problem.vehicle.networks
+
+
+def _weights(m: int, points: int) -> Real:
+    """Return weights (points, m) of sum 1, ratios to the first evenly from 1/100 to 100 in the logarithm."""
+    from scipy.stats.qmc import Halton
+
+    logarithms = (2 * Halton(m - 1, scramble=False).random(points) - 1) * np.log(_RATIO)
+    weights = np.exp(np.column_stack([np.zeros(points), logarithms]))
+    return np.asarray(weights / weights.sum(axis=1, keepdims=True))
+
+
+def _middle(problem: RideProblem) -> Real:
+    return np.asarray((np.asarray(problem.lower) + problem.upper) / 2)
+
+
+def _inside(problem: RideProblem, design: Real) -> Real:
+    return np.clip(design, problem.lower, problem.upper)
+
+
+def _known(name: str, names: list[str]) -> str:
+    checks.one_of("minimise", name, names)
+    return name
+
+
+def _attributes(active: ActiveSuspension, headers: list[str]) -> dict[str, object]:
+    """Return what the bound depends on beside the weights."""
+    roads = active.roads
+    return {
+        "measures": headers,
+        "present": active.measures_of(active.present).tolist(),
+        "spectrum error": [(one.rms, one.largest) for one in roads.shapings],
+        "spectrum orders": [len(one.filter.b) for one in roads.shapings],
+        "delay error": roads.delay_error,
+        "delay orders": list(roads.orders),
+        "effort": EFFORT if active.effort.any() else 0.0,
+    }
