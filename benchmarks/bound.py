@@ -5,7 +5,7 @@ the one over all frequencies. Below 1 a passive design would be beyond the bound
 """
 
 from collections.abc import Mapping
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 import pandas as pd
@@ -23,14 +23,15 @@ Number = Annotated[int, Option(parser=options.whole_number)]
 
 def problems() -> dict[str, tuple[RideProblem, Mapping[str, float]]]:
     """Return problems with their present designs by name."""
-    found = {}
-    for name, road, settings in (
+    found: dict[str, tuple[RideProblem, Mapping[str, float]]] = {}
+    given: tuple[tuple[str, Any, dict[str, Any]], ...] = (
         ("yuen_ramli_2010", PowerLawRoad(roughness=5e-6, exponent=2.5), {"weighting": "Wk"}),
         ("yuen_ramli_2010", PowerLawRoad(roughness=5e-6, exponent=2.5), {"weighting": None}),
         ("yuen_ramli_2010", Iso8608Road("C"), {"weighting": None, "band": (0.0, 500.0)}),
         ("minaker_half", Iso8608Road("C"), {"band": (0.3, 20.0)}),
         ("jian_2022_full", Iso8608Road("C"), {"band": (0.3, 20.0)}),
-    ):
+    )
+    for name, road, settings in given:
         file = load_vehicle(name)
         problem = RideProblem(file.vehicle, road, speed=20.0, bounds=file.bounds, **settings)
         present = {one: file.setting.get(one, 0.0) for one in problem.variables}

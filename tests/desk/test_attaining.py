@@ -100,9 +100,10 @@ def test_the_table_has_weights_criteria_and_errors(problem, table):
     np.testing.assert_allclose(table.attrs["present"], problem.evaluate([[22e3, 1500.0]])[0], rtol=1e-12)
     own = criterion(table, rows[MEASURES].to_numpy())
     np.testing.assert_allclose(own.diagonal(), rows[WITHIN], rtol=1e-9)
-    # Least over all frequencies: of other weights less within the band, at most 15 % here, and more beyond it.
-    assert (own.min(axis=0) >= 0.85 * own.diagonal()).all()
-    assert (own.argmin(axis=0) == np.arange(32)).mean() > 0.5
+    # Least over all frequencies: with nearly all weight on the tyre load other weights cost a fifth less within
+    # the band and more beyond it.
+    assert (own.min(axis=0) >= 0.75 * own.diagonal()).all()
+    assert (own.argmin(axis=0) == np.arange(32)).mean() > 0.7
     assert (rows[WITHIN] < rows[LEAST]).all()
     ((rms, largest),) = table.attrs["spectrum error"]
     assert rms < largest < 0.005

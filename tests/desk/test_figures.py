@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from suspension_ctrl.desk.figures import changes_figure, front_figure
+from suspension_ctrl.desk.figures import attainable_figure, changes_figure, front_figure
 
 HEADERS = ["SWS [m]", "ACC [m/s^2]", "DTL [N]"]
 FRONT = pd.DataFrame({"SWS [m]": [0.004, 0.006], "ACC [m/s^2]": [1.0, 0.6], "DTL [N]": [500.0, 450.0]})
@@ -59,3 +59,31 @@ def test_bars_show_changes_by_candidate_with_the_direction_of_better():
     better, worse = (bar.get_facecolor() for bar in first.patches)
     assert better != worse
     assert second.patches[0].get_facecolor() == better
+
+
+def test_controllers_are_drawn_beside_the_front_where_other_measures_are_no_larger():
+    table = pd.DataFrame(
+        {
+            "controller": ["LQR", "LQR", "skyhook"],
+            "ACC [m/s^2]": [0.5, 0.4, 0.6], "SWS [m]": [0.005, 0.006, 0.005], "DTL [N]": [450.0, 900.0, 480.0],
+            "ACC weight [-]": [0.5, 0.9, np.nan], "SWS weight [-]": [0.4, 0.05, np.nan],
+            "DTL weight [-]": [0.1, 0.05, np.nan],
+            "least [-]": [0.9, 0.5, np.nan], "within band [-]": [0.8, 0.4, np.nan],
+        }
+    )  # fmt: skip
+    table.attrs = {"measures": ["ACC [m/s^2]", "SWS [m]", "DTL [N]"], "present": [1.0, 0.005, 500.0]}
+    figure = attainable_figure(table, FRONT)
+    first, second = figure.axes
+    assert (first.get_xlabel(), first.get_ylabel(), second.get_ylabel()) == ("SWS [mm]", "ACC [m/s²]", "DTL [kN]")
+    lines = {line.get_label(): line.get_xydata() for line in first.lines}
+    np.testing.assert_allclose(lines["front of passive designs"], [[4.0, 1.0], [6.0, 0.6]])
+    np.testing.assert_allclose(lines["active, LQR"], [[5.0, 0.5]])  # the other has more tyre load than the front
+    np.testing.assert_allclose(lines["skyhook"], [[5.0, 0.6]])
+    (area,) = first.collections
+    top = area.get_paths()[0].vertices
+    (at,) = top[np.isclose(top[:, 0], first.get_xlim()[0]) & (top[:, 1] > first.get_ylim()[0])][:1]
+    # w_ACC a^2 = J - w_SWS (x/5 mm)^2 - w_DTL at 500 N, of the weights that bound most
+    x = first.get_xlim()[0] / 5.0
+    assert at[1] == pytest.approx(np.sqrt(max((0.8 - 0.4 * x**2 - 0.1) / 0.5, (0.4 - 0.05 * x**2 - 0.05) / 0.9)))
+    with pytest.raises(ValueError, match=r"^measures of the table must be one of SWS \[m\], got 'ACC"):
+        attainable_figure(table, FRONT[["SWS [m]"]])
