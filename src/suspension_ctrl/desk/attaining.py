@@ -42,7 +42,7 @@ def attainable(problem: RideProblem, *, present: Present | None = None, points: 
     ----------
     problem : RideProblem
         In one load case, with root mean squares as measures, such as ACC, SWS and DTL, and coefficients of struts
-        as variables. Limits do not count.
+        as variables. Limits and scatter do not count.
     present : mapping of str to float, or (d,) array_like, optional
         Design with whose measures squares are compared; that in the middle of the bounds by default. Struts that
         stand on no wheel keep its coefficients.
@@ -86,7 +86,7 @@ def attainable(problem: RideProblem, *, present: Present | None = None, points: 
 
     checks.of_kind("problem", problem, RideProblem)
     checks.at_least("points", points, 1)
-    problem = problem.replace(constraints=())
+    problem = problem.nominal.replace(constraints=())
     design = _middle(problem) if present is None else design_of(problem, present)
     active = ActiveSuspension.of(reaching(problem, design), design)
     names = list(problem.objectives)
@@ -115,7 +115,7 @@ def attained(problem: RideProblem, present: Present, *, minimise: str | None = N
     Parameters
     ----------
     problem : RideProblem
-        As of `attainable`. Limits, catalogues and whole numbers do not count.
+        As of `attainable`. Limits, scatter, catalogues and whole numbers do not count.
     present : mapping of str to float, or (d,) array_like
         The design of today.
     minimise : str, optional
@@ -146,9 +146,10 @@ def attained(problem: RideProblem, present: Present, *, minimise: str | None = N
     """
     import pandas as pd
 
+    checks.of_kind("problem", problem, RideProblem)
+    problem = problem.nominal.replace(constraints=(), kinds={})
     names = list(problem.objectives)
     j = 0 if minimise is None else names.index(_known(minimise, names))
-    problem = problem.replace(constraints=(), kinds={})
     design = design_of(problem, present)
     wide = reaching(problem, design)
     active = ActiveSuspension.of(wide, design)
