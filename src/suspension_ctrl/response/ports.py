@@ -1,6 +1,7 @@
 """Frequency response of a vehicle from roads and struts to responses and deflections."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from typing import NamedTuple
 
 import control
@@ -10,6 +11,8 @@ from ..quantities import Complex, Real
 from ..vehicles.assembly import ResponseName
 from ..vehicles.feedback import ORDERS, around, gains_by_order
 from ..vehicles.vehicle import Vehicle
+
+_TOGETHER = 1000  # frequencies at which equations are solved together
 
 
 class Ports(NamedTuple):
@@ -55,11 +58,25 @@ class Ports(NamedTuple):
 def paths(system: control.LTI, f: Real) -> Complex:
     """Return H(w) (n, outputs, inputs) at ascending f (n,) [Hz]; rates of roads are added to the roads."""
     omega = 2 * np.pi * f
-    h = np.moveaxis(system.frequency_response(omega, squeeze=False).frdata, 2, 0)
+    h = _frequency_response(system, omega)
     if r := sum(name.endswith("_rate") for name in system.input_labels):
         roads = h[:, :, :r] + 1j * omega[:, None, None] * h[:, :, r : 2 * r]
         h = np.concatenate([roads, h[:, :, 2 * r :]], axis=2)
     return h
+
+
+def _frequency_response(system: control.LTI, omega: Real) -> Complex:
+    """Return H(w) (n, outputs, inputs) at ascending w (n,) [rad/s], bit for bit as by python-control.
+
+    That solves frequency by frequency, in 20 times the time: a road of 10,000 points has 100,000 of them.
+    """
+    if isinstance(system, control.StateSpace) and system.nstates > 1:
+        states = np.eye(system.nstates)
+        parts = np.split(omega, range(_TOGETHER, omega.size, _TOGETHER))
+        with suppress(np.linalg.LinAlgError):  # at a pole
+            x = (np.linalg.solve(1j * part[:, None, None] * states - system.A, system.B) for part in parts)
+            return np.concatenate([system.C @ one + system.D for one in x])
+    return np.moveaxis(system.frequency_response(omega, squeeze=False).frdata, 2, 0)
 
 
 def dynamic_stiffness(gains: Real, omega: Real) -> Complex:
