@@ -1,6 +1,7 @@
 """What is attainable: the reference car by closed forms, bounds of random designs, tables and errors."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.optimize import minimize
 
@@ -15,7 +16,7 @@ from suspension_ctrl import (
     attained,
     load_vehicle,
 )  # fmt: skip
-from suspension_ctrl.desk.attaining import LEAST, LQR, SHARE, SKYHOOK, WITHIN, criterion, edge, with_sky
+from suspension_ctrl.desk.attaining import LEAST, LQG, LQR, SHARE, SKYHOOK, WITHIN, criterion, edge, with_sky
 
 BOUNDS = {"spring": (1e3, 30e3), "damper": (1e3, 5e3)}
 PRESENT = {"spring": 22e3, "damper": 1500.0}
@@ -147,6 +148,23 @@ def test_other_measures_come_first_if_asked(half):
     found = attained(problem, present, minimise="SWS")
     assert found[SHARE].iloc[[0, -1]].tolist() == pytest.approx([0.0, 100.0])
     assert found[MEASURES[1]].is_monotonic_decreasing
+
+
+def test_sensors_with_noise_attain_less(problem):
+    sensors = {"body_acceleration": 0.05, "suspension_travel": 5e-4}
+    table = attainable(problem, present=PRESENT, points=8, sensors=sensors)
+    assert table.controller.value_counts()[[LQR, LQG]].tolist() == [8, 8]
+    known, sensed = (table[table.controller == one].reset_index(drop=True) for one in (LQR, LQG))
+    pd.testing.assert_frame_equal(known.filter(like="weight"), sensed.filter(like="weight"))
+    assert (sensed[WITHIN] > known[WITHIN] * (1 - 1e-3)).all()  # over all frequencies it is least
+    assert sensed[WITHIN].sum() > 1.1 * known[WITHIN].sum()
+    rng = np.random.default_rng(1)
+    values = problem.evaluate(rng.uniform(problem.lower, problem.upper, (100, 2)))
+    assert criterion(table, values).shape == (100, 8)
+    with pytest.raises(ValueError, match=r"^sensors must be one of .*, got 'gyro'$"):
+        attainable(problem, sensors={"gyro": 1.0})
+    with pytest.raises(ValueError, match=r"^noise of body_acceleration must be finite and > 0 m/s\^2, got 0$"):
+        attainable(problem, sensors={"body_acceleration": 0})
 
 
 def test_an_imported_plant_has_no_skyhook():

@@ -1,11 +1,12 @@
 """What an active suspension could attain: fronts of optimal controllers and of skyhook, and the share taken."""
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .. import checks
-from ..quantities import Real, column_headers
+from ..quantities import Real, column_headers, signal_unit
 from ..response.controllers.active_suspension import EFFORT, ActiveSuspension
 from ..response.controllers.within_limits import least_controlled
 from ..response.measures.limits import Limit
@@ -20,7 +21,7 @@ from .descent import least_within_limits
 if TYPE_CHECKING:
     import pandas as pd
 
-LQR, SKYHOOK, PASSIVE, ACTIVE = "LQR", "skyhook", "passive optimum", "active optimum"
+LQR, LQG, SKYHOOK, PASSIVE, ACTIVE = "LQR", "LQG", "skyhook", "passive optimum", "active optimum"
 LEAST, WITHIN = "least [-]", "within band [-]"
 SHARE = "share [%]"
 
@@ -29,7 +30,13 @@ _POPULATION, _ITERATIONS = 100, 40
 _SLACK = 1e-9  # share by which limits are above the measures of the present design, for rounding
 
 
-def attainable(problem: RideProblem, *, present: Present | None = None, points: int = 64) -> "pd.DataFrame":
+def attainable(
+    problem: RideProblem,
+    *,
+    present: Present | None = None,
+    points: int = 64,
+    sensors: Mapping[str, float] | None = None,
+) -> "pd.DataFrame":
     """Return the front of an optimal active suspension of a ride problem, and that of skyhook.
 
     Actuators stand in place of the struts on wheels, on the vehicle, road and load case of the problem. The linear
@@ -48,16 +55,21 @@ def attainable(problem: RideProblem, *, present: Present | None = None, points: 
         stand on no wheel keep its coefficients.
     points : int
         Number of controllers with different weights.
+    sensors : mapping of str to float, optional
+        Responses that sensors read, each with the root mean square of its white noise within the band, such as
+        ``{"body_acceleration": 0.05, "suspension_travel": 5e-4}``: for the linear quadratic Gaussian regulator
+        (LQG), which knows vehicle and road by them alone. Its forces have white noise of 1 % of those of the
+        present design.
 
     Returns
     -------
     DataFrame
-        By ``controller``, ``LQR`` and ``skyhook``, the measures with units. Of LQR the weights; ``least``, the
-        criterion over all frequencies; ``within band``, its part in the band: less than that costs more beyond the
-        band. Where measures leave forces free, the squares of forces over those of the present design count too,
-        by 1/1000. Of skyhook springs and dampers within their bounds, beside sky dampers of at most the largest
-        bound of a damper, by NSGA-II. ``attrs`` has the measures of the present design; errors of the roads'
-        shaping filters (``spectrum error``, relative, root mean square and largest, by track) and of the delays
+        By ``controller``, ``LQR``, ``LQG`` and ``skyhook``, measures with units. Of LQR weights; ``least``, the
+        criterion over all frequencies; ``within band``, its part in the band: what costs less there costs more
+        beyond it. Where measures leave forces free, the squares of forces over those of the present design count
+        too, by 1/1000. Of skyhook springs and dampers within their bounds, beside sky dampers of at most the
+        largest bound of a damper, by NSGA-II. ``attrs`` has the measures of the present design; errors of the
+        roads' shaping filters (``spectrum error``, relative, r.m.s. and largest, by track) and of the delays
         between axles (``delay error``, largest within the band); and the orders of both.
 
     Raises
@@ -88,17 +100,23 @@ def attainable(problem: RideProblem, *, present: Present | None = None, points: 
     checks.at_least("points", points, 1)
     problem = problem.nominal.replace(constraints=())
     design = _middle(problem) if present is None else design_of(problem, present)
-    active = ActiveSuspension.of(reaching(problem, design), design)
+    noise = _checked_sensors(problem, sensors or {})
+    active = ActiveSuspension.of(reaching(problem, design), design, list(sensors or ()))
+    estimator = active.estimator(noise) if sensors else None
     names = list(problem.objectives)
     headers = column_headers(names, problem.units)
     rows = []
     for weights in _weights(len(names), points):
         factors = active.factors(weights)
         found = active.controlled(factors)
-        rows.append([*found.measures, *weights, found.regulator.least, factors @ found.mean_squares])
-    labels = [*headers, *(f"{name} weight [-]" for name in names), LEAST, WITHIN]
+        least = found.regulator.least
+        rows.append([LQR, *found.measures, *weights, least, factors @ found.mean_squares])
+        if estimator:
+            sensed = active.sensed(found.regulator, estimator, noise)
+            rows.append([LQG, *sensed.measures, *weights, np.nan, factors @ sensed.mean_squares])
+    labels = ["controller", *headers, *(f"{name} weight [-]" for name in names), LEAST, WITHIN]
     table = pd.DataFrame(rows, columns=labels)
-    table.insert(0, "controller", LQR)
+    table = table.sort_values("controller", ascending=False, kind="stable", ignore_index=True)
     if _takes_sky(problem):
         front = search(with_sky(problem), Nsga2(population=_POPULATION), iterations=_ITERATIONS, seed=1).front()
         table = pd.concat([table, front[headers].assign(controller=SKYHOOK)], ignore_index=True)
@@ -206,6 +224,15 @@ def with_sky(problem: RideProblem) -> RideProblem:
     return problem.replace(
         vehicle=vehicle, bounds={**problem.bounds, **{name: (0.0, max(dampers)) for name in names}}
     )
+
+
+def _checked_sensors(problem: RideProblem, sensors: Mapping[str, float]) -> Real:
+    """Return the noises (s,) of sensors; ValueError unless they are responses with positive numbers."""
+    checks.mapped("sensors", sensors)
+    for name, value in sensors.items():
+        checks.one_of("sensors", name, problem.vehicle.meanings)
+        checks.positive(f"noise of {name}", value, signal_unit(name))
+    return np.array(list(sensors.values()), dtype=float)
 
 
 def _takes_sky(problem: RideProblem) -> bool:

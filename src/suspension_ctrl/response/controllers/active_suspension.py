@@ -1,5 +1,6 @@
 """Active suspension of a ride problem: optimal controllers by weights, with the measures of the problem."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple, Self
 
@@ -15,10 +16,13 @@ from ..mean_squares import quadrature_of
 from ..problem import RideProblem
 from ..scores import Score, Scores
 from .actuated import Actuated, dynamics_of, wheel_struts
+from .estimator import Estimator
 from .loop import Loop
 from .regulator import Regulator, regulator
 from .road_model import RoadModel
 
+FORCE_NOISE = 0.01
+"""White noise of forces within the band, where states are estimated, as a share of present forces (r.m.s.)."""
 EFFORT = 1e-3
 """Weight of the forces' mean squares over those of the present design, beside a sum of 1 of all other weights."""
 
@@ -43,10 +47,11 @@ class ActiveSuspension:
     densities: Real  # (k, n), weights of the quadrature with factors of weightings
     squares: Real  # (m, k), factors of the terms' mean squares in each measure
     present: Real  # (k,), mean squares of the present design
+    forces: Real  # (q,), mean squares of its forces
     effort: Real  # (q,), factors of the forces' mean squares
 
     @classmethod
-    def of(cls, problem: RideProblem, design: Real) -> Self:
+    def of(cls, problem: RideProblem, design: Real, sensors: Sequence[str] = ()) -> Self:
         """Take the vehicle, and its struts that are not on wheels with the coefficients of a present design (d,).
 
         ValueError if there are several load cases, parameters beside coefficients, measures that are no root mean
@@ -57,7 +62,7 @@ class ActiveSuspension:
         (case,), (terms,), nodes = problem.cases, scores.terms, problem.nodes
         vehicle, setting = linear_at(case, setting_of(problem, design.tolist()), problem.band)
         values, ports = vehicle.coefficients(setting), wheel_struts(vehicle)
-        plant = Actuated.of(vehicle, values, terms)
+        plant = Actuated.of(vehicle, values, terms, sensors)
         roads = RoadModel.of(case, problem.band, falls=plant.load_by_rate, displaced=plant.by_road)
         f, weights, densities = quadrature_of(case, terms, problem.band, nodes)
         bare = Loop.around(plant, roads, f, np.zeros((len(ports), len(plant.rates.state))))
@@ -71,11 +76,12 @@ class ActiveSuspension:
             densities=densities,
             squares=np.array([scores.roots(0, unit) ** 2 for unit in np.eye(len(terms))]).T,
             present=mean_squares_of(scores.kernel(nodes).cases[0], design[None])[0],
+            forces=np.zeros(len(ports)),
             effort=np.zeros(len(ports)),
         )
-        if np.linalg.matrix_rank(plant.terms.force) < len(ports):
-            forces = found.integrals(bare.with_struts(strut)[1], np.tile(weights, (len(ports), 1)))
-            found = replace(found, effort=EFFORT / len(ports) / forces)
+        forces = found.integrals(bare.with_struts(strut)[1], np.tile(weights, (len(ports), 1)))
+        free = np.linalg.matrix_rank(plant.terms.force) < len(ports)
+        found = replace(found, forces=forces, effort=free * EFFORT / len(ports) / forces)
         equal = found.factors(np.full(len(found.squares), 1 / len(found.squares)))
         stable = regulator(plant, roads, equal, found.effort)
         return replace(found, loop=Loop.around(plant, roads, f, stable.feedback))
@@ -94,6 +100,23 @@ class ActiveSuspension:
         found = regulator(self.plant, self.roads, factors, self.effort * (factors @ self.present))
         mean_squares = self.integrals(self.loop.regulated(found)[0], self.densities)
         return Controlled(found, mean_squares, self.measures_of(mean_squares))
+
+    def estimator(self, noise: Real) -> Estimator:
+        """Return the estimator by sensors with white noise of root mean squares `noise` (s,) within the band."""
+        intensities = self._densities(noise) / 2
+        return Estimator.of(self.plant, self.roads, intensities[: noise.size], intensities[noise.size :])
+
+    def sensed(self, known: Regulator, estimator: Estimator, noise: Real) -> Controlled:
+        """Return a regulator that acts on estimated states, with `noise` (s,) as of `estimator`."""
+        by_road, by_noise = self.loop.sensed(estimator.forces(known, self.loop.s))
+        spectra = np.abs(by_noise) ** 2 @ self._densities(noise)
+        mean_squares = self.integrals(by_road, self.densities) + (spectra.T * self.densities).sum(axis=1)
+        return Controlled(known, mean_squares, self.measures_of(mean_squares))
+
+    def _densities(self, noise: Real) -> Real:
+        """Return the one-sided densities (s + q,) of noises of the sensors and of the forces."""
+        low, high = self.scores.band
+        return np.concatenate([noise**2, FORCE_NOISE**2 * self.forces]) / (high - low)
 
     def measures_of(self, mean_squares: Real) -> Real:
         """Return the measures (m,) by mean squares (k,) of the terms."""

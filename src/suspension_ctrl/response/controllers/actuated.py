@@ -11,6 +11,7 @@ import control
 import numpy as np
 
 from ...quantities import Real
+from ...vehicles.assembly import ResponseName
 from ...vehicles.feedback import Dynamics, System, gains_by_order
 from ...vehicles.vehicle import Vehicle
 from .. import weightings
@@ -35,16 +36,23 @@ class Rows(NamedTuple):
 
 
 class Actuated(NamedTuple):
-    """Rates of n states, k weighted terms, the k terms without weighting, and the deflections of q actuators."""
+    """Rates of n states, k weighted terms, the k terms without weighting, q deflections, and sensors."""
 
     rates: Rows
     terms: Rows
     responses: Rows
     deflections: Rows
+    sensors: Rows
 
     @classmethod
-    def of(cls, vehicle: Vehicle, values: Mapping[str, float], terms: Sequence[Term]) -> "Actuated":
-        """Take out the struts on wheels; the others keep their values by coefficient.
+    def of(
+        cls,
+        vehicle: Vehicle,
+        values: Mapping[str, float],
+        terms: Sequence[Term],
+        sensors: Sequence[ResponseName] = (),
+    ) -> "Actuated":
+        """Take out the struts on wheels; the others keep their values by coefficient. Sensors read responses.
 
         ValueError if the vehicle is no state space or has no such strut, or for a term that is no mean square of a
         response with a filter as weighting.
@@ -52,11 +60,12 @@ class Actuated(NamedTuple):
         names = [term.response for term in terms]
         if list(vehicle.without_jerk(names)) != names or any(term.moment for term in terms):
             raise ValueError(f"measures must be without jerk and moments, got {', '.join(map(str, terms))}")
-        distinct = list(dict.fromkeys(names))
+        distinct = list(dict.fromkeys([*names, *sensors]))
         rates, outputs = _relative(_bare(vehicle, values, vehicle.plant(distinct)), vehicle)
         responses = outputs.of([distinct.index(name) for name in names])
         q = rates.force.shape[1]
-        whole = cls(rates, responses, responses, outputs.of(slice(-q, None)))
+        read = outputs.of(np.array([distinct.index(name) for name in sensors], dtype=np.int64))
+        whole = cls(rates, responses, responses, outputs.of(slice(-q, None)), read)
         return whole.filtered([_filter(term) for term in terms])
 
     @property
@@ -76,7 +85,7 @@ class Actuated(NamedTuple):
         more, start = sum(sizes), n
         rates = Rows(*(np.pad(part, ((0, more), (0, 0))) for part in self.rates))
         rates = rates._replace(state=np.pad(rates.state, ((0, 0), (0, more))))
-        terms, responses, deflections = (
+        terms, responses, deflections, sensors = (
             part._replace(state=np.pad(part.state, ((0, 0), (0, more)))) for part in self[1:]
         )
         terms = Rows(*map(np.array, terms))
@@ -90,7 +99,7 @@ class Actuated(NamedTuple):
                     part[k] *= one.d
                 terms.state[k, own] += one.c
                 start += size
-        return Actuated(rates, terms, responses, deflections)
+        return Actuated(rates, terms, responses, deflections, sensors)
 
 
 def wheel_struts(vehicle: Vehicle) -> list[int]:

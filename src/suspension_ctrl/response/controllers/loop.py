@@ -41,12 +41,30 @@ class Loop(NamedTuple):
 
         Feedback (q, n) or (k, q, n), forward (k, q, r) or 0.
         """
+        return self._closed(feedback, forward, self.by_road, _by_road(self.plant.responses, self.s))
+
+    def sensed(self, gain: Complex) -> tuple[Complex, Complex]:
+        """Return terms by roads (k, m, r), and by noises of the sensors and of the forces (k, m, s + q).
+
+        Forces are ``-gain`` (k, q, s) times what the sensors read without the forces' share.
+        """
+        rows, feedback, size = self.plant.sensors, gain @ self.plant.sensors.state, gain.shape[2]
+        forward = np.concatenate([gain, gain @ rows.force], axis=2)
+        states = np.pad(self.by_force, ((0, 0), (0, 0), (size, 0)))
+        direct = np.pad(self.plant.responses.force, ((0, 0), (size, 0)))
+        by_noise, _ = self._closed(feedback, forward, states, direct)
+        return self.closed(feedback, gain @ _by_road(rows, self.s))[0], by_noise
+
+    def _closed(
+        self, feedback: Real | Complex, forward: Complex, open_states: Complex | Real, direct: Complex | Real
+    ) -> tuple[Complex, Complex]:
+        """Return terms and forces by inputs with states (k, n, r) around the base and terms (k, m, r) at once."""
         own, rows = feedback - self.base, self.plant.responses
         loop = np.eye(len(self.base)) + own @ self.by_force
-        further = -np.linalg.solve(loop, own @ self.by_road + forward)
-        states = self.by_force @ further + self.by_road
+        further = -np.linalg.solve(loop, own @ open_states + forward)
+        states = self.by_force @ further + open_states
         forces = further - self.base @ states
-        return rows.state @ states + rows.force @ forces + _by_road(rows, self.s), forces
+        return np.asarray(rows.state @ states + rows.force @ forces + direct), np.asarray(forces)
 
     def with_struts(self, stiffness: Complex) -> tuple[Complex, Complex]:
         """Return terms and forces by roads with struts of dynamic stiffness (k, q, q) in place of a controller."""
