@@ -12,8 +12,9 @@ from ..desk import figures
 from ..desk.candidate_table import PRESENT
 from ..desk.candidate_texts import decimals_of, markdown, parts_of
 from ..desk.decision import Decision
+from ..desk.explorer.page_file import page_of
 from ..desk.exporting import save_candidates
-from ..desk.study_files import StudyFile
+from ..desk.study_files import SearchSettings, StudyFile
 from ..paper import experiment as paper
 from ..paper.optimum import KINDS, TRAVEL, table5
 from ..quantities import column_headers
@@ -28,6 +29,8 @@ from . import results, studies, terminal
 
 WEIGHTINGS = ("Wk", "Wb", "Wb-table")
 """Weightings of ACC in Table 5."""
+SEARCH = SearchSettings(algorithms=("moead-dra",), populations=(4000,), iterations=(25,))
+"""Settings of a search where a study has none."""
 DECIMALS = {"mm": 1, "kN": 4, "kN/m": 4, "kN s/m": 4, "m/s^2": 4, "%": 2}
 """Decimals of Table 5 by unit, as in print."""
 
@@ -66,15 +69,19 @@ class Request:
         """Iterations and seed of a search."""
         return max(self.study.search.iterations), self.study.search.seed
 
+    def decide(self) -> Decision:
+        """Search and choose."""
+        (iterations, seed), study = self.budget, self.study
+        settings: dict[str, Any] = {"iterations": iterations, "seed": seed, "present": study.present or None}
+        return Decision.of(study.problem, self.optimiser, **settings)
+
 
 def carry_out(request: Request, out: Path | None) -> None:
     """Search, write all files, then print."""
     results.check(out)
     study = request.study
-    iterations, seed = request.budget
-    settings: dict[str, Any] = {"iterations": iterations, "seed": seed, "present": study.present or None}
     with terminal.compiling(), terminal.waiting("searching"):
-        decision = Decision.of(study.problem, request.optimiser, **settings)
+        decision = request.decide()
     printed = [] if request.travel is None else tables5(request, request.travel)
     said = [*introduced(study), *without_designs(decision, printed), *decision.describe()]
     folder = studies.folder_with(study, out)
@@ -85,6 +92,7 @@ def carry_out(request: Request, out: Path | None) -> None:
     write_text(folder / "candidates.md", markdown(study.name, parts, said))
     save_candidates(study.problem, decision.table, folder / "candidates", study.name)
     write_csv(folder / "front.csv", decision.run.front())
+    write_text(folder / "report.html", page_of(study, decision, said))
     with terminal.waiting("drawing"):
         draw(folder, decision, study.name)
     show(said, printed, parts)

@@ -22,14 +22,13 @@ def optimum(
     Prints candidates along the front: the least of each measure, knee, compromise and others between them, with
     changes against the present design, modes and travel; and what limits and bounds do. Of the paper's problem
     Table 5 too. Writes candidates (CSV, Markdown, a folder of vehicle files), front.csv, front and changes (PNG,
-    PDF) to a folder; its path is the last line printed.
+    PDF), and report.html for a browser to a folder; its path is the last line printed.
     """
-    from ..desk.study_files import SearchSettings
     from . import deciding, studies
 
     chosen = studies.chosen_study(
         study=study, vehicle=vehicle, road=road, speed=speed, band=band, weighting=weighting,
         allow_outside=allow_outside, seed=seed, populations=population, iterations=iterations,
-        search=SearchSettings(algorithms=("moead-dra",), populations=(4000,), iterations=(25,)),
+        search=deciding.SEARCH,
     )  # fmt: skip
     deciding.carry_out(deciding.Request(chosen).within(sws_limit), out)

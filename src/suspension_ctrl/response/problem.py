@@ -258,6 +258,11 @@ class RideProblem(Record):
         nominal = self._scores.kernel(self.nodes)
         return self._robust.kernel(nominal, self.nodes) if self._robust else nominal
 
+    @property
+    def scores(self) -> Scores:
+        """The scores of designs at any number of nodes: of each measure, then of each limit."""
+        return self._scores
+
     def describe(self) -> list[str]:
         """Return variables, limits and load cases in sentences, a line each."""
         lines = [f"Varied: {'; '.join(self._varied())}."]

@@ -1,0 +1,158 @@
+// What the page shows: designs, the one at hand, filters and the brush. Views are told of changes.
+
+import { evaluated, prepared } from "../numerics/scores.js";
+import { curvesOf, preparedPorts } from "../numerics/frequency_responses.js";
+import { rowsIn } from "../numerics/packed.js";
+
+/**
+ * @typedef {{name: string, csv: string, unit: string, factor: number, kind: string, place: number, scale: number,
+ *   offset: number, computed: boolean, limits: (number | null)[]}} Column
+ * @typedef {{name: string, unit: string, factor: number, low: number, high: number, kind: string,
+ *   values: number[]}} Variable
+ * @typedef {{group: "front" | "candidate" | "present" | "kept", name: string, design: ArrayLike<number>,
+ *   scores: ArrayLike<number>}} Point
+ * @typedef {"design" | "shown"} Change of the design at hand, or of which designs are shown and marked
+ */
+
+const NEAR = 1e-6; // relative difference up to which a computed measure is that of Python
+
+export class Explorer {
+  /** @param {any} record unpacked */
+  constructor(record) {
+    /** @type {Column[]} */
+    this.columns = record.columns;
+    /** @type {Variable[]} */
+    this.variables = record.variables;
+    this.kernel = prepared(record.kernel);
+    this.ports = preparedPorts(record.ports);
+    this.points = [
+      ...pointsOf(record.candidates, "candidate"),
+      ...pointsOf(record.present, "present"),
+      ...pointsOf(record.front, "front"),
+    ];
+    this.present = this.points.find((point) => point.group === "present") ?? null;
+    /** @type {[number, number][]} least and largest value of each column in its unit */
+    this.filters = this.columns.map(() => [-Infinity, Infinity]);
+    /** @type {Set<Point> | null} */
+    this.brushed = null;
+    /** @type {Map<Change, (() => void)[]>} */
+    this.views = new Map([["design", []], ["shown", []]]);
+    this.check();
+    const first = this.points.find((point) => point.name.includes("knee")) ?? this.points[0];
+    this.choose(first.design);
+  }
+
+  /** Mark columns as not computed whose values at stored designs are not those of Python. */
+  check() {
+    const known = this.points.filter((point) => point.group !== "front");
+    for (const { design, scores } of known) {
+      const found = evaluated(this.kernel, design).scores;
+      for (const column of this.columns) {
+        const [own, given] = [found, scores].map((each) => (each[column.place] - column.offset) / column.scale);
+        const near = Math.abs(own - given) <= NEAR * Math.abs(given);
+        if (column.kind !== "variable" && !near) column.computed = false;
+      }
+    }
+  }
+
+  /** @param {Change} change @param {() => void} view called now and after each change */
+  show(change, view) {
+    this.views.get(change)?.push(view);
+    view();
+  }
+
+  /** @param {Change} change */
+  tell(change) {
+    this.views.get(change)?.forEach((view) => view());
+  }
+
+  /** @param {ArrayLike<number>} design take a design at hand */
+  choose(design) {
+    this.design = Float64Array.from(design);
+    this.evaluation = evaluated(this.kernel, this.design);
+    this.stored = this.points.find((point) => this.design.every((value, i) => value === point.design[i])) ?? null;
+    this.tell("design");
+  }
+
+  /**
+   * Return the value of a column at a stored point, in its unit.
+   * @param {Column} column
+   * @param {Point} point
+   */
+  valueAt(column, point) {
+    return valueOf(column, point.design, point.scores);
+  }
+
+  /**
+   * Return the value of a column at the design at hand, in its unit; null if only Python can compute it.
+   * @param {Column} column
+   */
+  valueHere(column) {
+    if (column.computed) return valueOf(column, this.design, this.evaluation.scores);
+    return this.stored && this.valueAt(column, this.stored);
+  }
+
+  /** Return the points within the filters. */
+  shown() {
+    return this.points.filter((point) =>
+      this.columns.every((column, i) => {
+        const value = this.valueAt(column, point), [least, largest] = this.filters[i];
+        return !(value < least || value > largest);
+      }),
+    );
+  }
+
+  /** @param {number} column @param {[number, number]} range show designs within a range alone */
+  filter(column, range) {
+    this.filters[column] = range;
+    this.tell("shown");
+  }
+
+  /** @param {Set<Point> | null} points mark some designs in all views, or none */
+  brush(points) {
+    this.brushed = points;
+    this.tell("shown");
+  }
+
+  /** Keep the design at hand among the points; measures that only Python computes are unknown. */
+  keep() {
+    const scores = this.evaluation.scores.slice(), count = this.points.filter(({ group }) => group === "kept").length;
+    for (const column of this.columns) if (!column.computed) scores[column.place] = NaN;
+    this.points.push({ group: "kept", name: `kept ${count + 1}`, design: this.design, scores });
+    this.tell("shown");
+    this.tell("design");
+  }
+
+  /** Return the curves of the design at hand in the first load case, by response. */
+  curves() {
+    const { coefficients, point } = this.evaluation.cases[0];
+    return curvesOf(this.ports, coefficients, point);
+  }
+
+  /** Return the curves of the present design, null where it is unknown. */
+  presentCurves() {
+    if (!this.present) return null;
+    const { coefficients, point } = evaluated(this.kernel, this.present.design).cases[0];
+    return curvesOf(this.ports, coefficients, point);
+  }
+}
+
+/**
+ * Return the value of a column in its unit.
+ * @param {Column} column
+ * @param {ArrayLike<number>} design
+ * @param {ArrayLike<number>} scores
+ */
+function valueOf(column, design, scores) {
+  if (column.kind === "variable") return design[column.place] * column.factor;
+  return ((scores[column.place] - column.offset) / column.scale) * column.factor;
+}
+
+/** @param {any} designs packed, or null @param {Point["group"]} group @returns {Point[]} */
+function pointsOf(designs, group) {
+  if (!designs) return [];
+  const scores = rowsIn(designs.scores);
+  return rowsIn(designs.designs).map((design, i) => ({
+    group, name: designs.names[i] ?? "", design, scores: scores[i],
+  }));
+}

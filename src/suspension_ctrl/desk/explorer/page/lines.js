@@ -1,0 +1,101 @@
+// Parallel coordinates: a line for each design over an axis for each column. A drag along an axis filters by it.
+
+import { byId, digits, headed } from "./elements.js";
+
+/** @typedef {import("./explorer.js").Explorer} Explorer */
+/** @typedef {{least: number, largest: number, x: number}} Axis */
+
+const SPACE = "http://www.w3.org/2000/svg";
+const TOP = 40, BOTTOM = 300, HEIGHT = 330, ROOM = 130; // of an axis
+const COLOURS = { front: "#0072b2", candidate: "#000000", kept: "#009e73", present: "#d55e00" };
+const FAINT = "#dddddd";
+
+/** @param {Explorer} explorer put parallel coordinates into the page */
+export function drawLines(explorer) {
+  const axes = explorer.columns.map((column, i) => {
+    const values = explorer.points.map((point) => explorer.valueAt(column, point)).filter(Number.isFinite);
+    return { least: Math.min(...values), largest: Math.max(...values), x: ROOM * (i + 0.5) };
+  });
+  const width = ROOM * axes.length, chart = svg("svg", { viewBox: `0 0 ${width} ${HEIGHT}`, width, height: HEIGHT });
+  chart.setAttribute("role", "img");
+  chart.setAttribute("aria-label", "Lines of designs over all measures and variables");
+  const lines = svg("g", { fill: "none" }), ranges = svg("g", {});
+  chart.append(lines, ...axes.map((axis, i) => axisOf(explorer, axis, i)), ranges);
+  byId("lines").append(chart);
+  explorer.show("shown", () => {
+    lines.replaceChildren(...linesOf(explorer, axes));
+    ranges.replaceChildren(...axes.flatMap((axis, i) => rangeOf(axis, explorer.filters[i])));
+  });
+  axes.forEach((axis, i) => draggable(explorer, chart, axis, i));
+}
+
+/** @param {string} tag @param {Record<string, any>} attributes @returns {SVGElement} */
+function svg(tag, attributes) {
+  const made = /** @type {SVGElement} */ (document.createElementNS(SPACE, tag));
+  Object.entries(attributes).forEach(([name, value]) => made.setAttribute(name, String(value)));
+  return made;
+}
+
+/** @param {Axis} axis @param {number} value @returns {number} its place from the top */
+function placeOn({ least, largest }, value) {
+  const share = largest > least ? (value - least) / (largest - least) : 0.5;
+  return BOTTOM - Math.min(1, Math.max(0, share)) * (BOTTOM - TOP);
+}
+
+/** @param {Explorer} explorer @param {Axis} axis @param {number} i @returns {SVGElement} line, name and ends */
+function axisOf(explorer, axis, i) {
+  const group = svg("g", { "font-size": 12, "text-anchor": "middle" });
+  const texts = [[headed(explorer.columns[i]), 14], [digits(axis.largest), 32], [digits(axis.least), BOTTOM + 18]];
+  group.append(svg("line", { x1: axis.x, x2: axis.x, y1: TOP, y2: BOTTOM, stroke: "#333" }));
+  group.append(...texts.map(([text, y]) => {
+    const label = svg("text", { x: axis.x, y });
+    label.textContent = String(text).length > 22 ? `${String(text).slice(0, 21)}…` : String(text);
+    return label;
+  }));
+  return group;
+}
+
+/** @param {Explorer} explorer @param {Axis[]} axes @returns {SVGElement[]} marked designs above all others */
+function linesOf(explorer, axes) {
+  const { brushed, columns } = explorer, marked = (/** @type {any} */ point) => !brushed || brushed.has(point);
+  const rank = (/** @type {any} */ point) => (point.group === "front" ? Number(marked(point)) : 2);
+  return explorer.shown().sort((a, b) => rank(a) - rank(b)).map((point) => {
+    const places = columns.map((column, i) => [axes[i].x, placeOn(axes[i], explorer.valueAt(column, point))]);
+    const line = svg("polyline", {
+      points: places.map((place) => place.join()).join(" "), stroke: marked(point) ? COLOURS[point.group] : FAINT,
+      "stroke-width": point.group === "front" ? 1 : 2, "stroke-opacity": point.group === "front" ? 0.35 : 1,
+    });
+    line.addEventListener("click", () => explorer.choose(point.design));
+    return line;
+  });
+}
+
+/** @param {Axis} axis @param {[number, number]} range @returns {SVGElement[]} a box over the range of a filter */
+function rangeOf(axis, range) {
+  if (!range.some(Number.isFinite)) return [];
+  const [low, high] = [placeOn(axis, range[0]), placeOn(axis, range[1])];
+  const box = { x: axis.x - 7, width: 14, y: high, height: Math.max(1, low - high) };
+  return [svg("rect", { ...box, fill: "#0072b2", "fill-opacity": 0.3, stroke: "#0072b2", "pointer-events": "none" })];
+}
+
+/** @param {Explorer} explorer @param {SVGElement} chart @param {Axis} axis @param {number} i */
+function draggable(explorer, chart, axis, i) {
+  const handle = svg("rect", { x: axis.x - 12, y: TOP, width: 24, height: BOTTOM - TOP, "fill-opacity": 0 });
+  handle.setAttribute("class", "handle");
+  chart.append(handle);
+  const valueAt = (/** @type {PointerEvent} */ event) => {
+    const { top, height } = chart.getBoundingClientRect();
+    const share = (BOTTOM - ((event.clientY - top) * HEIGHT) / height) / (BOTTOM - TOP);
+    return axis.least + Math.min(1, Math.max(0, share)) * (axis.largest - axis.least);
+  };
+  let start = NaN;
+  handle.addEventListener("pointerdown", (event) => {
+    start = valueAt(event);
+    handle.setPointerCapture(event.pointerId);
+  });
+  handle.addEventListener("pointerup", (event) => {
+    const end = valueAt(event);
+    if (end !== start) explorer.filter(i, [Math.min(start, end), Math.max(start, end)]);
+  });
+  handle.addEventListener("dblclick", () => explorer.filter(i, [-Infinity, Infinity]));
+}

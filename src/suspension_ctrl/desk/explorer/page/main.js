@@ -1,0 +1,35 @@
+// The page: unpacks the plotting library and its record, and draws its parts.
+
+import { unpacked } from "../numerics/packed.js";
+import { drawDesign } from "./design_panel.js";
+import { drawDownloads } from "./downloads.js";
+import { byId, element } from "./elements.js";
+import { Explorer } from "./explorer.js";
+import { drawFilters } from "./filters.js";
+import { drawFront } from "./front_plots.js";
+import { drawLines } from "./lines.js";
+
+/** Add the plotting library to the page, whose policy knows it by its hash. */
+async function addPlotly() {
+  const bytes = Uint8Array.from(atob(byId("plotly").dataset.gzip ?? ""), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  document.head.append(element("script", { textContent: await new Response(stream).text() }));
+}
+
+/** Draw all parts of the page. */
+async function draw() {
+  await addPlotly();
+  const record = unpacked(JSON.parse(byId("record").dataset.record ?? ""));
+  const explorer = new Explorer(record);
+  drawFront(explorer);
+  drawLines(explorer);
+  drawFilters(explorer);
+  drawDesign(explorer);
+  drawDownloads(explorer, record.study);
+  document.body.classList.add("drawn");
+}
+
+draw().catch((error) => {
+  byId("failure").textContent = `The plots cannot be shown: ${error.message}`;
+  throw error;
+});

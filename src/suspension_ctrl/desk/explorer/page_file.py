@@ -1,0 +1,65 @@
+"""The page of a study as one file: template, style, scripts and record; its policy forbids all requests."""
+
+import gzip
+import json
+from base64 import b64encode
+from collections.abc import Sequence
+from hashlib import sha256
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ... import checks, escaping
+from ...tables.headers import readable
+from ...tables.rounding import rounded
+from ..candidate_texts import decimals_of, parts_of
+from ..decision import Decision
+from ..study_files import StudyFile
+from .bundling import bundled
+from .record import record_of
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+_HERE = Path(__file__).parent
+_PLOTLY = _HERE / "plotly" / "plotly-strict.min.js.gz"
+
+
+def page_of(study: StudyFile, decision: Decision, said: Sequence[str]) -> str:
+    """Return the page of a study and its decision as HTML; `said` are sentences to stand above.
+
+    The policy allows the scripts of the page alone, by their hashes: no request, no `eval`. The plotting library
+    is compressed; the page itself makes it a script.
+    """
+    with checks.installed("report"):
+        from jinja2 import Environment
+        from markupsafe import Markup
+    environment = Environment(autoescape=True)
+    environment.filters["html"] = lambda text: Markup(escaping.html(text))
+    script, plotly = bundled(_HERE / "page" / "main.js"), _PLOTLY.read_bytes()
+    return environment.from_string(_text("page.html.jinja")).render(
+        title=study.name,
+        said=said,
+        tables=[_table(title, part) for title, part in parts_of(decision.problem, decision.table).items()],
+        record=json.dumps(record_of(study, decision), allow_nan=False),
+        style=Markup(_text("page.css")),
+        script=Markup(script),
+        plotly=b64encode(plotly).decode("ascii"),
+        hashes=Markup(f"{_hash(script.encode())} {_hash(gzip.decompress(plotly))}"),
+    )
+
+
+def _text(name: str) -> str:
+    return (_HERE / "page" / name).read_text(encoding="utf-8")
+
+
+def _hash(script: bytes) -> str:
+    """Return the source of a script in a content security policy."""
+    return f"'sha256-{b64encode(sha256(script).digest()).decode('ascii')}'"
+
+
+def _table(title: str, part: "pd.DataFrame") -> dict[str, Any]:
+    """Return a table in mm and kN as texts."""
+    shown, digits = readable(part), decimals_of(part)
+    columns = [rounded(shown[header].tolist(), digits.get(str(header))) for header in shown]
+    rows = [list(row) for row in zip(*columns, strict=True)]
+    return {"title": title, "header": list(map(str, shown)), "rows": rows}

@@ -1,0 +1,96 @@
+"""Responses of a vehicle's plant at its strut ports over frequency, around which a page closes struts."""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...quantities import Complex, Integer, Real, signal_unit
+from ...response import weightings
+from ...response.any_struts import AnyStruts
+from ...response.blocks import Variables
+from ...response.curves import frequencies
+from ...response.mapped import Mapped
+from ...response.mean_squares import AnyCase, Case, varying
+from ...response.measures.terms import Term
+from ...response.network_rows import Networks
+from ...response.ports import Ports
+from ...response.scores import Scores
+from ...response.strut_data import networks_of
+from ...tables.headers import shown_unit
+from ...vehicles.assembly import ResponseName, label
+
+POINTS = 200
+"""Frequencies of a curve."""
+
+
+class PlantPorts(NamedTuple):
+    """A load case at n frequencies: m responses and q deflections by r roads and q tensions, around an origin."""
+
+    responses: tuple[str, ...]
+    units: tuple[tuple[str, float], ...]  # as engineers read them, with the factor
+    f: Real  # (n,) [Hz]
+    omega: Real  # (n,) [rad/s]
+    m: int
+    r: int
+    q: int
+    h: Complex  # (n, m + q, r + q)
+    roads: Complex  # (n, r, r), cross-spectra [m^2/Hz]
+    delays: Real  # (r,), of the wheels behind the first [s]
+    weights: Real  # (m, n), squared weighting of each response, 1 without
+    gain: Real  # (v, q, q), tensions of each coefficient at 1 by deflections or their derivatives of its order
+    order: Integer  # (v,)
+    origin: Real  # (v,), values of the coefficients that are in h already
+    networks: Networks | None
+    nominal: Real  # (t, 2), stiffness and damping in place of each network in h
+
+
+def plant_ports(scores: Scores, case: Case, points: int = POINTS) -> PlantPorts:
+    """Return the ports of the first load case of scores, with its mean squares, for the responses of its terms."""
+    load_case, setting = scores.cases[0], scores.settings[0]
+    vehicle, names = load_case.vehicle, varying(load_case.vehicle, scores.variables)
+    weighted = _weightings(scores.terms[0])
+    f, responses = frequencies(scores.band, points), list(weighted)
+    networks, nominal = _networks(scores, case.case if isinstance(case, Mapped) else case, f)
+    gains = None
+    if networks is not None:
+        gains = np.array([np.diag(one @ networks.ports) for one in (*nominal.T, np.zeros(len(nominal)))])
+    ports = Ports.of(vehicle, f, responses, setting, gains)
+    variables = Variables.of(vehicle.strut_coefficients, {name: setting[name] for name in names})
+    x = vehicle.contact_points[:, 0]
+    factors = [np.ones_like(f) if one is None else weightings.by_name(one).factor(f) for one in weighted.values()]
+    return PlantPorts(
+        responses=tuple(map(label, responses)),
+        units=tuple(shown_unit(signal_unit(label(one))) for one in responses),
+        f=f,
+        omega=2 * np.pi * f,
+        m=ports.m,
+        r=ports.r,
+        q=len(vehicle.struts),
+        h=ports.h,
+        roads=load_case.cross_spectrum(f),
+        delays=(x.max() - x) / load_case.speed,
+        weights=np.square(factors),
+        gain=variables.gain,
+        order=variables.order,
+        origin=variables.origin,
+        networks=networks,
+        nominal=nominal,
+    )
+
+
+def _weightings(terms: Sequence[Term]) -> dict[ResponseName, Any]:
+    """Return the responses of terms, each once, with the first weighting that one has."""
+    found: dict[ResponseName, Any] = {}
+    for term in terms:
+        found[term.response] = found.get(term.response) or term.weighting
+    return found
+
+
+def _networks(scores: Scores, case: Case, f: Real) -> tuple[Networks | None, Real]:
+    """Return networks at frequencies (n,), whose laws are those of the case, and what stands for them."""
+    if not isinstance(case, AnyCase):
+        return None, np.zeros((0, 2))
+    vehicle, alike = scores.cases[0].vehicle, case.networks.ports.T.astype(int) @ case.networks.ports.astype(int)
+    networks = networks_of(vehicle, scores.settings[0], varying(vehicle, scores.variables), f, alike > 0)
+    return networks, case.nominal if isinstance(case, AnyStruts) else np.zeros((len(networks.root), 2))

@@ -1,0 +1,164 @@
+"""The record of a study for a page: all that it shows, and all from which it computes other designs."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import tomlkit
+
+from ... import escaping
+from ...quantities import Real
+from ...response.problem import RideProblem
+from ...search.problem import headers_of
+from ...tables.headers import shown_unit
+from ...vehicles.files import coefficient_table
+from ..candidate_table import PRESENT, reaching
+from ..choosing import Front, front_of
+from ..decision import Decision
+from ..study_files import StudyFile, save_study
+from .packing import packed
+from .plant_ports import plant_ports
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+MOST = 2000
+"""Designs of a front on a page, spread evenly over more."""
+
+
+class Column(NamedTuple):
+    """A number of a design: an objective, the measure of a limit, or a variable."""
+
+    name: str
+    csv: str  # header in a CSV file
+    unit: str  # as engineers read it
+    factor: float  # to that unit
+    kind: str  # "objective", "limit" or "variable"
+    place: int  # among the scores, or among the variables
+    scale: float  # the score is scale times the measure plus offset
+    offset: float
+    computed: bool  # whether a page can compute it
+    limits: tuple[float | None, float | None]  # least and largest value that is allowed, in SI units
+
+
+class Variable(NamedTuple):
+    """A variable with its bounds, its kind, and the values of a catalogue."""
+
+    name: str
+    unit: str
+    factor: float
+    low: float
+    high: float
+    kind: str
+    values: tuple[float, ...]
+
+
+class Designs(NamedTuple):
+    """Designs (k, d) with their scores (k, m + c), and their names."""
+
+    designs: Real
+    scores: Real
+    names: tuple[str, ...]
+
+
+def record_of(study: StudyFile, decision: Decision) -> dict[str, Any]:
+    """Return the record of a study and its decision for JSON."""
+    problem = decision.problem
+    scores = problem.scores
+    kernel = scores.kernel(problem.nodes)
+    candidates = decision.table[decision.table.name != PRESENT]
+    return packed(
+        {
+            "columns": list(columns_of(problem)),
+            "variables": list(_variables(problem)),
+            "front": _evenly(front_of(problem, decision.run)),
+            "candidates": _designs(problem, candidates),
+            "present": _present(problem, study.present),
+            "kernel": kernel,
+            "ports": plant_ports(scores, kernel.cases[0]),
+            "study": _text_of(study),
+        }
+    )
+
+
+def columns_of(problem: RideProblem) -> Iterator[Column]:
+    """Yield the columns of a problem's designs: objectives, measures of limits, variables."""
+    flags = [not score.by_function for score in problem.scores.scores]
+    limits = {one.measure: one for one in problem.constraints}
+    for i, measure in enumerate(problem.measures):
+        limit = limits.pop(measure, None)
+        allowed = (limit.minimum, limit.maximum) if limit else (None, None)
+        yield Column(*_headed(measure.label, measure.unit), "objective", i, 1.0, 0.0, flags[i], allowed)
+    for i, limit in enumerate(problem.constraints, start=len(problem.measures)):
+        if limit.measure in limits:
+            headed, allowed = _headed(limit.measure.label, limit.measure.unit), (limit.minimum, limit.maximum)
+            yield Column(*headed, "limit", i, limit.scale, limit.offset, flags[i], allowed)
+    for i, name in enumerate(problem.variables):
+        yield Column(*_headed(name, problem.units[name]), "variable", i, 1.0, 0.0, True, (None, None))
+
+
+def _headed(name: str, unit: str) -> tuple[str, str, str, float]:
+    """Return name, header in a CSV file, unit as engineers read it, and the factor to it."""
+    shown, factor = _shown(unit)
+    return escaping.terminal(name), escaping.csv(f"{name} [{shown}]" if shown else name), shown, factor
+
+
+def _shown(unit: str) -> tuple[str, float]:
+    return shown_unit("" if unit == "-" else unit)
+
+
+def _variables(problem: RideProblem) -> Iterator[Variable]:
+    for name, (low, high) in problem.bounds.items():
+        kind, (unit, factor) = problem.kinds.get(name, ""), _shown(problem.units[name])
+        values = () if isinstance(kind, str) else tuple(map(float, kind))
+        yield Variable(name, unit, factor, low, high, kind if isinstance(kind, str) else "catalogue", values)
+
+
+def _evenly(front: Front) -> Designs:
+    """Return a front, of more than `MOST` designs every so many along the first objective."""
+    order = np.argsort(front.objectives[:, 0], kind="stable")
+    rows = order[np.linspace(0, len(order) - 1, min(MOST, len(order))).round().astype(int)]
+    return Designs(front.designs[rows], np.hstack([front.objectives, front.constraints])[rows], ())
+
+
+def _designs(problem: RideProblem, table: "pd.DataFrame") -> Designs:
+    """Return the candidates of a table, with names after their numbers."""
+    headers = list(headers_of(problem))[: len(problem.variables)]
+    designs = table[headers].to_numpy(dtype=float)
+    names = tuple(f"{number} {name}" for number, name in zip(table.index, table.name, strict=True))
+    return Designs(designs, problem.evaluate(designs), names)
+
+
+def _present(problem: RideProblem, present: Mapping[str, float]) -> Designs | None:
+    """Return the present design, None where it is unknown."""
+    if not present:
+        return None
+    design = np.array([[present[name] for name in problem.variables]])
+    return Designs(design, reaching(problem, design[0]).evaluate(design), (PRESENT,))
+
+
+def _text_of(study: StudyFile) -> dict[str, Any] | None:
+    """Return the file of a study without its present design, and the key of each variable; None if it has none."""
+    vehicle, variables = study.problem.cases[0].vehicle, study.problem.variables
+    keys = dict(_leaves(coefficient_table(vehicle, {name: float(i) for i, name in enumerate(variables)})))
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "study.toml"
+        try:
+            save_study(file, replace(study, present={}))
+        except ValueError:  # of an object of a user's own
+            return None
+        content = tomlkit.parse(file.read_text(encoding="utf-8"))
+        content.remove("present")
+        return {"text": content.as_string(), "keys": [keys[float(i)] for i in range(len(variables))]}
+
+
+def _leaves(table: Mapping[str, Any], above: str = "") -> Iterator[tuple[float, str]]:
+    """Yield the values of nested tables, each with its dotted key."""
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            yield from _leaves(value, f"{above}{key}.")
+        else:
+            yield value, f"{above}{key}"

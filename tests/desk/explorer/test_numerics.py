@@ -1,0 +1,169 @@
+"""Numerics of the explorer in JavaScript, under Node in one process: designs of many studies as in Python."""
+
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.special import gamma
+from scipy.stats import norm
+
+from garage import DRIVER, FULL, QUARTER, ROAD
+from suspension_ctrl import (
+    BumpStop,
+    Damper,
+    Friction,
+    Inerter,
+    Iso8608Road,
+    MeasuredStiffness,
+    PowerDamper,
+    QuarterCar,
+    RideProblem,
+    Rubber,
+    Spring,
+    TableDamper,
+    load_study,
+    parallel,
+    series,
+)  # fmt: skip
+from suspension_ctrl.desk.explorer.packing import packed
+from suspension_ctrl.desk.explorer.plant_ports import plant_ports
+from suspension_ctrl.response.curves import frequencies, setting_of
+from suspension_ctrl.response.linearisation import linear_at, working_points
+from suspension_ctrl.response.mapped import unmapped
+from suspension_ctrl.response.responses import frequency_responses, response_psds
+from suspension_ctrl.vehicles.assembly import label
+
+HERE = Path(__file__).parent
+NORMALS = np.linspace(-10, 10, 401)
+GAMMAS = np.linspace(0.05, 3.0, 60)
+NAMES = (
+    "quarter", "parameters", "half", "full", "seat", "table", "power", "stops", "network", "rubber",
+    "damper curves",
+)  # fmt: skip
+MASSES = {"body_mass": 317.5, "wheel_mass": 45.4, "tyre_stiffness": 192e3}
+SPRING = {"spring": (15e3, 30e3)}
+
+pytestmark = pytest.mark.skipif(shutil.which("node") is None and "NO_SKIPS" not in os.environ, reason="needs Node")
+
+
+def quarter(strut, bounds, **settings) -> RideProblem:
+    settings = {"road": Iso8608Road("C"), "speed": 20.0, "band": (0.1, 20.0)} | settings
+    return RideProblem(QuarterCar(**MASSES, strut=strut), bounds=SPRING | bounds, **settings)
+
+
+def studies() -> dict[str, RideProblem]:
+    """Problems of every kind of case."""
+    table = TableDamper(velocity=[-1.0, -0.1, 0.0, 0.1, 0.3, 1.0], force=[-900.0, -300.0, 0.0, 600.0, 1e3, 1.8e3])
+    stops = parallel(Spring(), Damper(), BumpStop(gap=0.03, stiffness=80e3), Friction(force=30.0))
+    mount = parallel(Spring(), series(Damper(), Spring("mount", 300e3)), Inerter("inerter", 20.0))
+    bush = MeasuredStiffness("bush", frequency=[0.1, 10.0, 50.0], storage=[2e5, 2.5e5, 3e5], loss=[1e3, 2e4, 6e4])
+    odd = TableDamper(velocity=[-1.0, -0.1, 0.0, 0.1, 1.0], force=[-900.0, -400.0, 0.0, 400.0, 900.0])
+    rubber = parallel(Spring(), series(odd, Rubber("mount", storage=300e3, loss=30e3), bush))
+    return {
+        "quarter": load_study("paper").problem,
+        "parameters": RideProblem(
+            QUARTER, ROAD, speed=20.0, bounds={"ride_frequency": (1.0, 1.6), "damping_ratio": (0.2, 0.5)}
+        ),
+        "half": load_study("half_car").problem,
+        "full": load_study("full_car").problem,
+        "seat": RideProblem(
+            DRIVER.on(FULL), ROAD, speed=20.0, band=(0.1, 20.0), measures=["ACC driver", "SWS", "DTL"],
+            bounds={"front.spring": (15e3, 30e3), "rear.damper": (1e3, 3e3)},
+            struts={"front.damper": 1500.0, "rear.spring": 20e3},
+        ),
+        "table": quarter(parallel(Spring(), table), {"damper.scale": (0.5, 2.0)}, constraints=["SWS <= 0.02"]),
+        "power": quarter(
+            parallel(Spring(), PowerDamper()),
+            {"damper.force": (500.0, 2000.0), "damper.exponent": (0.6, 1.6)},
+        ),
+        "stops": quarter(stops, {"damper": (800.0, 3e3)}),
+        "network": quarter(mount, {"damper": (800.0, 3e3)}),
+        "rubber": quarter(rubber, {"damper.scale": (0.5, 2.0), "mount.loss": (10e3, 50e3)}),
+        "damper curves": load_study("damper_curve").problem,
+    }  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def problems() -> dict[str, RideProblem]:
+    return studies()
+
+
+@pytest.fixture(scope="module")
+def designs(problems) -> dict[str, np.ndarray]:
+    """Random designs in the box of each problem."""
+    rng = np.random.default_rng(7)
+    return {name: rng.uniform(one.lower, one.upper, (10, len(one.lower))) for name, one in problems.items()}
+
+
+@pytest.fixture(scope="module")
+def answers(problems, designs, tmp_path_factory):
+    """What Node answers to all."""
+    records = {}
+    for name, problem in problems.items():
+        kernel = problem.scores.kernel(problem.nodes)
+        ports = plant_ports(problem.scores, kernel.cases[0], 40)
+        records[name] = {"kernel": packed(kernel), "ports": packed(ports), "designs": designs[name].tolist()}
+    asked = {"records": records, "normals": NORMALS.tolist(), "gammas": GAMMAS.tolist()}
+    file = tmp_path_factory.mktemp("explorer") / "asked.json"
+    file.write_text(json.dumps(asked), encoding="utf-8")
+    done = subprocess.run(["node", HERE / "answers.js", file], capture_output=True, text=True)
+    assert done.stderr == ""
+    return json.loads(done.stdout)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_scores_are_those_of_python(name, problems, designs, answers):
+    """Sums in another order differ by 1e-12; fixed points end within 1e-8 of their root, far nearer as a rule."""
+    problem, found = problems[name], np.array(answers["records"][name]["scores"])
+    computed = [not one.by_function for one in problem.scores.scores]
+    wanted = problem.evaluate(designs[name])
+    np.testing.assert_allclose(found[:, computed], wanted[:, computed], rtol=1e-8, atol=1e-9)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_mean_positions_are_those_of_python(name, problems, designs, answers):
+    """The means of laws are within 1e-8 of the deviation, of some 10 mm."""
+    problem, found = problems[name], answers["records"][name]["positions"]
+    case, linear = unmapped(problem.scores.kernel(problem.nodes).cases[0], designs[name])
+    if found[0] is None:
+        assert not hasattr(case, "networks")
+    else:
+        np.testing.assert_allclose(found, working_points(case, linear).position, atol=1e-9)
+
+
+@pytest.mark.parametrize("name", sorted({*NAMES} - {"rubber"}))  # which has no state space in Python
+def test_curves_are_those_of_python(name, problems, designs, answers):
+    """Laws of a curve in Python have another number of nodes, which resolve a deviation to 1e-6."""
+    problem, found = problems[name], answers["records"][name]["curves"]
+    case, responses = problem.cases[0], list(dict.fromkeys(term.response for term in problem.scores.terms[0]))
+    vehicle, setting = linear_at(case, setting_of(problem, designs[name][0].tolist()), problem.band)
+    closed, f = vehicle.closed(setting, responses=responses), frequencies(problem.band, 40)
+    x = case.vehicle.contact_points[:, 0]
+    by_name = frequency_responses(closed, f, (x.max() - x) / case.speed)
+    densities = response_psds(closed, f, case.cross_spectrum(f))
+    for response, curves in zip(map(label, responses), found, strict=True):
+        h = by_name[response]
+        np.testing.assert_allclose(curves["magnitude"], abs(h), rtol=2e-6, atol=1e-9 * abs(h).max())
+        turns = np.exp(1j * np.radians(curves["phase"]))
+        np.testing.assert_allclose(turns * abs(h), h, atol=2e-6 * abs(h).max())
+        np.testing.assert_allclose(curves["density"], densities[response], rtol=4e-6)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_design_takes_less_than_50_ms(name, answers):
+    assert np.median(answers["records"][name]["milliseconds"]) < 50.0
+
+
+def test_shares_of_the_normal_distribution(answers):
+    """Python's table has an error of 1e-17; the series cancels to 1e-15 of a half at most."""
+    above, density = np.transpose(answers["normals"])
+    np.testing.assert_allclose(above, norm.sf(NORMALS), rtol=1e-12, atol=2e-18)
+    np.testing.assert_allclose(density, norm.pdf(NORMALS), rtol=1e-14, atol=2e-18)
+
+
+def test_gamma_function(answers):
+    np.testing.assert_allclose(answers["gammas"], gamma(GAMMAS), rtol=1e-13)

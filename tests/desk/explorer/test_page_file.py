@@ -1,0 +1,47 @@
+"""The page as a file: its size, its policy, its parts."""
+
+import gzip
+import re
+from base64 import b64decode, b64encode
+from hashlib import sha256
+from pathlib import Path
+
+import pytest
+
+import suspension_ctrl.desk.explorer.page_file
+from suspension_ctrl import Nsga2, load_study
+from suspension_ctrl.desk.decision import Decision
+from suspension_ctrl.desk.explorer.page_file import page_of
+
+PLOTLY = Path(suspension_ctrl.desk.explorer.page_file.__file__).parent / "plotly"
+PUBLISHED = "4ac841837b31c1bfd2ab140e3a248ddcc6c2106978fbf2c1c18a7aada930a37a"  # plotly-strict.min.js 4.1.1 on npm
+
+
+@pytest.fixture(scope="module")
+def page() -> str:
+    study = load_study("paper")
+    decision = Decision.of(study.problem, Nsga2(population=40), iterations=2, seed=1, present=study.present)
+    return page_of(study, decision, ["a < b"])
+
+
+def test_the_plotting_library_is_the_published_one():
+    content = gzip.decompress((PLOTLY / "plotly-strict.min.js.gz").read_bytes())
+    assert sha256(content).hexdigest() == PUBLISHED
+    assert "MIT" in (PLOTLY / "LICENSE").read_text()
+
+
+def test_the_policy_allows_the_scripts_of_the_page_alone(page):
+    policy = re.search(r'Content-Security-Policy" content="([^"]*)"', page)[1]
+    assert policy.startswith("default-src 'none'; ")
+    assert "unsafe-eval" not in policy
+    allowed = re.search(r"script-src ([^;]*);", policy)[1].split()
+    scripts = re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
+    plotly = gzip.decompress(b64decode(re.search(r'data-gzip="([^"]*)"', page)[1]))
+    wanted = [*(one.encode() for one in scripts), plotly]
+    assert allowed == [f"'sha256-{b64encode(sha256(one).digest()).decode()}'" for one in wanted]
+
+
+def test_nothing_is_fetched_and_texts_are_escaped(page):
+    assert not re.findall(r'(?:src|href|action)="', page)
+    assert "<li>a &lt; b</li>" in page
+    assert len(page) < 8e6
