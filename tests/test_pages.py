@@ -18,7 +18,7 @@ SHORT = {
     r"(--algorithms [\w-]+,[\w-]+),\S+": r"\1",
     r"^(compare.*)": r"\1 --quick",
     r"^(compare --study .*) --quick": r"\1 --populations 20 --iterations 1 --repeats 1",
-    r"^(optimum --vehicle.*)": r"\1 --population 40 --iterations 2",
+    r"^(optimum --vehicle.*|report .*)": r"\1 --population 40 --iterations 2",
 }
 """Replacements that make a command short: its work is tested elsewhere, here that it is a command."""
 

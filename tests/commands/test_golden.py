@@ -29,6 +29,7 @@ COMMANDS = {
     "optimum_of_a_full_car": ("optimum", "--vehicle", "bmw_320i_full", "--road", "C", "--population", 20,
                               "--iterations", 1),
     "optimum_of_the_paper": ("optimum", "--band", "0.1,20", "--population", 40, "--iterations", 2),
+    "report": ("report", "--study", "half_car", "--population", 40, "--iterations", 2),
     "ride": ("ride", "--vehicle", "volvo_xc90_full", "--road", "C", "--band", "0.5,20"),
     "ride_driven_in_time": ("ride", "--road", "C", "--certify", "400m"),
     "ride_of_the_paper": ("ride",),

@@ -8,7 +8,7 @@ from suspension_ctrl import load_road, load_vehicle, ride, save_system
 
 FILES = {
     *("candidates.csv", "candidates.md", "front.csv", "front.png", "front.pdf", "changes.png", "changes.pdf"),
-    *("study.toml", "candidates"),
+    *("study.toml", "report.html", "candidates"),
 }  # fmt: skip
 QUICK = ("--population", 60, "--iterations", 5)
 OBJECTIVES = ["ACC [m/s^2]", "SWS [m]", "DTL [N]"]

@@ -48,7 +48,7 @@ def _add(command: Callable[..., None], *examples: str) -> None:
 
 _add(compare.compare, "--quick", "--quality --jobs 2", "--vehicle jian_2022_full --road C --repeats 1")
 _add(optimum.optimum, "--band 0.1,20", "--vehicle jian_2022_full --road C --sws-limit 0.01")
-_add(report_page.report, "--study full_car --out report")
+_add(report_page.report, "--study half_car --out report")
 _add(new.new, "quarter-car --out mine.toml")
 _add(bode.bode, "--design 22000,1500 --design 12e3,1600", "--vehicle minaker_half --response pitch_acceleration")
 _add(weighting.weighting, "--out figure2")
