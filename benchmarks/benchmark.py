@@ -1,4 +1,4 @@
-"""Speed against other libraries, side by side in one process: evaluation, searches, processes, struts.
+"""Speed against other libraries in one process: evaluation, searches, processes, struts, derivatives.
 
 Writes every timing, the tables as a page in Markdown and a picture to a folder, whose path is the last line
 printed; `--docs` puts page and picture there too. `make bench` installs the other libraries first; those that
@@ -15,7 +15,7 @@ from scipy import signal
 from typer import Option
 
 from peers import OURS, Contenders, contenders
-from sections import cold_start, evaluation, process, report, searches, struts, summary
+from sections import cold_start, derivatives, evaluation, process, report, searches, struts, summary
 from suspension_ctrl import RideProblem
 from suspension_ctrl import tables as files
 from suspension_ctrl.commands import results, terminal
@@ -123,6 +123,9 @@ def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summar
             "evaluation", evaluation.measure(problem, settings["designs"], repeats, settings["evaluation_limit"])
         ),
         struts=kept("struts", struts.measure(settings["strut_nodes"], settings["strut_designs"], repeats)),
+        derivatives=kept(
+            "derivatives", derivatives.measure(settings["strut_nodes"], settings["strut_designs"], repeats)
+        ),
         **measure_searches(settings, field, problem, kept),
         absent=field.absent,
     )

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from peers import OURS
-from sections import cold_start, evaluation, struts
+from sections import cold_start, derivatives, evaluation, struts
 from sections.searches import GENERATIONS
 from sections.summary import (
     GROWTH_FROM,
@@ -33,6 +33,7 @@ def page(found: Measurements, settings: dict[str, Any], machine: dict[str, Any])
         *_about_target(found, settings),
         *_about_processes(found),
         *_about_struts(found, settings),
+        *_about_derivatives(found, settings),
     ]
     return "\n\n".join(parts) + "\n"
 
@@ -132,6 +133,16 @@ def _about_struts(found: Measurements, settings: dict[str, Any]) -> list[str]:
     ]
 
 
+def _about_derivatives(found: Measurements, settings: dict[str, Any]) -> list[str]:
+    return [
+        "## Derivatives",
+        f"Least processor time per design of {settings['repeats']} calls: values alone, and values with the "
+        "derivatives of all objectives and limits by all variables, of the designs of the section above at "
+        f"{settings['strut_nodes']} nodes; of the study `full_car` at its own.",
+        _markdown(derivative_table(found)),
+    ]
+
+
 def _goals_shown(table: pd.DataFrame) -> pd.DataFrame:
     return table.assign(here=[number(v) for v in table.here], holds=["yes" if h else "no" for h in table.holds])
 
@@ -217,6 +228,20 @@ def strut_table(found: Measurements) -> pd.DataFrame:
             "µs per design": [number(1e6 * seconds) for seconds in table.seconds],
             "ratio": table.ratio.map(number),
             "bar": [f"<= {bar:g}" for bar in table.bar],
+        }
+    )
+
+
+def derivative_table(found: Measurements) -> pd.DataFrame:
+    """Return microseconds per design of values and of values with derivatives by case, and their ratio."""
+    table = derivatives.ratios(found.derivatives)
+    return pd.DataFrame(
+        {
+            "case": table.case,
+            "values, µs": [number(1e6 * seconds) for seconds in table["values"]],
+            "values and derivatives, µs": [number(1e6 * seconds) for seconds in table.both],
+            "ratio": table.ratio.map(number),
+            "bar": f"<= {derivatives.BAR:g}",
         }
     )
 

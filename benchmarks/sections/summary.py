@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from peers import OURS
-from sections import cold_start, evaluation, process, struts
+from sections import cold_start, derivatives, evaluation, process, struts
 
 GROWTH_FROM = 1000
 """Population from which on growth is fitted; below it what a run costs whatever its size weighs too much."""
@@ -20,8 +20,8 @@ class Measurements:
     ----------
     evaluation, nsga2, moead, target, process : DataFrame
         From `evaluation.measure`, `searches.by_population` (twice), `searches.to_target`, `process.measure`.
-    cold_start, struts : DataFrame
-        From `cold_start.measure` and `struts.measure`.
+    cold_start, struts, derivatives : DataFrame
+        From `cold_start.measure`, `struts.measure` and `derivatives.measure`.
     errors : dict of str to float
         From `evaluation.errors`.
     memory : float
@@ -37,6 +37,7 @@ class Measurements:
     process: pd.DataFrame
     cold_start: pd.DataFrame
     struts: pd.DataFrame
+    derivatives: pd.DataFrame
     errors: dict[str, float]
     memory: float
     absent: dict[str, str]
@@ -124,6 +125,8 @@ def goals(found: Measurements) -> pd.DataFrame:
         rows.append((f"processor time, {what}", f"<= {bar}", multiple, "import control", multiple <= bar))
     for what, bar, ratio in struts.goals(found.struts):
         rows.append((what, f"<= {bar:g}", ratio, "spring and damper by default", ratio <= bar))
+    for what, bar, ratio in derivatives.goals(found.derivatives):
+        rows.append((what, f"<= {bar:g}", ratio, "values alone", ratio <= bar))
     return pd.DataFrame(rows, columns=["what", "bar", "here", "against", "holds"])
 
 

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from peers import OURS, Contenders, Job
-from sections import cold_start, evaluation, process, report, searches, struts, summary, timing
+from sections import cold_start, derivatives, evaluation, process, report, searches, struts, summary, timing
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.indicators import ReferenceFront
 
@@ -158,6 +158,7 @@ def measurements(ours: float, theirs: float) -> summary.Measurements:
         process=pd.DataFrame([{"contender": n, "seconds": s} for n, s in imports.items()]),
         cold_start=cold_starts(0.1, 1.0),
         struts=strut_times(1.0, 1.4),
+        derivatives=derivative_times(2.5),
         errors=dict.fromkeys(names, 1e-8),
         memory=100.0,
         absent={"other": "ModuleNotFoundError: no"},
@@ -181,6 +182,21 @@ def strut_times(default: float, others: float) -> pd.DataFrame:
         for repeat, factor in ((1, 2.0), (2, 1.0), (3, 3.0))
     ]
     return pd.DataFrame(rows, columns=["vehicle", "strut", "designs", "repeat", "cpu_seconds"])
+
+
+def derivative_times(both: float) -> pd.DataFrame:
+    """Values take 1 s, both that long, at the second of two calls least."""
+    rows = [
+        (row.case, what, 10, repeat, 10 * factor * seconds)
+        for row in derivatives.ROWS
+        for what, seconds in ((derivatives.VALUES, 1.0), (derivatives.BOTH, both))
+        for repeat, factor in ((1, 2.0), (2, 1.0))
+    ]
+    return pd.DataFrame(rows, columns=["case", "what", "designs", "repeat", "cpu_seconds"])
+
+
+def test_derivatives_are_held_to_their_bar_by_the_least_time():
+    assert [goal[1:] for goal in derivatives.goals(derivative_times(2.5))] == [(3.0, 2.5)] * len(derivatives.ROWS)
 
 
 def test_struts_are_held_to_their_bars_by_the_least_time():

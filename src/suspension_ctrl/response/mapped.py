@@ -6,7 +6,7 @@ import numpy as np
 
 from ..compiled import call, compiled
 from ..quantities import Real
-from ..vehicles.formulas import Formulas, fill
+from ..vehicles.formulas import Formulas, fill, fill_slopes
 
 
 class Mapped(NamedTuple):
@@ -28,6 +28,19 @@ def coefficients_of(formulas: Formulas, designs: Real) -> Real:
     for p in range(designs.shape[0]):
         fill(formulas, designs, p, slots, coefficients)
     return coefficients
+
+
+@compiled(error_model="numpy")
+def slopes_of(formulas: Formulas, designs: Real) -> Real:
+    """Return the derivatives (p, w, v) of the coefficients of designs (p, v) by the variables."""
+    count, coefficients = designs.shape[0], np.empty((1, formulas.result.size))
+    slots = np.empty(formulas.start.size)
+    rates = np.empty((slots.size, designs.shape[1]))
+    slopes = np.empty((count, formulas.result.size, designs.shape[1]))
+    for p in range(count):
+        fill(formulas, designs[p : p + 1], 0, slots, coefficients)
+        fill_slopes(formulas, slots, p, rates, slopes)
+    return slopes
 
 
 def unmapped(case: Any, designs: Real) -> tuple[Any, Real]:

@@ -105,22 +105,18 @@ def fill_positions(networks: Networks, values: Real, nodes: Real, d: Real, work:
     """
     q, c = networks.sag.size, networks.compliance
     change, matrix, force = work[0], work[1], work[2, 0]
+    fill_stiffening(networks, values, nodes, change)
     for i in range(q):
         force[i] = 0.0
         for j in range(q):
-            change[i, j], matrix[i, j] = -networks.nominal[i, j], 1.0 if i == j else 0.0
+            matrix[i, j] = 1.0 if i == j else 0.0
     for i in range(values.size):
-        if networks.order[i] == 0:
-            for j in range(q):
-                for k in range(q):
-                    change[j, k] += values[i] * networks.gain[i, j, k]
-        elif networks.weight[i] != 0.0:
+        if networks.order[i] != 0 and networks.weight[i] != 0.0:
             for j in range(q):
                 force[j] += networks.weight[i] * values[i] * networks.gain[i, j, j]
     for t in range(networks.ports.shape[0]):
         for j in range(q):
             if networks.ports[t, j]:
-                change[j, j] += nodes[networks.root[t], STIFFNESS]
                 force[j] += nodes[networks.root[t], AT_ZERO]
     for i in range(q):
         d[i] = networks.sag[i]
@@ -137,3 +133,21 @@ def fill_positions(networks: Networks, values: Real, nodes: Real, d: Real, work:
                     matrix[i, j] -= factor * matrix[p, j]
     for p in range(q):
         d[p] /= matrix[p, p]
+
+
+@compilable()
+def fill_stiffening(networks: Networks, values: Real, nodes: Real, change: Real) -> None:
+    """Fill in K - K0 (q, q), the stiffness of the struts about the last point less that of nominal ones."""
+    q = networks.sag.size
+    for i in range(q):
+        for j in range(q):
+            change[i, j] = -networks.nominal[i, j]
+    for i in range(values.size):
+        if networks.order[i] == 0:
+            for j in range(q):
+                for k in range(q):
+                    change[j, k] += values[i] * networks.gain[i, j, k]
+    for t in range(networks.ports.shape[0]):
+        for j in range(q):
+            if networks.ports[t, j]:
+                change[j, j] += nodes[networks.root[t], STIFFNESS]

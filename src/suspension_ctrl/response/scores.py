@@ -57,14 +57,20 @@ class Kernel(NamedTuple):
         By numpy: no compilation.
         """
         total, any_worst = np.zeros((self.scale.size, len(mean_squares[0]))), self.worst_case.any()
-        for each, squares, share in zip(mean_squares, self.squares, self.shares, strict=True):
-            found, value = each.T, np.zeros_like(total)
-            for s, k in zip(*(index.tolist() for index in squares.nonzero()), strict=True):
-                combine = np.maximum if self.worst_term[s] else np.add
-                combine(value[s], squares[s, k] * found[k], out=value[s])
+        for c, share in enumerate(self.shares):
+            value = self.squares_in(c, mean_squares[c])
             mean = total + share * value
             total = np.where(self.worst_case[:, None], np.maximum(total, value), mean) if any_worst else mean
         return np.asarray(self.scale * np.sqrt(total.T) + self.offset)
+
+    def squares_in(self, case: int, mean_squares: Real) -> Real:
+        """Return the sum or the largest of the terms of each score (s, p) by mean squares (p, k) in a case."""
+        found, squares = mean_squares.T, self.squares[case]
+        value = np.zeros((self.scale.size, len(mean_squares)))
+        for s, k in zip(*(index.tolist() for index in squares.nonzero()), strict=True):
+            combine = np.maximum if self.worst_term[s] else np.add
+            combine(value[s], squares[s, k] * found[k], out=value[s])
+        return value
 
     @compilable()
     def __call__(self, design: Real) -> Real:
@@ -146,20 +152,25 @@ class Scores:
         kernel = self.kernel(nodes)
         if self._simple:
             which, factor = self._simple
-            found = _reached(mean_squares_of(kernel.cases[0], designs), designs).T[which]
+            found = reached(mean_squares_of(kernel.cases[0], designs), designs).T[which]
             return np.asarray(kernel.scale * np.sqrt(factor * found).T + kernel.offset)
         mean_squares = [mean_squares_of(case, designs) for case in kernel.cases]
-        scores = _reached(kernel.scores(mean_squares), designs)
+        scores = reached(kernel.scores(mean_squares), designs)
+        self.fill_functions(scores, designs, nodes, mean_squares)
+        return scores
+
+    def fill_functions(self, scores: Real, designs: Real, nodes: int, mean_squares: Sequence[Real]) -> None:
+        """Fill in the columns (p, s) by functions of designs (p, v) with mean squares (p, k) in each case."""
+        kernel = self.kernel(nodes)
         by_case = [self._designs(c, designs, kernel, each) for c, each in enumerate(mean_squares)]
         for column, score in enumerate(self.scores):
             if score.by_function:
                 scores[:, column] = score.scale * self._by_function(score, by_case) + score.offset
-        return scores
 
     def by_case(self, case: int, design: Real, nodes: int) -> Real:
         """Return each measure (s,) of one design (v,) in a load case, without its factor and its constant."""
         designs, kernel = design[None], self.kernel(nodes)
-        mean_squares = _reached(mean_squares_of(kernel.cases[case], designs), designs)
+        mean_squares = reached(mean_squares_of(kernel.cases[case], designs), designs)
         found, one = self.roots(case, mean_squares[0]), self._designs(case, designs, kernel, mean_squares)
         for s, score in enumerate(self.scores):
             if function := score.cases[case].values:
@@ -185,8 +196,7 @@ class Scores:
         """Return by case the largest change (k,) of each root mean square by twice the nodes."""
         both = zip(self.kernel(nodes).cases, self.kernel(2 * nodes).cases, strict=True)
         return [
-            _change(*(np.sqrt(_reached(mean_squares_of(case, designs), designs)) for case in pair))
-            for pair in both
+            _change(*(np.sqrt(reached(mean_squares_of(case, designs), designs)) for case in pair)) for pair in both
         ]
 
     @cached_property
@@ -290,7 +300,7 @@ def spectra_of(h: Complex, roads: Complex, names: Sequence[str]) -> dict[str, Re
     return dict(zip(names, np.einsum("nmi,nij,nmj->mn", h, roads, h.conj()).real, strict=True))
 
 
-def _reached(values: Real, designs: Real) -> Real:
+def reached(values: Real, designs: Real) -> Real:
     """Return values (p, k) of designs (p, v); ValueError that names the first without a working point."""
     check_reached(np.asarray(~np.isnan(values).any(axis=1)), designs)
     return values

@@ -47,6 +47,31 @@ def fill(formulas: Formulas, designs: Real, p: int, slots: Real, coefficients: R
         coefficients[p, i] = slots[formulas.result[i]]
 
 
+@compilable(error_model="numpy")
+def fill_slopes(formulas: Formulas, slots: Real, p: int, rates: Real, slopes: Real) -> None:
+    """Fill in the derivatives (p, w, v) of the coefficients by the variables of a design with filled slots (s,).
+
+    Works in the derivatives (s, v) of the slots, each of which stands before those that depend on it.
+    """
+    base, variables = formulas.base, slopes.shape[2]
+    for i in range(slots.size):
+        for v in range(variables):
+            rates[i, v] = 1.0 if i == v else 0.0
+    for t in range(formulas.target.size):
+        for j in range(base.shape[1]):
+            if base[t, j] >= 0:
+                factor = formulas.factor[t] * formulas.power[t, j]
+                for other in range(base.shape[1]):
+                    if base[t, other] >= 0:
+                        power = formulas.power[t, other] - (1.0 if other == j else 0.0)
+                        factor *= slots[base[t, other]] ** power
+                for v in range(variables):
+                    rates[formulas.target[t], v] += factor * rates[base[t, j], v]
+    for i in range(formulas.result.size):
+        for v in range(variables):
+            slopes[p, i, v] = rates[formulas.result[i], v]
+
+
 class Sheet:
     """Formulas in the making: each value has a slot."""
 

@@ -1,0 +1,79 @@
+"""Section 8: values with the derivatives by all variables, over values alone, of the same designs."""
+
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+import suspension_ctrl as sc
+from sections import struts
+from sections.timing import Prepare, take_turns
+
+BAR = 3.0
+"""Largest ratio to hold."""
+VALUES, BOTH = "values", "values and derivatives"
+LIMIT, LEAST = 60.0, 0.02
+"""Seconds: of a call after which there is no other, and up to which calls are repeated within one timing."""
+
+
+class Row(NamedTuple):
+    """A case, and the vehicle and strut of `struts.problems` or the study that it is."""
+
+    case: str
+    vehicle: str
+    source: str
+
+
+ROWS = (
+    Row("quarter car", struts.QUARTER, struts.DEFAULT),
+    Row("quarter car, damper on a mount", struts.QUARTER, "damper on a mount"),
+    Row("quarter car, damper by a measured table", struts.QUARTER, "damper by a measured table of 13 rows"),
+    Row("full car", struts.FULL, struts.DEFAULT),
+    Row("full car, dampers on mounts", struts.FULL, "dampers on mounts"),
+    Row("full car, dampers by measured tables", struts.FULL, "two dampers by measured tables"),
+    Row("full car, 8 variables, 2 limits, 3 load cases", struts.FULL, "full_car"),
+    Row("semitrailer", struts.TRUCK, "springs, dampers of two axles"),
+)
+
+
+def problems(nodes: int) -> dict[str, sc.RideProblem]:
+    """Return a problem by case."""
+    known, found = struts.problems(nodes), dict[str, sc.RideProblem]()
+    for row in ROWS:
+        study = row.source == "full_car"
+        found[row.case] = sc.load_study(row.source).problem if study else known[row.vehicle, row.source]
+    return found
+
+
+def measure(nodes: int, designs: dict[str, int], repeats: int) -> pd.DataFrame:
+    """Return one row per timed call: case, what, designs, repeat, seconds, cpu_seconds."""
+    entries, keys = dict[str, Prepare](), dict[str, tuple[str, str, int]]()
+    for row, problem in zip(ROWS, problems(nodes).values(), strict=True):
+        count = designs[row.vehicle]
+        drawn = np.random.default_rng(1).uniform(problem.lower, problem.upper, (count, len(problem.lower)))
+        for what in (VALUES, BOTH):
+            keys[f"{row.case}, {what}"] = row.case, what, count
+            entries[f"{row.case}, {what}"] = _entry(problem, what, drawn)
+    found = pd.DataFrame(take_turns(entries, repeats, LIMIT, least=LEAST))
+    cases, whats, counts = zip(*found.pop("contender").map(keys), strict=True)
+    return found.assign(case=cases, what=whats, designs=counts)
+
+
+def _entry(problem: sc.RideProblem, what: str, drawn: np.ndarray) -> Prepare:
+    """Return the call of a problem to be timed."""
+    method = problem.evaluate if what == VALUES else problem.with_jacobian
+    return lambda _: lambda: method(drawn)
+
+
+def ratios(timings: pd.DataFrame) -> pd.DataFrame:
+    """Return by case the least processor time per design [s] of values and of both, and their ratio."""
+    least = (timings.cpu_seconds / timings.designs).groupby([timings.case, timings.what]).min()
+    rows = [(row.case, least[row.case, VALUES], least[row.case, BOTH]) for row in ROWS]
+    table = pd.DataFrame(rows, columns=["case", "values", "both"])
+    return table.assign(ratio=table.both / table["values"])
+
+
+def goals(timings: pd.DataFrame) -> list[tuple[str, float, float]]:
+    """Return what is to hold: what, largest ratio, and the one measured."""
+    table = ratios(timings)
+    return [(f"derivatives, {case}", BAR, ratio) for case, ratio in zip(table.case, table.ratio, strict=True)]

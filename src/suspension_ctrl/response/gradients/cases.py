@@ -1,0 +1,36 @@
+"""Mean squares of a load case over designs, with the derivatives of what is wanted of them."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ...quantities import Real
+from ..any_struts import AnyStruts
+from ..many_struts import ManyStruts
+from ..mapped import Mapped, slopes_of, unmapped
+from ..mean_squares import Case
+from ..one_port import OnePort
+from ..one_strut import OneStrut
+from . import any_struts, many_struts, one_port, one_strut
+from .wanted import Wanted
+
+_BY_CLASS: dict[type, Callable[[Any, Wanted, Real], tuple[Real, Real]]] = {
+    OneStrut: one_strut.with_slopes,
+    ManyStruts: many_struts.with_slopes,
+    OnePort: one_port.with_slopes,
+    AnyStruts: any_struts.with_slopes,
+}
+
+
+def with_slopes(case: Case, wanted: Wanted, designs: Real) -> tuple[Real, Real]:
+    """Return the mean squares (p, k) of designs (p, v), and the derivatives (p, s, v) of what is wanted of them.
+
+    Those of a design without a working point are NaN.
+    """
+    inner, coefficients = unmapped(case, designs)
+    coefficients = np.require(coefficients, requirements=("C", "W"))  # read-only arrays are another type
+    squares, slopes = _BY_CLASS[type(inner)](inner, wanted, coefficients)
+    if isinstance(case, Mapped):
+        slopes = slopes @ slopes_of(case.formulas, np.require(designs, requirements=("C", "W")))
+    return squares, slopes

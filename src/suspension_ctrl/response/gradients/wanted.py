@@ -1,0 +1,37 @@
+"""Which combinations of mean squares derivatives are wanted of."""
+
+from typing import NamedTuple
+
+from ...compiled import compilable
+from ...quantities import Bool, Real
+
+
+class Wanted(NamedTuple):
+    """Sums of mean squares times factors, or the largest of these products."""
+
+    factor: Real  # (s, k)
+    largest: Bool  # (s,), whether the largest product counts, or their sum
+
+
+@compilable()
+def fill_weights(wanted: Wanted, squares: Real, p: int, weight: Real) -> None:
+    """Fill in the derivatives (s, k) of the combinations by the mean squares of one of the designs (p, k)."""
+    for s in range(wanted.largest.size):
+        best, most = 0, -1.0
+        for k in range(squares.shape[1]):
+            product = wanted.factor[s, k] * squares[p, k]
+            weight[s, k] = 0.0 if wanted.largest[s] else wanted.factor[s, k]
+            if product > most:
+                best, most = k, product
+        if wanted.largest[s]:
+            weight[s, best] = wanted.factor[s, best]
+
+
+@compilable()
+def combine(weight: Real, slopes: Real, p: int, result: Real) -> None:
+    """Fill in the derivatives of the combinations of a design (p, s, v) by those of its mean squares (k, v)."""
+    for s in range(weight.shape[0]):
+        for v in range(slopes.shape[1]):
+            result[p, s, v] = 0.0
+            for k in range(weight.shape[1]):
+                result[p, s, v] += weight[s, k] * slopes[k, v]

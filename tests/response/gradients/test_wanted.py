@@ -1,0 +1,24 @@
+"""Sums and the largest of products by hand."""
+
+import numpy as np
+
+from suspension_ctrl.response.gradients.wanted import Wanted, combine, fill_weights
+
+SQUARES = np.array([[9.0, 9.0, 9.0], [3.0, 2.0, 5.0]])
+WANTED = Wanted(np.array([[1.0, 4.0, 0.0], [2.0, 4.0, 1.0]]), np.array([False, True]))
+
+
+def test_a_sum_has_its_factors_and_the_largest_that_of_one():
+    weight = np.empty((2, 3))
+    fill_weights(WANTED, SQUARES, 1, weight)
+    np.testing.assert_array_equal(weight, [[1.0, 4.0, 0.0], [0.0, 4.0, 0.0]])
+
+
+def test_derivatives_are_combined_by_weights():
+    weight, slopes, result = (
+        np.array([[1.0, 2.0, 0.0]]),
+        np.array([[1.0, 5.0], [3.0, 1.0], [7.0, 7.0]]),
+        np.empty((1, 1, 2)),
+    )
+    combine(weight, slopes, 0, result)
+    np.testing.assert_array_equal(result[0], weight @ slopes)
