@@ -12,7 +12,7 @@ import pytest
 from suspension_ctrl.commands import main, options
 from suspension_ctrl.study.comparison import ALGORITHMS
 
-COMMANDS = ("compare", "optimum", "report", "new", "bode", "weighting", "ride", "exposure", "road", "report")
+COMMANDS = ("compare", "optimum", "report", "new", "bode", "weighting", "ride", "exposure", "road")
 MEASURED = "wavenumber [cycle/m],psd [m^3]\n0.02,1e-3\n0.1,1e-4\n1,1e-6\n2,2e-7\n"
 HEAVY = ("control", "matplotlib", "numba", "pandas", "scipy", "moocore", "deap", "distributed")
 
