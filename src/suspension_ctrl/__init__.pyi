@@ -8,6 +8,8 @@ from .desk.exporting import export as export
 from .desk.figures import attainable_figure as attainable_figure
 from .desk.scatter_figures import robustness_figure as robustness_figure
 from .desk.scatter_table import robustness as robustness
+from .desk.slope_figures import sensitivity_figure as sensitivity_figure
+from .desk.slope_table import sensitivity as sensitivity
 from .desk.study_files import SearchSettings as SearchSettings
 from .desk.study_files import StudyFile as StudyFile
 from .desk.study_files import load_study as load_study
