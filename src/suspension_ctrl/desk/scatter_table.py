@@ -99,10 +99,10 @@ def robustness(
     >>> print(table[["nominal", "q95", "beyond limit [%]"]].round(4))
     1000 samples, seed 1   nominal       q95  beyond limit [%]
     name
-    ACC                     1.1960    1.2335               NaN
+    ACC                     1.1949    1.2082               NaN
     SWS                     0.0111    0.0127               NaN
-    DTL                   754.2577  872.6917               NaN
-    SWS <= 0.012            0.0111    0.0127              46.6
+    DTL                   753.6430  860.2064               NaN
+    SWS <= 0.012            0.0111    0.0127              39.4
     """
     import pandas as pd
 
