@@ -42,7 +42,7 @@ PUBLIC = {
     "FailureWarning", "Gamultiobj", "InfeasibleWarning", "MoeadDra", "Nsga2", "Problem", "ReferenceFront", "Run",
     "Sampling", "minimise", "non_dominated", "Study", "as_pymoo", "as_scipy",
     "candidates", "knee", "pick", "attainable", "attainable_figure", "attained", "skyhook",
-    "CVaR", "Mean", "Quantile", "Scatter", "robustness", "robustness_figure",
+    "CVaR", "Mean", "Quantile", "Scatter", "robustness", "robustness_figure", "sensitivity", "sensitivity_figure",
     "export", "supplier_sheet", "vehicle_file",
 }  # fmt: skip
 
