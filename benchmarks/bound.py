@@ -13,7 +13,7 @@ from typer import Option
 
 from suspension_ctrl import Iso8608Road, PowerLawRoad, RideProblem, attainable, load_vehicle
 from suspension_ctrl.commands import options, terminal
-from suspension_ctrl.desk.attaining import LEAST, WITHIN, criterion
+from suspension_ctrl.desk.bound import LEAST, WITHIN, criterion
 
 _PART = 10_000
 _POINTS = 64

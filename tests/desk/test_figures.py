@@ -87,3 +87,24 @@ def test_controllers_are_drawn_beside_the_front_where_other_measures_are_no_larg
     assert at[1] == pytest.approx(np.sqrt(max((0.8 - 0.4 * x**2 - 0.1) / 0.5, (0.4 - 0.05 * x**2 - 0.05) / 0.9)))
     with pytest.raises(ValueError, match=r"^measures of the table must be one of SWS \[m\], got 'ACC"):
         attainable_figure(table, FRONT[["SWS [m]"]])
+
+
+def test_a_front_of_a_decision_has_what_is_attainable_behind_it():
+    table = pd.DataFrame(
+        {
+            "controller": ["LQR", "skyhook"],
+            "ACC [m/s^2]": [0.5, 0.6], "SWS [m]": [0.005, 0.005], "DTL [N]": [450.0, 480.0],
+            "ACC weight [-]": [0.5, np.nan], "SWS weight [-]": [0.4, np.nan], "DTL weight [-]": [0.1, np.nan],
+            "least [-]": [0.9, np.nan], "within band [-]": [0.8, np.nan],
+        }
+    )  # fmt: skip
+    table.attrs = {"measures": ["ACC [m/s^2]", "SWS [m]", "DTL [N]"], "present": [1.0, 0.005, 500.0]}
+    figure = front_figure(FRONT, pd.DataFrame(), TABLE, HEADERS, {}, "", table)
+    first = figure.axes[0]
+    lines = {line.get_label(): line.get_xydata() for line in first.lines}
+    np.testing.assert_allclose(lines["active, LQR"], [[5.0, 0.5]])
+    np.testing.assert_allclose(lines["present design"], [[7.0, 0.7]])
+    assert first.get_xlim()[0] < 4.0 < 7.0 < first.get_xlim()[1]  # all that is drawn is in view
+    texts = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert texts[-1] == "only with more beyond the band"
+    assert len(texts) == len(set(texts))

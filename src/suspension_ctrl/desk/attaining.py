@@ -15,14 +15,14 @@ from ..search.driver import minimise as search
 from ..search.nsga2 import Nsga2
 from ..vehicles.sky_dampers import SKY, skyhook
 from ..vehicles.vehicle import AssembledVehicle
+from .bound import LEAST, LQG, LQR, SKYHOOK, WITHIN
 from .candidate_table import PRESENT, Present, design_of, reaching
 from .descent import least_within_limits
 
 if TYPE_CHECKING:
     import pandas as pd
 
-LQR, LQG, SKYHOOK, PASSIVE, ACTIVE = "LQR", "LQG", "skyhook", "passive optimum", "active optimum"
-LEAST, WITHIN = "least [-]", "within band [-]"
+PASSIVE, ACTIVE = "passive optimum", "active optimum"
 SHARE = "share [%]"
 
 _RATIO = 100.0  # largest ratio of two weights
@@ -189,29 +189,6 @@ def attained(problem: RideProblem, present: Present, *, minimise: str | None = N
     if not reduced[ACTIVE] > 0:
         raise ValueError(f"present must leave {names[j]} to be reduced, got a design that has the least")
     return table.assign(**{SHARE: 100 * reduced / reduced[ACTIVE]}).rename_axis("suspension")
-
-
-def criterion(table: "pd.DataFrame", objectives: Real) -> Real:
-    """Return the criterion (n, k) of objectives (n, m) by the weights of each LQR of a table of `attainable`."""
-    rows = table[table["controller"] == LQR]
-    weights = rows.filter(regex=r" weight \[-\]$").to_numpy()
-    return np.asarray((objectives / table.attrs["present"]) ** 2 @ weights.T)
-
-
-def edge(table: "pd.DataFrame", front: "pd.DataFrame", pair: tuple[str, str], x: Real) -> Real:
-    """Return the least value (n,) of the second of a pair of measures at values x (n,) of the first.
-
-    It is that with all other measures at most as large as on a front, by the criterion of each LQR of a table
-    within the band.
-    """
-    headers, present = table.attrs["measures"], np.array(table.attrs["present"])
-    across, up = (headers.index(one) for one in pair)
-    rows = table[table["controller"] == LQR]
-    weights = rows.filter(regex=r" weight \[-\]$").to_numpy()
-    most = (front[headers].max().to_numpy() / present) ** 2
-    most[[across, up]] = 0.0
-    left = rows[WITHIN].to_numpy() - weights @ most - np.outer((x / present[across]) ** 2, weights[:, across])
-    return np.asarray(present[up] * np.sqrt(np.maximum(left / weights[:, up], 0.0).max(axis=1)))
 
 
 def with_sky(problem: RideProblem) -> RideProblem:

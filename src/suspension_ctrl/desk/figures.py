@@ -13,7 +13,7 @@ from .. import checks, escaping
 from ..quantities import Real
 from ..study.figures import COLOURS, panels
 from ..tables.headers import shown_header
-from .attaining import LQR, SKYHOOK, edge
+from .bound import LQR, SKYHOOK, edge
 
 _GREY = "#bbbbbb"
 _FROM_POINT = 11.0  # distance of a number from its candidate [pt]
@@ -27,16 +27,19 @@ def front_figure(
     objectives: Sequence[str],
     limits: Mapping[str, float],
     title: str,
+    attainable: pd.DataFrame | None = None,
 ) -> Figure:
     """Draw a front over one objective, a panel for each of the others, with candidates by their numbers.
 
     Tables have columns `objectives`, the first of them across; `free` is the front without limits, empty if there
-    are none. `limits` are values by column.
+    are none. `limits` are values by column; `attainable` is the table of that function, drawn behind.
     """
     across, *up = objectives
     figure, axes = panels(len(up), columns=min(2, len(up)))
     for ax, header in zip(axes, up, strict=True):
         pair = (across, header)
+        if attainable is not None:
+            _controllers(ax, attainable, front, pair, [front, free, table])
         if len(free):
             _dots(ax, free, pair, color=_GREY, label="front without limits")
         _dots(ax, front, pair, color=COLOURS[0], label="front within limits" if len(free) else "front")
@@ -49,7 +52,9 @@ def front_figure(
         _numbers(ax, chosen.index, x, y)
         ax.set(xlabel=_label(across), ylabel=_label(header))
         ax.grid(alpha=0.25)
-    known = {str(line.get_label()): line for ax in axes for line in ax.get_lines()}
+    known: dict[str, Any] = {str(line.get_label()): line for ax in axes for line in ax.get_lines()}
+    if attainable is not None:
+        known |= {str(area.get_label()): area for area in axes[0].collections}
     style: dict[str, Any] = {"loc": "outside upper center", "ncols": 3 if len(up) > 1 else 2, "frameon": False}
     figure.legend(list(known.values()), list(known), title=escaping.figure(title), **style)
     return figure
@@ -95,8 +100,8 @@ def attainable_figure(table: pd.DataFrame, front: pd.DataFrame) -> Figure:
     figure, axes = panels(len(up), columns=min(2, len(up)))
     for ax, header in zip(axes, up, strict=True):
         pair = (across, header)
+        _controllers(ax, table, front, pair, [front])
         _dots(ax, front, pair, color=COLOURS[0], label="front of passive designs")
-        controllers(ax, table, front, pair)
         ax.set(xlabel=_label(across), ylabel=_label(header))
         ax.grid(alpha=0.25)
     lines, labels = axes[0].get_legend_handles_labels()
@@ -104,27 +109,27 @@ def attainable_figure(table: pd.DataFrame, front: pd.DataFrame) -> Figure:
     return figure
 
 
-def controllers(ax: Axes, table: pd.DataFrame, front: pd.DataFrame, pair: tuple[str, str]) -> None:
-    """Draw optimal controllers, skyhook and the area beyond the bound beside a front.
+def _controllers(
+    ax: Axes, table: pd.DataFrame, front: pd.DataFrame, pair: tuple[str, str], seen: Sequence[pd.DataFrame]
+) -> None:
+    """Draw optimal controllers, skyhook and the area beyond the bound, in a frame of all that is `seen`.
 
     Other measures of those drawn are at most as large as on the front.
     """
-    (left, right), (low, high) = (
-        _frame(np.concatenate([front[one], table.loc[table.controller == SKYHOOK, one]])) for one in pair
-    )
+    others = [one for one in table.attrs["measures"] if one not in pair]
+    inside = table[(table[others] <= front[others].max()).all(axis=1)]
+    shown = pd.concat([*seen, inside[inside.controller == SKYHOOK]])
+    (left, right), (low, high) = (_frame(shown[one].to_numpy(dtype=float)) for one in pair)
     x = np.linspace(left, right, 200)
     y = edge(table, front, pair, x)
     across, up = (shown_header(one)[1] for one in pair)
     style: dict[str, Any] = {"ls": "none", "rasterized": True}
-    others = [one for one in table.attrs["measures"] if one not in pair]
-    inside = table[(table[others] <= front[others].max()).all(axis=1)]
-    for name, marker, colour in ((LQR, "^", COLOURS[1]), (SKYHOOK, "s", COLOURS[2])):
+    for name, marker, colour in ((LQR, "^", COLOURS[4]), (SKYHOOK, "s", COLOURS[2])):
         rows = inside[inside.controller == name]
         label = "active, LQR" if name == LQR else name
         ax.plot(*_columns(rows, pair), marker, ms=3, mfc="none", color=colour, label=label, **style)
-    ax.fill_between(
-        across * x, up * low, up * np.maximum(y, low), color="0.88", lw=0, label="only with more beyond the band"
-    )
+    label = "only with more beyond the band"
+    ax.fill_between(across * x, up * low, up * np.maximum(y, low), color="0.88", lw=0, label=label)
     ax.set(xlim=(across * left, across * right), ylim=(up * low, up * high))
 
 
