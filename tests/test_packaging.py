@@ -13,7 +13,10 @@ import pytest
 
 BUILT = ("docs/api/", "docs/gallery/")  # by `make docs`
 FOLDERS = {"benchmarks", "data", "docs", "examples", "scripts", "src", "tests"}
-FILES = {"CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md", "LICENSE", "Makefile", "README.md", "constraints.txt"}
+FILES = {
+    *("CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md", "LICENSE", "Makefile", "README.md", "constraints.txt"),
+    *("jsconfig.json", "package.json"),
+}  # fmt: skip
 
 WITHOUT_EXTRAS = """
 import sys

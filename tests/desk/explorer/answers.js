@@ -3,6 +3,8 @@
 import { readFileSync } from "node:fs";
 import { gamma, normal } from "../../../src/suspension_ctrl/desk/explorer/numerics/gaussian.js";
 import { curvesOf, preparedPorts } from "../../../src/suspension_ctrl/desk/explorer/numerics/frequency_responses.js";
+import { forceAt } from "../../../src/suspension_ctrl/desk/explorer/numerics/law_curves.js";
+import { curvesAt, networksOf } from "../../../src/suspension_ctrl/desk/explorer/numerics/network_rows.js";
 import { unpacked } from "../../../src/suspension_ctrl/desk/explorer/numerics/packed.js";
 import { evaluated, prepared } from "../../../src/suspension_ctrl/desk/explorer/numerics/scores.js";
 
@@ -24,9 +26,19 @@ function answer({ kernel, ports, designs }) {
   };
 }
 
-const { records, normals, gammas } = JSON.parse(readFileSync(process.argv[2], "utf-8"));
+/** @param {any} record @returns {number[][]} forces of the laws of a case at rates or deflections */
+function forces({ networks, values, places }) {
+  const ready = networksOf(unpacked(networks)), curves = curvesAt(ready, values);
+  return ready.laws.map(({ power: [factor, exponent] }, law) => {
+    const power = factor < 0 ? null : /** @type {[number, number]} */ ([values[factor], values[exponent]]);
+    return places.map((/** @type {number} */ x) => forceAt(curves[law], power, x));
+  });
+}
+
+const { records, laws, normals, gammas } = JSON.parse(readFileSync(process.argv[2], "utf-8"));
 console.log(JSON.stringify({
   records: Object.fromEntries(Object.entries(records).map(([name, record]) => [name, answer(record)])),
+  laws: Object.fromEntries(Object.entries(laws).map(([name, record]) => [name, forces(record)])),
   normals: normals.map(normal),
   gammas: gammas.map(gamma),
 }));

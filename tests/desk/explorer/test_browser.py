@@ -8,11 +8,25 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 import pytest
 
-from suspension_ctrl import Nsga2, StudyFile, load_study
+from suspension_ctrl import (
+    Damper,
+    Nsga2,
+    QuarterCar,
+    RideProblem,
+    Spring,
+    StudyFile,
+    candidates,
+    load_study,
+    minimise,
+    parallel,
+    series,
+)  # fmt: skip
 from suspension_ctrl.desk.decision import Decision
 from suspension_ctrl.desk.explorer.page_file import page_of
+from suspension_ctrl.desk.explorer.record import Column, columns_of
 
 CHROMIUM = shutil.which("chromium")
 FLAGS = ["--headless", "--no-sandbox", "--disable-background-networking", "--enable-unsafe-swiftshader"]
@@ -43,28 +57,58 @@ def browser() -> Iterator[Any]:
 
 def searched(study: StudyFile) -> str:
     """Return the page of a study after a short search."""
-    present = study.present or None
-    decision = Decision.of(study.problem, Nsga2(population=60), iterations=4, seed=1, present=present)
-    return page_of(study, decision, ["Said: <b>bold</b>."])
+    problem, present = study.problem, study.present or None
+    run = minimise(problem, Nsga2(population=60), iterations=2, seed=1)
+    table = candidates(problem, run, present=present)
+    return page_of(study, Decision(problem, run, run, table), ["Said: <b>bold</b>."])
 
 
-def opened(browser, study: StudyFile, file: Path) -> Opened:
-    file.write_text(searched(study), encoding="utf-8")
-    page, errors, requests = browser.new_page(viewport={"width": 1400, "height": 1000}), [], []
-    page.on("console", lambda one: errors.append(one.text) if one.type == "error" else None)
-    page.on("pageerror", lambda one: errors.append(str(one)))
-    page.on("request", lambda one: requests.append(one.url))
-    page.on("dialog", lambda one: errors.append(one.message))
-    page.goto(file.as_uri())
-    page.wait_for_selector("body.drawn", timeout=20_000)
-    return Opened(study, page, errors, requests)
+def studies() -> dict[str, StudyFile]:
+    """A quarter car, a full car, a network and curves of dampers, with limits."""
+    paper, full, damper = load_study("paper"), load_study("full_car"), load_study("damper_curve")
+    mount = parallel(Spring(), series(Damper(), Spring("mount")))
+    car = QuarterCar(body_mass=317.5, wheel_mass=45.4, tyre_stiffness=192e3, strut=mount)
+    bounds = {"spring": (15e3, 30e3), "damper": (800.0, 3e3), "mount": (1e5, 4e5)}
+    network = RideProblem(car, paper.problem.road, speed=20.0, bounds=bounds, constraints=["SWS <= 0.03"])
+    return {
+        "quarter": replace(paper, problem=paper.problem.replace(constraints=["SWS <= 0.03"]), name=EVIL),
+        "full": replace(full, problem=full.problem.replace(cases=full.problem.cases[:1], nodes=256)),
+        "network": StudyFile(problem=network),
+        "damper": replace(damper, problem=damper.problem.replace(constraints=["SWS <= 0.02"])),
+    }
+
+
+class Session:
+    """Pages of studies in a browser, each opened once."""
+
+    def __init__(self, browser, folder: Path) -> None:
+        self.browser, self.folder, self.studies, self.opened = browser, folder, studies(), dict[str, Opened]()
+
+    def __call__(self, name: str) -> Opened:
+        if name not in self.opened:
+            self.opened[name] = self._open(self.studies[name], self.folder / f"{name}.html")
+        return self.opened[name]
+
+    def _open(self, study: StudyFile, file: Path) -> Opened:
+        file.write_text(searched(study), encoding="utf-8")
+        page, errors, requests = self.browser.new_page(viewport={"width": 1400, "height": 1000}), [], []
+        page.on("console", lambda one: errors.append(one.text) if one.type == "error" else None)
+        page.on("pageerror", lambda one: errors.append(str(one)))
+        page.on("request", lambda one: requests.append(one.url))
+        page.on("dialog", lambda one: errors.append(one.message))
+        page.goto(file.as_uri())
+        page.wait_for_selector("body.drawn", timeout=30_000)
+        return Opened(study, page, errors, requests)
 
 
 @pytest.fixture(scope="module")
-def paper(browser, tmp_path_factory) -> Opened:
-    study = load_study("paper")
-    limited = replace(study, problem=study.problem.replace(constraints=["SWS <= 0.03"]), name=EVIL)
-    return opened(browser, limited, tmp_path_factory.mktemp("page") / "report.html")
+def session(browser, tmp_path_factory) -> Session:
+    return Session(browser, tmp_path_factory.mktemp("pages"))
+
+
+@pytest.fixture
+def paper(session) -> Opened:
+    return session("quarter")
 
 
 def test_the_page_loads_without_errors_and_requests(paper):
@@ -91,16 +135,131 @@ MOVES = """places => places.map(place => {
 """Moves all sliders of several designs; returns the designs, their measures and the milliseconds of one slider."""
 
 
-def test_sliders_give_the_measures_of_python(paper):
-    problem, places = paper.study.problem, np.random.default_rng(3).integers(0, 1001, (20, 2))
-    found = paper.page.evaluate(MOVES, places.tolist())
+def shown_in(found, study: StudyFile) -> tuple[np.ndarray, list[Column]]:
+    """Return the measures that rows of a page show, in SI units, and their columns."""
+    rows = [one for one in columns_of(study.problem) if one.kind != "variable"]
+    given = np.array([[np.nan if one == "null" else float(one) for one in each] for each in found])
+    return given / [one.factor for one in rows], rows
+
+
+@pytest.mark.parametrize("name", ["quarter", "full", "network", "damper"])
+def test_sliders_give_the_measures_of_python(name, session):
+    """Sums in another order differ by 1e-12, working points of laws by 1e-9."""
+    study, page = session(name).study, session(name).page
+    problem = study.problem
+    places = np.random.default_rng(3).integers(0, 1001, (20, len(problem.variables)))
+    found = page.evaluate(MOVES, places.tolist())
     designs = np.array([one["design"] for one in found], dtype=float)
     share = (designs - problem.lower) / np.subtract(problem.upper, problem.lower)
-    np.testing.assert_allclose(1000 * share, places, rtol=1e-12, atol=1e-9)
-    in_mm_and_kn = [1.0, 1e3, 1e-3]
-    wanted = in_mm_and_kn * problem.evaluate(designs)[:, :3]
-    np.testing.assert_allclose(np.array([one["measures"] for one in found], dtype=float), wanted, rtol=1e-9)
+    np.testing.assert_allclose(1000 * share, places, rtol=1e-9, atol=1e-9)
+    shown, rows = shown_in([one["measures"] for one in found], study)
+    scores = problem.evaluate(designs)
+    wanted = np.array([(scores[:, one.place] - one.offset) / one.scale for one in rows]).T
+    wanted[:, [not one.computed for one in rows]] = np.nan
+    np.testing.assert_allclose(shown, wanted, rtol=1e-8)
     assert np.median([one["each"] for one in found]) < 50.0
+
+
+def test_a_knee_of_a_damper_can_be_dragged(session):
+    study, page = session("damper").study, session("damper").page
+    before = designs_of(page)
+    knot = page.locator(".knot").nth(2)
+    knot.scroll_into_view_if_needed()
+    box = knot.bounding_box()
+    page.mouse.move(box["x"] + 7, box["y"] + 7)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 7 - 20, box["y"] + 7 - 12, steps=3)
+    page.mouse.up()
+    design = designs_of(page)
+    names = [
+        name for name, one, other in zip(study.problem.variables, before, design, strict=True) if one != other
+    ]
+    assert names
+    assert all(name.startswith("front.damper") for name in names)
+    shown, rows = shown_in([values(page, "#measures tr[data-value]")], study)
+    scores = study.problem.evaluate(design[None])[0]
+    wanted = [(scores[one.place] - one.offset) / one.scale for one in rows]
+    np.testing.assert_allclose(shown[0], wanted, rtol=1e-8)
+
+
+def values(page, selector: str) -> list[str]:
+    """Return the exact values of elements."""
+    return page.eval_on_selector_all(selector, "all => all.map(one => one.dataset.value)")
+
+
+def designs_of(page) -> np.ndarray:
+    """Return the design that the sliders show."""
+    return np.array(values(page, ".slider output"), dtype=float)
+
+
+def test_a_click_on_a_point_takes_its_design(paper):
+    page, design = paper.page, designs_of(paper.page)
+    place = page.evaluate(
+        """() => {
+          const plot = document.querySelector("#projections .plot"), {xaxis, yaxis} = plot._fullLayout;
+          const box = plot.getBoundingClientRect(), {x, y} = plot.data[2];
+          const [right, down] = [xaxis._offset + xaxis.l2p(x[0]), yaxis._offset + yaxis.l2p(y[0])];
+          return [box.x + right, box.y + window.scrollY + down];
+        }"""
+    )
+    page.evaluate("window.scrollTo(0, 0)")
+    page.mouse.click(*place)
+    page.wait_for_timeout(300)
+    found = designs_of(page)
+    assert (found != design).any()
+    first = candidates_of(page)[0]
+    np.testing.assert_allclose(found, first, rtol=1e-12)
+
+
+def candidates_of(page) -> list[list[float]]:
+    """Return the designs of the candidates by the choice of designs to start from."""
+    options = page.locator("#sliders select option").count()
+    found = []
+    for i in range(options):
+        page.locator("#sliders select").select_option(str(i))
+        found.append(designs_of(page).tolist())
+    return found
+
+
+def test_marked_designs_are_marked_in_all_plots(paper):
+    page, half = paper.page, 5
+    page.evaluate(
+        """count => {
+          const plot = document.querySelector("#projections .plot");
+          const points = plot.data[1].customdata.slice(0, count).map(customdata => ({customdata}));
+          plot.emit("plotly_selected", {points});
+        }""",
+        half,
+    )
+    lit = page.evaluate(
+        """() => [...document.querySelectorAll("#projections .plot"), document.querySelector("#space")]
+          .map(plot => plot.data[1].customdata)"""
+    )
+    assert len({tuple(one) for one in lit}) == 1
+    assert len(lit[0]) == half
+    blue = page.locator("#lines polyline[stroke='#0072b2']").count()
+    assert blue == half
+    page.evaluate('document.querySelector("#projections .plot").emit("plotly_deselect")')
+
+
+def test_the_study_that_is_saved_has_the_design_at_hand(paper, tmp_path):
+    page = paper.page
+    with page.expect_download() as download:
+        page.get_by_text("Study with this design").click()
+    download.value.save_as(tmp_path / "mine.toml")
+    study = load_study(tmp_path / "mine.toml")
+    assert list(study.present.values()) == designs_of(page).tolist()
+    assert study.problem == paper.study.problem
+
+
+def test_the_designs_that_are_saved_are_those_shown(paper, tmp_path):
+    page = paper.page
+    with page.expect_download() as download:
+        page.get_by_text("Designs shown").click()
+    download.value.save_as(tmp_path / "designs.csv")
+    table = pd.read_csv(tmp_path / "designs.csv")
+    assert list(table)[:3] == ["design", "ACC [m/s^2]", "SWS [mm]"]
+    assert set(data_of(page, FRONT)) <= set(table["ACC [m/s^2]"])
 
 
 def data_of(page, trace: int) -> np.ndarray:

@@ -36,6 +36,7 @@ from suspension_ctrl.response.linearisation import linear_at, working_points
 from suspension_ctrl.response.mapped import unmapped
 from suspension_ctrl.response.responses import frequency_responses, response_psds
 from suspension_ctrl.vehicles.assembly import label
+from suspension_ctrl.vehicles.force_laws import ForceLaw
 
 HERE = Path(__file__).parent
 NORMALS = np.linspace(-10, 10, 401)
@@ -44,6 +45,8 @@ NAMES = (
     "quarter", "parameters", "half", "full", "seat", "table", "power", "stops", "network", "rubber",
     "damper curves",
 )  # fmt: skip
+LAWS = ("table", "power", "stops", "damper curves")
+PLACES = np.array([-0.7, -0.2, -0.05, -0.01, 0.0, 0.004, 0.03, 0.11, 0.5, 1.4])  # m/s or m
 MASSES = {"body_mass": 317.5, "wheel_mass": 45.4, "tyre_stiffness": 192e3}
 SPRING = {"spring": (15e3, 30e3)}
 
@@ -99,6 +102,12 @@ def designs(problems) -> dict[str, np.ndarray]:
     return {name: rng.uniform(one.lower, one.upper, (10, len(one.lower))) for name, one in problems.items()}
 
 
+def curves_asked(problem: RideProblem) -> dict:
+    """Return the networks of a problem's first case with the values of its setting, and places on curves."""
+    networks = unmapped(problem.scores.kernel(problem.nodes).cases[0], np.zeros((1, 0)))[0].networks
+    return {"networks": packed(networks), "values": networks.setting.tolist(), "places": PLACES.tolist()}
+
+
 @pytest.fixture(scope="module")
 def answers(problems, designs, tmp_path_factory):
     """What Node answers to all."""
@@ -107,7 +116,8 @@ def answers(problems, designs, tmp_path_factory):
         kernel = problem.scores.kernel(problem.nodes)
         ports = plant_ports(problem.scores, kernel.cases[0], 40)
         records[name] = {"kernel": packed(kernel), "ports": packed(ports), "designs": designs[name].tolist()}
-    asked = {"records": records, "normals": NORMALS.tolist(), "gammas": GAMMAS.tolist()}
+    laws = {name: curves_asked(problems[name]) for name in LAWS}
+    asked = {"records": records, "laws": laws, "normals": NORMALS.tolist(), "gammas": GAMMAS.tolist()}
     file = tmp_path_factory.mktemp("explorer") / "asked.json"
     file.write_text(json.dumps(asked), encoding="utf-8")
     done = subprocess.run(["node", HERE / "answers.js", file], capture_output=True, text=True)
@@ -167,3 +177,17 @@ def test_shares_of_the_normal_distribution(answers):
 
 def test_gamma_function(answers):
     np.testing.assert_allclose(answers["gammas"], gamma(GAMMAS), rtol=1e-13)
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_forces_of_curves_are_those_of_python(name, problems, answers):
+    problem = problems[name]
+    setting, found = problem.scores.settings[0], answers["laws"][name]
+    for network in problem.cases[0].vehicle.networks:
+        for law in (one for one in network.strut.elements if isinstance(one, ForceLaw)):
+            own = {
+                one.name.removeprefix(f"{law.name}."): setting[network.prefix + one.name]
+                for one in law.coefficients
+            }
+            wanted = law.tension(PLACES, **own)
+            assert any(np.allclose(one, wanted, rtol=1e-12, atol=1e-9) for one in found)

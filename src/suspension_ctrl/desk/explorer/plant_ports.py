@@ -1,11 +1,11 @@
 """Responses of a vehicle's plant at its strut ports over frequency, around which a page closes struts."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...quantities import Complex, Integer, Real, signal_unit
+from ...quantities import Bool, Complex, Integer, Real, signal_unit
 from ...response import weightings
 from ...response.any_struts import AnyStruts
 from ...response.blocks import Variables
@@ -16,9 +16,11 @@ from ...response.measures.terms import Term
 from ...response.network_rows import Networks
 from ...response.ports import Ports
 from ...response.scores import Scores
-from ...response.strut_data import networks_of
+from ...response.strut_data import apart, networks_of
 from ...tables.headers import shown_unit
 from ...vehicles.assembly import ResponseName, label
+from ...vehicles.force_laws import ForceLaw
+from ...vehicles.vehicle import Vehicle
 
 POINTS = 200
 """Frequencies of a curve."""
@@ -41,6 +43,8 @@ class PlantPorts(NamedTuple):
     gain: Real  # (v, q, q), tensions of each coefficient at 1 by deflections or their derivatives of its order
     order: Integer  # (v,)
     origin: Real  # (v,), values of the coefficients that are in h already
+    struts: tuple[str, ...]  # (q,)
+    laws: tuple[str, ...]  # names of the force laws; one stands for left and right where they are alike
     networks: Networks | None
     nominal: Real  # (t, 2), stiffness and damping in place of each network in h
 
@@ -51,7 +55,8 @@ def plant_ports(scores: Scores, case: Case, points: int = POINTS) -> PlantPorts:
     vehicle, names = load_case.vehicle, varying(load_case.vehicle, scores.variables)
     weighted = _weightings(scores.terms[0])
     f, responses = frequencies(scores.band, points), list(weighted)
-    networks, nominal = _networks(scores, case.case if isinstance(case, Mapped) else case, f)
+    inner = case.case if isinstance(case, Mapped) else case
+    networks, nominal = _networks(scores, inner, f)
     gains = None
     if networks is not None:
         gains = np.array([np.diag(one @ networks.ports) for one in (*nominal.T, np.zeros(len(nominal)))])
@@ -74,6 +79,8 @@ def plant_ports(scores: Scores, case: Case, points: int = POINTS) -> PlantPorts:
         gain=variables.gain,
         order=variables.order,
         origin=variables.origin,
+        struts=tuple(vehicle.struts),
+        laws=tuple(_law_names(vehicle, inner.networks)) if isinstance(inner, AnyCase) else (),
         networks=networks,
         nominal=nominal,
     )
@@ -91,6 +98,23 @@ def _networks(scores: Scores, case: Case, f: Real) -> tuple[Networks | None, Rea
     """Return networks at frequencies (n,), whose laws are those of the case, and what stands for them."""
     if not isinstance(case, AnyCase):
         return None, np.zeros((0, 2))
-    vehicle, alike = scores.cases[0].vehicle, case.networks.ports.T.astype(int) @ case.networks.ports.astype(int)
-    networks = networks_of(vehicle, scores.settings[0], varying(vehicle, scores.variables), f, alike > 0)
+    vehicle = scores.cases[0].vehicle
+    names = varying(vehicle, scores.variables)
+    networks = networks_of(vehicle, scores.settings[0], names, f, _partners(case.networks))
     return networks, case.nominal if isinstance(case, AnyStruts) else np.zeros((len(networks.root), 2))
+
+
+def _partners(networks: Networks) -> Bool:
+    """Return which ports (q, q) have a network in common."""
+    ports = networks.ports.astype(int)
+    return np.asarray(ports.T @ ports > 0)
+
+
+def _law_names(vehicle: Vehicle, networks: Networks) -> Iterator[str]:
+    """Yield the names of force laws, after the strut where the networks of the vehicle stand at several."""
+    partners = _partners(networks)
+    for network in vehicle.networks:
+        placed = apart(network, partners)
+        for one in placed:
+            prefix = f"{vehicle.struts[one.share.index(1.0)]}." if len(placed) > 1 else network.prefix
+            yield from (prefix + law.name for law in one.strut.elements if isinstance(law, ForceLaw))

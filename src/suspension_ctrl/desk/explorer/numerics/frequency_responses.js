@@ -29,7 +29,7 @@ export function preparedPorts(ports) {
  * @returns {ResponseCurves[]}
  */
 export function curvesOf(ports, coefficients, point) {
-  const { m, r, q } = ports, n = ports.omega.data.length;
+  const { m, r } = ports, n = ports.omega.data.length;
   const stiffness = stiffnessOver(ports, coefficients, point);
   /** @type {ResponseCurves[]} */
   const found = Array.from({ length: m }, () => ({

@@ -40,6 +40,7 @@ export function linearise({ laws }, curves, values, states) {
  * @returns {Float64Array}
  */
 export function balance(networks, curves, values, states) {
+  /** @type {Float64Array} */
   let positions = new Float64Array(networks.sag.length);
   for (let step = 0; step < MOST; step++) {
     linearise(networks, curves, values, states);

@@ -92,23 +92,33 @@ function drawCurves(explorer) {
   let which = 0;
   const draw = () => {
     const [unit, factor] = units[which], here = explorer.curves()[which];
-    const rows = [
+    const rows = /** @type {{name: "magnitude" | "phase" | "density", title: string, scale: number}[]} */ ([
       { name: "magnitude", title: `[${unit}/m]`, scale: factor },
       { name: "phase", title: "phase [deg]", scale: 1 },
       { name: "density", title: `PSD [(${unit})²/Hz]`, scale: factor ** 2 },
-    ];
-    const lines = rows.flatMap(({ name, scale }, i) =>
-      [["this design", here, HERE, "solid"], ["present design", present?.[which], PRESENT, "dash"]]
-        .filter(([, curves]) => curves)
-        .map(([label, curves, color, dash]) => ({
-          name: label, mode: "lines", line: { color, dash, width: 2 }, showlegend: i === 0, yaxis: `y${i + 1}`,
-          x: Array.from(f.data), y: Array.from(curves[name], (/** @type {number} */ value) => scale * value),
-        })),
-    );
+    ]);
+    const x = /** @type {number[]} */ (Array.from(f.data)), dashed = { color: PRESENT, dash: "dash" };
+    const lines = trace(rows, x, "this design", here, { color: HERE });
+    if (present) lines.push(...trace(rows, x, "present design", present[which], dashed));
     Plotly.react(byId("curves"), lines, curveLayout(rows), { displaylogo: false, responsive: true });
   };
   byId("responses").append(choice("response", responses, which, (i) => { which = i; draw(); }));
   explorer.show("design", later(draw));
+}
+
+/**
+ * Return the lines of a design in each of the rows.
+ * @param {{name: "magnitude" | "phase" | "density", scale: number}[]} rows
+ * @param {number[]} f
+ * @param {string} name
+ * @param {import("../numerics/frequency_responses.js").ResponseCurves} curves
+ * @param {{color: string, dash?: string}} line
+ */
+function trace(rows, f, name, curves, line) {
+  return rows.map((row, i) => ({
+    name, mode: "lines", line: { width: 2, ...line }, showlegend: i === 0, yaxis: `y${i + 1}`, x: f,
+    y: Array.from(curves[row.name], (value) => row.scale * value),
+  }));
 }
 
 /** @param {{name: string, title: string}[]} rows @returns {any} the layout of curves one above the other */

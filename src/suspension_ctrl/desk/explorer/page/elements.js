@@ -66,3 +66,15 @@ export function later(view) {
     });
   };
 }
+
+/**
+ * Return an element of a drawing with attributes.
+ * @param {string} tag
+ * @param {Record<string, any>} attributes
+ * @returns {SVGElement}
+ */
+export function svg(tag, attributes) {
+  const made = /** @type {SVGElement} */ (document.createElementNS("http://www.w3.org/2000/svg", tag));
+  Object.entries(attributes).forEach(([name, value]) => made.setAttribute(name, String(value)));
+  return made;
+}

@@ -39,7 +39,10 @@ export class Explorer {
     this.views = new Map([["design", []], ["shown", []]]);
     this.check();
     const first = this.points.find((point) => point.name.includes("knee")) ?? this.points[0];
-    this.choose(first.design);
+    this.design = Float64Array.from(first.design);
+    this.evaluation = evaluated(this.kernel, this.design);
+    /** @type {Point | null} the stored point that the design at hand is */
+    this.stored = first;
   }
 
   /** Mark columns as not computed whose values at stored designs are not those of Python. */

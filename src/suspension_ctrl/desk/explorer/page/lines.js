@@ -1,12 +1,11 @@
 // Parallel coordinates: a line for each design over an axis for each column. A drag along an axis filters by it.
 
-import { byId, digits, headed } from "./elements.js";
+import { byId, digits, headed, svg } from "./elements.js";
 
 /** @typedef {import("./explorer.js").Explorer} Explorer */
 /** @typedef {{least: number, largest: number, x: number}} Axis */
 
-const SPACE = "http://www.w3.org/2000/svg";
-const TOP = 40, BOTTOM = 300, HEIGHT = 330, ROOM = 130; // of an axis
+const TOP = 40, BOTTOM = 300, HEIGHT = 330, ROOM = 160; // of an axis
 const COLOURS = { front: "#0072b2", candidate: "#000000", kept: "#009e73", present: "#d55e00" };
 const FAINT = "#dddddd";
 
@@ -29,13 +28,6 @@ export function drawLines(explorer) {
   axes.forEach((axis, i) => draggable(explorer, chart, axis, i));
 }
 
-/** @param {string} tag @param {Record<string, any>} attributes @returns {SVGElement} */
-function svg(tag, attributes) {
-  const made = /** @type {SVGElement} */ (document.createElementNS(SPACE, tag));
-  Object.entries(attributes).forEach(([name, value]) => made.setAttribute(name, String(value)));
-  return made;
-}
-
 /** @param {Axis} axis @param {number} value @returns {number} its place from the top */
 function placeOn({ least, largest }, value) {
   const share = largest > least ? (value - least) / (largest - least) : 0.5;
@@ -44,7 +36,7 @@ function placeOn({ least, largest }, value) {
 
 /** @param {Explorer} explorer @param {Axis} axis @param {number} i @returns {SVGElement} line, name and ends */
 function axisOf(explorer, axis, i) {
-  const group = svg("g", { "font-size": 12, "text-anchor": "middle" });
+  const group = svg("g", { "font-size": 11, "text-anchor": "middle" });
   const texts = [[headed(explorer.columns[i]), 14], [digits(axis.largest), 32], [digits(axis.least), BOTTOM + 18]];
   group.append(svg("line", { x1: axis.x, x2: axis.x, y1: TOP, y2: BOTTOM, stroke: "#333" }));
   group.append(...texts.map(([text, y]) => {

@@ -7,6 +7,7 @@ import { byId, element } from "./elements.js";
 import { Explorer } from "./explorer.js";
 import { drawFilters } from "./filters.js";
 import { drawFront } from "./front_plots.js";
+import { drawLaws } from "./law_panel.js";
 import { drawLines } from "./lines.js";
 
 /** Add the plotting library to the page, whose policy knows it by its hash. */
@@ -25,6 +26,7 @@ async function draw() {
   drawLines(explorer);
   drawFilters(explorer);
   drawDesign(explorer);
+  drawLaws(explorer);
   drawDownloads(explorer, record.study);
   document.body.classList.add("drawn");
 }
