@@ -117,6 +117,13 @@ def test_the_page_loads_without_errors_and_requests(paper):
     assert len([url for url in paper.requests if url.startswith("file:")]) == 1
 
 
+def test_the_front_without_limits_stands_beside(paper):
+    names = paper.page.evaluate('document.querySelector("#projections .plot").data.map(one => one.name)')
+    assert names == [
+        *("others", "front", "candidates", "kept", "present design", "front without limits", "design at hand"),
+    ]
+
+
 def test_texts_of_a_study_are_no_markup(paper):
     assert paper.page.inner_text("h1") == EVIL
     assert "Said: <b>bold</b>." in paper.page.inner_text("header")

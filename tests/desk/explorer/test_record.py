@@ -23,7 +23,7 @@ def study():
 @pytest.fixture(scope="module")
 def record(study):
     decision = Decision.of(study.problem, Nsga2(population=20), present=study.present, **SEARCH)
-    return json.loads(json.dumps(record_of(study, decision), allow_nan=False))
+    return json.loads(json.dumps(record_of(study, decision, {"other": decision.run.front()}), allow_nan=False))
 
 
 def test_columns_are_measures_limits_and_variables(study):
@@ -44,6 +44,8 @@ def test_the_record_holds_the_front_the_candidates_and_the_present_design(study,
     assert record["candidates"]["designs"]["shape"][1] == d
     assert record["candidates"]["scores"]["shape"] == [len(record["candidates"]["names"]), s]
     assert record["front"]["scores"]["shape"][1] == s
+    assert [one["name"] for one in record["others"]] == ["other"]
+    assert record["others"][0]["objectives"]["shape"] == [record["front"]["scores"]["shape"][0], 3]
 
 
 def test_the_study_file_takes_any_design(study, record, tmp_path):

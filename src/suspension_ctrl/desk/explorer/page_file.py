@@ -3,7 +3,7 @@
 import gzip
 import json
 from base64 import b64encode
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,12 +24,21 @@ _HERE = Path(__file__).parent
 _PLOTLY = _HERE / "plotly" / "plotly-strict.min.js.gz"
 
 
-def page_of(study: StudyFile, decision: Decision, said: Sequence[str]) -> str:
+def page_of(
+    study: StudyFile,
+    decision: Decision,
+    said: Sequence[str],
+    others: "Mapping[str, pd.DataFrame] | None" = None,
+) -> str:
     """Return the page of a study and its decision as HTML; `said` are sentences to stand above.
+
+    Beside the front stands that without limits, if there are limits, and others by name, tables with a column
+    for each objective.
 
     The policy allows the scripts of the page alone, by their hashes: no request, no `eval`. The plotting library
     is compressed; the page itself makes it a script.
     """
+    free = {"front without limits": decision.free.front()} if decision.problem.constraints else {}
     with checks.installed("report"):
         from jinja2 import Environment
         from markupsafe import Markup
@@ -40,7 +49,7 @@ def page_of(study: StudyFile, decision: Decision, said: Sequence[str]) -> str:
         title=study.name,
         said=said,
         tables=[_table(title, part) for title, part in parts_of(decision.problem, decision.table).items()],
-        record=json.dumps(record_of(study, decision), allow_nan=False),
+        record=json.dumps(record_of(study, decision, {**free, **(others or {})}), allow_nan=False),
         style=Markup(_text("page.css")),
         script=Markup(script),
         plotly=b64encode(plotly).decode("ascii"),

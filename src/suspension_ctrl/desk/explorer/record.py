@@ -10,7 +10,7 @@ import numpy as np
 import tomlkit
 
 from ... import escaping
-from ...quantities import Real
+from ...quantities import Integer, Real, column_headers
 from ...response.problem import RideProblem
 from ...search.problem import headers_of
 from ...tables.headers import shown_unit
@@ -64,11 +64,19 @@ class Designs(NamedTuple):
     names: tuple[str, ...]
 
 
-def record_of(study: StudyFile, decision: Decision) -> dict[str, Any]:
-    """Return the record of a study and its decision for JSON."""
+class OtherFront(NamedTuple):
+    """Objectives (k, m) of a front to compare with, whose designs are not of the study."""
+
+    name: str
+    objectives: Real
+
+
+def record_of(study: StudyFile, decision: Decision, others: "Mapping[str, pd.DataFrame]") -> dict[str, Any]:
+    """Return the record of a study and its decision for JSON, beside other fronts with columns of objectives."""
     problem = decision.problem
     scores = problem.scores
     kernel = scores.kernel(problem.nodes)
+    headers = column_headers(problem.objectives, problem.units)
     candidates = decision.table[decision.table.name != PRESENT]
     return packed(
         {
@@ -76,6 +84,7 @@ def record_of(study: StudyFile, decision: Decision) -> dict[str, Any]:
             "variables": list(_variables(problem)),
             "front": _evenly(front_of(problem, decision.run)),
             "candidates": _designs(problem, candidates),
+            "others": [_other(name, table[headers].to_numpy(dtype=float)) for name, table in others.items()],
             "present": _present(problem, study.present),
             "kernel": kernel,
             "ports": plant_ports(scores, kernel.cases[0]),
@@ -119,9 +128,18 @@ def _variables(problem: RideProblem) -> Iterator[Variable]:
 
 def _evenly(front: Front) -> Designs:
     """Return a front, of more than `MOST` designs every so many along the first objective."""
-    order = np.argsort(front.objectives[:, 0], kind="stable")
-    rows = order[np.linspace(0, len(order) - 1, min(MOST, len(order))).round().astype(int)]
+    rows = _spread(front.objectives)
     return Designs(front.designs[rows], np.hstack([front.objectives, front.constraints])[rows], ())
+
+
+def _other(name: str, objectives: Real) -> OtherFront:
+    return OtherFront(name, objectives[_spread(objectives)])
+
+
+def _spread(objectives: Real) -> Integer:
+    """Return rows of objectives (k, m), at most `MOST`, evenly along the first."""
+    order = np.argsort(objectives[:, 0], kind="stable")
+    return order[np.linspace(0, len(order) - 1, min(MOST, len(order))).round().astype(int)]
 
 
 def _designs(problem: RideProblem, table: "pd.DataFrame") -> Designs:

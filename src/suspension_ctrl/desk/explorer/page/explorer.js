@@ -30,6 +30,10 @@ export class Explorer {
       ...pointsOf(record.present, "present"),
       ...pointsOf(record.front, "front"),
     ];
+    /** @type {{name: string, objectives: number[][]}[]} fronts to compare with */
+    this.others = record.others.map((/** @type {any} */ { name, objectives }) => ({
+      name, objectives: rowsIn(objectives).map((row) => Array.from(row)),
+    }));
     this.present = this.points.find((point) => point.group === "present") ?? null;
     /** @type {[number, number][]} least and largest value of each column in its unit */
     this.filters = this.columns.map(() => [-Infinity, Infinity]);

@@ -8,6 +8,7 @@ import { byId, choice, element, headed, later } from "./elements.js";
 
 const SCALE = "Cividis"; // even in lightness, told apart by all
 const HERE = "#d55e00", PRESENT = "#000000", KEPT = "#009e73", FAINT = "#bbbbbb"; // of Okabe and Ito
+const OTHERS = ["#999999", "#cc79a7", "#56b4e9", "#009e73"];
 const CONFIG = { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["sendDataToCloud"] };
 const MOST = 4; // projections
 
@@ -86,15 +87,26 @@ function traces(explorer, columns, coordinates, colour, style) {
     trace("candidates", candidates, { size: 9, color: PRESENT, symbol: "circle-open" }, texts),
     trace("kept", shown.filter((point) => point.group === "kept"), { size: 10, color: KEPT, symbol: "square-open" }),
     trace("present design", shown.filter((point) => point.group === "present"), { size: 9, color: PRESENT, symbol: "square" }),
+    ...otherFronts(explorer, columns, coordinates, style),
     here(explorer, columns, coordinates, style),
   ];
+}
+
+/** @param {Explorer} explorer @param {Column[]} columns @param {string[]} coordinates @param {any} style */
+function otherFronts(explorer, columns, coordinates, style) {
+  if (columns.some(({ kind }) => kind !== "objective")) return [];
+  return explorer.others.map(({ name, objectives }, i) => ({
+    name, mode: "markers", hoverinfo: "skip", ...style, marker: { size: 4, color: OTHERS[i % OTHERS.length], symbol: "diamond-open" },
+    ...Object.fromEntries(coordinates.map((axis, k) =>
+      [axis, objectives.map((row) => row[columns[k].place] * columns[k].factor)])),
+  }));
 }
 
 /** @param {Explorer} explorer @param {Column[]} columns @param {string[]} coordinates @param {any} style */
 function here(explorer, columns, coordinates, style) {
   const marker = { size: 11, color: HERE, symbol: "diamond" }, place = placeOfDesign(explorer, columns);
   const own = coordinates.map((axis, i) => [axis, place.map((values) => values[i])]);
-  return { name: "design at hand", mode: "markers", ...style, marker, ...Object.fromEntries(own) };
+  return { name: "design at hand", mode: "markers", hoverinfo: "skip", ...style, marker, ...Object.fromEntries(own) };
 }
 
 /** @param {Explorer} explorer @param {Column[]} columns @returns {number[][]} none if a value is not known */
