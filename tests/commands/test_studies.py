@@ -126,6 +126,18 @@ def test_the_study_of_a_comparison_makes_the_same_fronts_bit_for_bit(called, tmp
     assert (tmp_path / "one/study.toml").read_bytes() == (tmp_path / "two/study.toml").read_bytes()
 
 
+@pytest.mark.parametrize("command", ["optimum", "compare"])
+def test_a_study_that_no_file_holds_is_refused_before_the_search(called, tmp_path, command):
+    """A road of more points than a file may have: `ride` takes it, a search could not be run again."""
+    rows = "\n".join(f"{0.01 + n / 1e3:.3f},1e-6" for n in range(10_001))
+    (tmp_path / "road.csv").write_text(f"wavenumber [cycle/m],psd [m^3]\n{rows}\n")
+    done = called(command, "--road", "road.csv", "--speed", 20, "--band", "0.5,20")
+    assert (done.returncode, done.stdout) == (2, "")
+    for line, key in zip(done.stderr.splitlines(), ("wavenumber_cycle_per_m", "density_m3"), strict=True):
+        assert line.startswith(f"error: road.{key} must be an array of up to 10000 numbers, got [")
+    assert [path.name for path in tmp_path.iterdir()] == ["road.csv"]
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [

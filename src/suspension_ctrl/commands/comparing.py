@@ -9,7 +9,7 @@ from typing import Any, Self
 import pandas as pd
 import typer
 
-from ..desk.study_files import StudyFile, load_study
+from ..desk.study_files import StudyFile, check_fits_file, load_study
 from ..paper import experiment as paper
 from ..quantities import column_headers
 from ..response.problem import RideProblem
@@ -46,6 +46,7 @@ class Request:
         comparison = study.search.comparison(study.problem)
         tolerance = QUICK_TOLERANCE if options["quick"] else reference.TOLERANCE
         given = options["reference"] and load_reference(options["reference"], study.problem)
+        check_fits_file(study)
         folder = results.results_folder(options["out"], resumed_by=studies.FILE)
         search = {name: getattr(study.search, name) for name in OF_SEARCH}
         lists = {name: ",".join(map(str, value)) for name, value in search.items() if isinstance(value, tuple)}

@@ -14,7 +14,7 @@ from ..desk.candidate_texts import decimals_of, markdown, parts_of
 from ..desk.decision import Decision
 from ..desk.explorer.page_file import page_of
 from ..desk.exporting import save_candidates
-from ..desk.study_files import SearchSettings, StudyFile
+from ..desk.study_files import SearchSettings, StudyFile, check_fits_file
 from ..paper import experiment as paper
 from ..paper.optimum import KINDS, TRAVEL, table5
 from ..quantities import column_headers
@@ -80,6 +80,7 @@ def carry_out(request: Request, out: Path | None) -> None:
     """Search, write all files, then print."""
     results.check(out)
     study = request.study
+    check_fits_file(study)
     with terminal.compiling(), terminal.waiting("searching"):
         decision = request.decide()
     printed = [] if request.travel is None else tables5(request, request.travel)

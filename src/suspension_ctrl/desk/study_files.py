@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from os import PathLike
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from .. import checks, datafiles
@@ -184,10 +186,30 @@ def save_study(path: str | PathLike[str], study: StudyFile) -> None:
         raise ValueError(f"study must be a StudyFile, got {checks.shown(study)}")
     file, problem = checks.path_of("path", path), study.problem
     study = replace(study, problem=problem.replace(struts=coefficients_by_name(problem.struts, {})))
+    text = toml(_table(study, file), study, lambda one: _study(one, SearchSettings(), ""), Folder(file.parent))
+    write_text(file, text)
+
+
+def check_fits_file(study: StudyFile) -> None:
+    """Raise ValueError, before a search and not after it, unless a file can hold the study."""
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "study.toml"
+        toml(_table(study, file), None, _check_table, Folder(file.parent))
+
+
+def _check_table(table: Table) -> None:
+    """Raise ValueError about mistakes in a table, without making its problem, which takes long."""
+    mistakes = Mistakes()
+    read_problem(table, mistakes)
+    mistakes.settle()
+
+
+def _table(study: StudyFile, file: Path) -> dict[str, Any]:
+    """Return the table of a study for a file; systems of plants are written beside it."""
     table: dict[str, Any] = {"title": study.name} if study.name else {}
     table |= problem_table(study.problem, file)
-    table |= {"present": coefficient_table(problem.cases[0].vehicle, study.present), "search": _all(study.search)}
-    write_text(file, toml(table, study, lambda one: _study(one, SearchSettings(), ""), Folder(file.parent)))
+    present = coefficient_table(study.problem.cases[0].vehicle, study.present)
+    return table | {"present": present, "search": _all(study.search)}
 
 
 def _all(search: SearchSettings) -> dict[str, Any]:
