@@ -23,6 +23,11 @@ def test_a_template_is_a_study_that_runs(called, tmp_path, kind):
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert len(pd.read_csv(tmp_path / "out" / "runs.csv")) == 1
+    done = called("optimum", "--study", "mine.toml", "--population", 20, "--iterations", 1, "--out", "best")
+    assert (done.returncode, done.stderr) == (0, "")
+    table = pd.read_csv(tmp_path / "best" / "candidates.csv")
+    assert table.name[0] == "present design"
+    assert len(table) > 1
 
 
 def test_every_template_can_be_had():

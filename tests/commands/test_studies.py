@@ -3,11 +3,13 @@
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
-from suspension_ctrl import Iso8608Road, SearchSettings, load_study, load_vehicle
+from suspension_ctrl import Iso8608Road, MeasuredRoad, SearchSettings, datafiles, load_study, load_vehicle
 from suspension_ctrl.commands.studies import chosen_study
 from suspension_ctrl.paper import experiment as paper
+from suspension_ctrl.quantities import column_headers
 
 CAR = """
 kind = "quarter-car"
@@ -124,6 +126,44 @@ def test_the_study_of_a_comparison_makes_the_same_fronts_bit_for_bit(called, tmp
     for front in fronts:
         assert front.read_bytes() == (tmp_path / "two" / "fronts" / front.name).read_bytes()
     assert (tmp_path / "one/study.toml").read_bytes() == (tmp_path / "two/study.toml").read_bytes()
+
+
+QUICK = {
+    "optimum": ("--population", 60, "--iterations", 4),
+    "compare": ("--populations", 20, "--iterations", 1, "--repeats", 1, "--algorithms", "nsga2,sobol"),
+}
+
+
+@pytest.mark.parametrize("name", datafiles.stems("studies"))
+def test_every_study_of_the_package_is_decided_and_compared(called, tmp_path, name):
+    """Candidates are within its limits, with the values of the problem; the comparison has a front of each run."""
+    problem = load_study(name).problem
+    done = called("optimum", "--study", name, *QUICK["optimum"], "--out", "one")
+    assert (done.returncode, done.stderr) == (0, "")
+    table = pd.read_csv(tmp_path / "one" / "candidates.csv").iloc[1:]
+    values = problem.evaluate(table[column_headers(problem.variables, problem.units)].to_numpy())
+    m = len(problem.objectives)
+    np.testing.assert_allclose(table[column_headers(problem.objectives, problem.units)], values[:, :m], rtol=1e-9)
+    assert (values[:, m:] <= 1e-6).all()  # to which a descent holds them
+    done = called("compare", "--study", name, *QUICK["compare"], "--out", "two")
+    assert done.returncode == 0, done.stderr
+    runs, fronts = pd.read_csv(tmp_path / "two" / "runs.csv"), list((tmp_path / "two" / "fronts").iterdir())
+    assert len(runs) == len(fronts) == 2
+
+
+def test_a_study_of_a_long_measured_road_runs_and_runs_again(called, tmp_path):
+    """Of the most numbers that a file may have; the study beside the results makes the same front."""
+    n = np.geomspace(0.01, 10.0, 10_000)
+    road = f"{{kind = 'measured', wavenumber_cycle_per_m = {n.tolist()}, density_m3 = {(1e-9 / n**2.1).tolist()}}}"
+    (tmp_path / "long.toml").write_text(
+        f'vehicle = "yuen_ramli_2010"\nroad = {road}\nspeed_m_per_s = 20\nmeasures = ["ACC", "SWS"]\nnodes = 64\n'
+    )
+    for study, out in (("long.toml", "one"), ("one/study.toml", "two")):
+        done = called("optimum", "--study", study, *QUICK["optimum"], "--out", out)
+        assert done.returncode == 0, done.stderr
+    for name in ("front.csv", "study.toml"):
+        assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
+    assert load_study(tmp_path / "two" / "study.toml").problem.cases[0].road == MeasuredRoad(n, 1e-9 / n**2.1)
 
 
 @pytest.mark.parametrize("command", ["optimum", "compare"])
