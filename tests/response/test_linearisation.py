@@ -33,6 +33,15 @@ def test_the_table_of_laws():
     table = CAR.linearised({"spring": 22e3}, ROAD, 20.0).table()
     assert table.index.to_list() == ["damper"]
     assert table.loc["damper", "equivalent"] == pytest.approx(1500.0)
+    assert table.loc["damper", "force"] > 0  # more in rebound
+
+
+def test_the_mean_force_of_an_odd_law_is_0_in_the_table():
+    """Sums of normal probabilities leave 1e-13 N, which would be printed."""
+    law = sc.TableDamper(velocity=[0.0, 0.05, 0.1, 0.3, 0.5, 1.0], force=[0.0, 600, 850, 1250, 1450, 1750])
+    car = sc.QuarterCar(body_mass=250, wheel_mass=20, tyre_stiffness=140e3, strut=sc.parallel(sc.Spring(), law))
+    linear = car.linearised({"spring": 20e3}, ROAD, 20.0, band=(0.1, 20.0))
+    assert linear.table()["force"].to_list() == [0.0]
 
 
 def test_a_vehicle_without_laws_keeps_its_struts():

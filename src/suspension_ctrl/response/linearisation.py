@@ -30,6 +30,9 @@ _LEAST = 1e-9  # N/m or N s/m, of a law without slope such as a stop out of reac
 _NODES = 1024
 
 
+_NOISE = 1e-12  # mean force of an odd law by rounding, as a share of the root mean square of its force
+
+
 class LinearisedLaw(NamedTuple):
     """A force law at its working point."""
 
@@ -77,7 +80,8 @@ class LinearisedVehicle(Record, AssembledVehicle):
         import pandas as pd
 
         rows = pd.DataFrame(self.laws.values(), columns=LinearisedLaw._fields, index=list(self.laws))
-        return rows.rename_axis("law")
+        noise = _NOISE * rows["equivalent"] * rows["deviation"]
+        return rows.assign(force=rows["force"].where(rows["force"].abs() > noise, 0.0)).rename_axis("law")
 
 
 def linearised(
