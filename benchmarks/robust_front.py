@@ -1,7 +1,7 @@
 """A front of robust designs beside that of nominal ones, judged on vehicles that neither search has seen.
 
 The car is jian_2022_full with eight variables, the springs, dampers, anti-roll bars and tyres of both axles, on a
-road of class C at 20 m/s. All of them scatter: springs +-5 %, bars +-5 %, tyres +-10 %, dampers -25 to +10 %.
+road of class C at 20 m/s. All of them scatter: springs ±5 %, bars ±5 %, tyres ±10 %, dampers -25 to +10 %.
 NSGA-II searches for comfort and tyre load within a limit on travel, once of the nominal vehicle, once of 256
 vehicles per design. Both fronts are then judged on 10,000 other vehicles: by the mean of ACC, the 95 % quantile of
 DTL, and whether 95 % of the vehicles keep to the limit.

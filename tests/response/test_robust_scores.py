@@ -134,6 +134,17 @@ def test_each_design_is_as_if_alone_bit_for_bit_and_the_kernel_agrees():
     np.testing.assert_array_equal(whole[:, 4], nominal(designs, constraints=("SWS <= 20mm",))[:, 3])
 
 
+def test_populations_and_samples_are_evaluated_in_parts():
+    """Of 2^14 samples two designs fit in a part, of 70,000 half of one."""
+    problem = quarter(("mean ACC", "q95 DTL"), scatter=Scatter({"damper": 0.15}, samples=1 << 14), nodes=256)
+    designs = np.array([[1.2e4 + 2e3 * i, 1500.0] for i in range(5)])
+    whole = problem.evaluate(designs)
+    np.testing.assert_array_equal(whole, [problem.evaluate([design])[0] for design in designs])
+    assert len(np.unique(whole[:, 0])) == 5
+    more = problem.replace(scatter=Scatter({"damper": 0.15}, samples=70_000), nodes=256)
+    np.testing.assert_allclose(more.evaluate(designs[:1]), whole[:1], rtol=1e-4)
+
+
 def test_searches_run_with_robust_measures():
     problem = quarter(("mean ACC", "q95 DTL"), constraints=("q95 SWS <= 20mm",))
     for optimiser in (Nsga2(population=20), MoeadDra(population=20)):
@@ -214,8 +225,8 @@ def test_a_problem_with_scatter_is_a_record():
     problem = quarter()
     assert problem == quarter().replace() == problem.replace(scatter=quarter().scatter)
     assert problem != problem.replace(scatter=Scatter({"spring": 0.05, "damper": 0.15}, samples=64, seed=2))
-    assert "scatter spring +-5 %, damper +-15 %; 64 samples, seed 1" in " ".join(repr(problem).split())
-    assert "Scatter: spring +-5 %, damper +-15 %; 64 samples, seed 1." in problem.describe()
+    assert "scatter spring ±5 %, damper ±15 %; 64 samples, seed 1" in " ".join(repr(problem).split())
+    assert "Scatter: spring ±5 %, damper ±15 %; 64 samples, seed 1." in problem.describe()
     given = RideProblem(QUARTER, ROAD, speed=20.0, bounds=BOUNDS, band=BAND, scatter={"spring": 0.05})
     assert given.scatter == Scatter({"spring": 0.05})
     assert given.nominal == given.replace(scatter=None)

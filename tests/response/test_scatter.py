@@ -61,7 +61,7 @@ def test_a_normal_distribution_is_truncated_at_three_standard_deviations():
 
 
 def test_the_seed_and_the_distribution_are_told():
-    assert Scatter({"spring": 0.05}, seed=7).describe() == "spring +-5 %; 256 samples, seed 7"
+    assert Scatter({"spring": 0.05}, seed=7).describe() == "spring ±5 %; 256 samples, seed 7"
     told = Scatter({"damper": ("-25 %", 0)}, samples=8, distribution="normal").describe()
     assert told == "damper -25 to 0 %, normal; 8 samples, seed 1"
 

@@ -22,7 +22,7 @@ _LEVEL = 95.0
 
 
 def scatter_for(problem: RideProblem) -> Scatter | None:
-    """Return the scatter of a problem, else +-5 % of springs and +-15 % of dampers; None if there are neither."""
+    """Return the scatter of a problem, else ±5 % of springs and ±15 % of dampers; None if there are neither."""
     if problem.scatter:
         return problem.scatter
     known = names_of(problem.cases, problem.variables, coefficients_by_name(problem.struts, {}))

@@ -25,7 +25,7 @@ class Scatter(Record):
     Parameters
     ----------
     tolerances : mapping of str to float, text or pair of them
-        By name the largest relative deviation, 0.05 or ``"5 %"`` for +-5 %; or the least and the largest one,
+        By name the largest relative deviation, 0.05 or ``"5 %"`` for ±5 %; or the least and the largest one,
         ``(-0.25, 0.0)`` of a damper that loses up to a quarter with age. Names are those of coefficients and of
         parameters such as ``"body_mass"``, ``"front_tyre_stiffness"`` and ``"payload.mass"``, or ends of names:
         ``"spring"`` for ``"front.spring"`` and ``"rear.spring"``. Each deviates by itself, left and right alike.
@@ -49,7 +49,7 @@ class Scatter(Record):
     >>> import suspension_ctrl as sc
     >>> scatter = sc.Scatter({"spring": "5 %", "front.damper": (-0.25, 0.0)}, samples=512)
     >>> print(scatter.describe())
-    spring +-5 %, front.damper -25 to 0 %; 512 samples, seed 1
+    spring ±5 %, front.damper -25 to 0 %; 512 samples, seed 1
     """
 
     tolerances: Mapping[str, Tolerance]
@@ -148,4 +148,4 @@ def _normal(unit: Real) -> Real:
 
 def _shown(low: float, high: float) -> str:
     """Return deviations in percent."""
-    return f"+-{100 * high:g} %" if low == -high else f"{100 * low:g} to {100 * high:g} %"
+    return f"±{100 * high:g} %" if low == -high else f"{100 * low:g} to {100 * high:g} %"

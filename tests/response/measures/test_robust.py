@@ -67,6 +67,11 @@ def test_a_quantile_is_the_least_value_with_its_share_of_samples(values, level):
     assert below.size / ordered.size < level / 100 or not below.size
 
 
+@pytest.mark.parametrize(("samples", "level", "place"), [(20, 95, 19), (250, 64.4, 161), (375, 8.8, 33)])
+def test_a_share_that_is_a_whole_number_of_samples_is_not_rounded_up(samples, level, place):
+    assert of_quantile(samples, level).argmax() == place - 1
+
+
 @given(samples, levels)
 def test_cvar_is_the_minimum_of_rockafellar_and_uryasev(values, level):
     """CVaR = min over t of t + E[max(x - t, 0)]/(1 - level), at a sample: the function is linear between them."""
