@@ -43,7 +43,7 @@ PUBLIC = {
     "Sampling", "minimise", "non_dominated", "Study", "as_pymoo", "as_scipy",
     "candidates", "knee", "pick", "attainable", "attainable_figure", "attained", "skyhook",
     "CVaR", "Mean", "Quantile", "Scatter", "robustness", "robustness_figure", "sensitivity", "sensitivity_figure",
-    "export", "supplier_sheet", "vehicle_file",
+    "explore", "export", "supplier_sheet", "vehicle_file",
 }  # fmt: skip
 
 COMMANDS = {"commands/exposure.py", "commands/ride.py", "commands/weighting.py"}

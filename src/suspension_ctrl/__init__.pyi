@@ -4,6 +4,7 @@ from .desk.candidate_table import candidates as candidates
 from .desk.choosing import knee as knee
 from .desk.choosing import pick as pick
 from .desk.designs import vehicle_file as vehicle_file
+from .desk.explorer.notebook import explore as explore
 from .desk.exporting import export as export
 from .desk.figures import attainable_figure as attainable_figure
 from .desk.scatter_figures import robustness_figure as robustness_figure

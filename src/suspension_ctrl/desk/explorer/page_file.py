@@ -32,13 +32,14 @@ def page_of(
 ) -> str:
     """Return the page of a study and its decision as HTML; `said` are sentences to stand above.
 
-    Beside the front stands that without limits, if there are limits, and others by name, tables with a column
-    for each objective.
+    Beside the front stands that without limits, if it was searched, and others by name, tables with a column for
+    each objective.
 
     The policy allows the scripts of the page alone, by their hashes: no request, no `eval`. The plotting library
     is compressed; the page itself makes it a script.
     """
-    free = {"front without limits": decision.free.front()} if decision.problem.constraints else {}
+    limited = decision.free is not decision.run
+    free = {"front without limits": decision.free.front()} if limited else {}
     with checks.installed("report"):
         from jinja2 import Environment
         from markupsafe import Markup
