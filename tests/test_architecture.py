@@ -44,6 +44,7 @@ PUBLIC = {
     "candidates", "knee", "pick", "attainable", "attainable_figure", "attained", "skyhook",
     "CVaR", "Mean", "Quantile", "Scatter", "robustness", "robustness_figure", "sensitivity", "sensitivity_figure",
     "explore", "export", "supplier_sheet", "vehicle_file",
+    "pareto_front", "refine",
 }  # fmt: skip
 
 COMMANDS = {"commands/exposure.py", "commands/ride.py", "commands/weighting.py"}

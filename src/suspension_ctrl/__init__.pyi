@@ -3,10 +3,12 @@ from .desk.attaining import attained as attained
 from .desk.candidate_table import candidates as candidates
 from .desk.choosing import knee as knee
 from .desk.choosing import pick as pick
+from .desk.continuation import pareto_front as pareto_front
 from .desk.designs import vehicle_file as vehicle_file
 from .desk.explorer.notebook import explore as explore
 from .desk.exporting import export as export
 from .desk.figures import attainable_figure as attainable_figure
+from .desk.refinement import refine as refine
 from .desk.scatter_figures import robustness_figure as robustness_figure
 from .desk.scatter_table import robustness as robustness
 from .desk.slope_figures import sensitivity_figure as sensitivity_figure

@@ -28,6 +28,13 @@ def test_every_column_is_in_one_part():
         "Designs and largest travel": ["no.", "spring [N/m]", "largest travel in 1 km [m]"],
         "Modes, without dampers, and damping ratios": ["no.", "heave [Hz]", "heave damping [-]"],
     }
+    proof = {"residual": [float("nan"), 1e-13], "price of DTL [m per N]": [float("nan"), -2e-6]}
+    assert list(parts_of(PROBLEM, TABLE.assign(**proof)).items())[-1][0] == (
+        "Optimality: residual, and prices of limits in SWS"
+    )
+    page = markdown("Car", parts_of(PROBLEM, TABLE.assign(**proof)), [])
+    assert "price of DTL [mm per kN]" in page
+    assert "-2 |" in page
     plain = parts_of(PROBLEM, TABLE[["name", "spring [N/m]", "SWS [m]", "DTL [N]", "active"]])
     assert list(plain) == ["Candidates", "Designs"]
 

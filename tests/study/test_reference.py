@@ -80,6 +80,25 @@ def test_where_no_grid_settles_the_front_is_of_the_runs_and_the_finest_grid():
     )
 
 
+def test_what_is_known_of_the_front_counts_where_no_grid_settles():
+    """100 points of the line between those of the runs; of a grid that settles nobody asks."""
+    x = np.linspace(0, 1, 100)
+    line = np.stack([x, 1 - x], axis=1)
+    found = references.sought(Line().problem(), [np.array([[0.5, 0.5]])], most=9_999, known=lambda: line)
+    assert len(found.front.objectives) == 101
+    assert found.origin == (
+        "all timed runs and 100 designs of an exact front and between its points "
+        "(no grid within 9,999 designs and 60 s has a front)"
+    )
+    empty = references.sought(Line().problem(), [line], most=9_999, known=lambda: np.empty((0, 2)))
+    assert empty.origin.startswith("all timed runs (no grid")
+
+    def asked() -> np.ndarray:
+        raise AssertionError
+
+    assert references.sought(Line().problem(), [], 1e-2, known=asked).origin.startswith("a grid of ")
+
+
 def test_without_a_grid_the_front_is_of_the_runs():
     runs = [np.array([[0, 1.0], [0.5, 0.5]]), np.array([[1.0, 0]])]
     found = references.sought(Line().problem(), runs, most=9_999)

@@ -9,6 +9,7 @@ from typing import Any, Self
 import pandas as pd
 import typer
 
+from ..desk.known_front import finder
 from ..desk.study_files import StudyFile, check_fits_file, load_study
 from ..paper import experiment as paper
 from ..quantities import column_headers
@@ -108,7 +109,8 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
     reports.say_times(request, store, timed)
     terminal.say()
     with stages.stage("reference front", found=campaign.has_reference):
-        reference = campaign.reference(store, request.reference)
+        known = None if request.options["quick"] else finder(request.problem, float(timed.seconds.sum()))
+        reference = campaign.reference(store, request.reference, known)
     if reference is None:
         terminal.note("Quality is not judged: no two designs found within the limits differ in every objective.")
         return 0

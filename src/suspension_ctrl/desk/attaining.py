@@ -17,7 +17,7 @@ from ..vehicles.sky_dampers import SKY, skyhook
 from ..vehicles.vehicle import AssembledVehicle
 from .bound import LEAST, LQG, LQR, SKYHOOK, WITHIN
 from .candidate_table import PRESENT, Present, design_of, reaching
-from .descent import least_within_limits
+from .refinement import least_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -143,8 +143,7 @@ def attained(problem: RideProblem, present: Present, *, minimise: str | None = N
     -------
     DataFrame
         By ``present design``, ``passive optimum``, ``skyhook`` (if it can be had) and ``active optimum`` the
-        measures with units, and the ``share`` of the reduction [%]. Searches are by sequential quadratic
-        programming.
+        measures with units, and the ``share`` of the reduction [%]. Passive ones are by `refine`.
 
     Raises
     ------
@@ -172,17 +171,17 @@ def attained(problem: RideProblem, present: Present, *, minimise: str | None = N
     wide = reaching(problem, design)
     active = ActiveSuspension.of(wide, design)
     own = active.measures_of(active.present)
-    measure = problem.measures[j]
     others = [one for k, one in enumerate(problem.measures) if k != j]
     limits = [Limit(one, value * (1 + _SLACK)) for one, value in zip(others, np.delete(own, j), strict=True)]
     limited = problem.replace(constraints=limits)
-    passive = np.array(least_within_limits(limited, measure, _inside(problem, design)[None]))
+    passive = np.array(list(least_of(limited, names[j], _inside(problem, design)[None]).design.values()))
     rows = {PRESENT: own, PASSIVE: problem.evaluate(passive[None])[0]}
     if _takes_sky(problem):
         sky = with_sky(limited)
         more = len(sky.variables) - design.size
         starts = np.array([[*passive, *[0.0] * more], [*passive, *(0.3 * np.array(sky.upper[-more:]))]])
-        rows[SKYHOOK] = sky.evaluate([least_within_limits(sky, measure, starts)])[0, : len(names)]
+        best = least_of(sky, names[j], starts).measures
+        rows[SKYHOOK] = np.array([best[name] for name in names])
     rows[ACTIVE] = least_controlled(active, j, own).measures
     table = pd.DataFrame(rows.values(), columns=column_headers(names, problem.units), index=list(rows))
     reduced = own[j] - table.iloc[:, j]

@@ -28,12 +28,16 @@ PRESENT = "present design"
 DISTANCE = 1000.0
 """Distance of the expected largest travel [m]."""
 
+COUNT = 7
+"""Number of candidates."""
+
 Present = Mapping[str, float] | ArrayLike
+"""A design by variable, in their order, or a row of a front."""
 P = TypeVar("P", bound=Minimisable)
 
 
 def candidates(
-    problem: Minimisable, run: Population, *, present: Present | None = None, count: int = 7
+    problem: Minimisable, run: Population, *, present: Present | None = None, count: int = COUNT
 ) -> "pd.DataFrame":
     """Return designs of a front to choose from, side by side with the present design.
 
@@ -86,14 +90,20 @@ def candidates(
     >>> print(f"{first['ACC change [%]']:.0f} %, {first['heave [Hz]']:.1f} Hz; {first['active']}")
     -22 %, 0.5 Hz; damper at its lower bound
     """
-    import pandas as pd
-
     front = front_of(problem, run)
     names = chosen(front.objectives, tuple(problem.objectives), checks.at_least("count", count, 1))
-    rows, m = list(names), len(problem.objectives)
-    designs = front.designs[rows]
+    rows = list(names)
     values = np.hstack([front.objectives[rows], front.constraints[rows]])
-    labels, first, wide = list(names.values()), 1, problem
+    return table_of(problem, list(names.values()), front.designs[rows], values, present)
+
+
+def table_of(
+    problem: Minimisable, names: Sequence[str], designs: Real, values: Real, present: Present | None
+) -> "pd.DataFrame":
+    """Return the table of `candidates` of designs (n, d) with values (n, m + c) by their names (n,)."""
+    import pandas as pd
+
+    labels, first, wide, m = list(names), 1, problem, len(problem.objectives)
     if present is not None:
         own = design_of(problem, present)
         wide = reaching(problem, own)
@@ -112,6 +122,10 @@ def candidates(
 def design_of(problem: Minimisable, present: Present, name: str = "present") -> Real:
     """Return the present design (d,), or another of this name; ValueError unless it has all variables."""
     names = list(problem.variables)
+    if hasattr(present, "to_dict"):  # a row of a front
+        row = present.to_dict()
+        headers = dict(zip(headers_of(problem), names, strict=False))
+        present = {headers.get(header, header): value for header, value in row.items()}
     if isinstance(present, Mapping):
         if missing := [one for one in names if one not in present]:
             needed, lacking = checks.listing(names, missing[0]), checks.listing(missing)

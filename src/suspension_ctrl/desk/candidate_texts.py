@@ -8,6 +8,7 @@ from .. import escaping
 from ..search.problem import Minimisable, headers_of
 from ..tables.headers import readable
 from ..tables.rounding import rounded
+from .proofs import PRICE, RESIDUAL
 
 _MODES = 4  # that stand side by side, in two columns each; the columns of more do not fit a page
 _OF_MODES = {  # first header, end of the columns of a table of candidates, and decimals
@@ -22,12 +23,14 @@ def parts_of(problem: Minimisable, table: pd.DataFrame) -> dict[str, pd.DataFram
     given = [str(one) for one in table]
     changes = {f"{name} change [%]": f"{name} [%]" for name in problem.objectives}
     travels = [one for one in given if "travel in " in one]
-    modes = [one for one in given if one not in {"name", "active", *headers, *changes, *travels}]
+    proofs = [one for one in given if one == RESIDUAL or one.startswith(PRICE)]
+    modes = [one for one in given if one not in {"name", "active", *headers, *changes, *travels, *proofs}]
     columns = {
         "Candidates": ["name", *headers[d:]],
         "Changes against the present design": [one for one in given if one in changes],
         "Designs and largest travel" if travels else "Designs": [*headers[:d], *travels],
         "Modes, without dampers, and damping ratios": [] if len(modes) > 2 * _MODES else modes,
+        f"Optimality: residual, and prices of limits in {problem.objectives[0]}": proofs,
     }
     numbered = table.rename(columns=changes).rename_axis("no.").reset_index()
     parts = {

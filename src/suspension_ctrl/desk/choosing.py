@@ -186,7 +186,7 @@ def pick(
     inside = np.ones(len(front.objectives), dtype=bool)
     for name, given in (within or {}).items():
         checks.one_of("within", name, names)
-        low, high = _interval(name, given, problem.units.get(name, ""))
+        low, high = interval(name, given, problem.units.get(name, ""))
         values = front.objectives[:, names.index(name)]
         inside &= (low <= values) & (values <= high)
         if not inside.any():
@@ -202,7 +202,7 @@ def pick(
     )
 
 
-def _interval(name: str, given: Any, unit: str) -> tuple[float, float]:
+def interval(name: str, given: Any, unit: str) -> tuple[float, float]:
     """Return the least and the largest value of an objective."""
     unit = "" if unit == "-" else unit
     pair = given if isinstance(given, tuple | list) and len(given) == 2 else (-np.inf, given)

@@ -16,7 +16,8 @@ from ..tables.headers import shown_range, shown_value
 from .active import designs_by_text, limit_text
 from .candidate_table import Present, candidates
 from .choosing import flat, front_of
-from .descent import with_least
+from .optimality import EXACT
+from .proofs import RESIDUAL, can_be_refined, refined_candidates, with_ends
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -45,16 +46,17 @@ class Decision(NamedTuple):
             warnings.simplefilter("ignore", InfeasibleWarning)
             run = minimise(problem, optimiser, iterations=iterations, seed=seed)
         _check_feasible(problem, run)
-        free = run
+        free, without = run, problem.replace(constraints=())
         if problem.constraints:
-            without = problem.replace(constraints=())
-            free = with_least(without, minimise(without, optimiser, iterations=iterations, seed=seed))
-        run = with_least(problem, run)
-        return cls(problem, run, free if problem.constraints else run, candidates(problem, run, present=present))
+            free = minimise(without, optimiser, iterations=iterations, seed=seed)
+        if not can_be_refined(problem):
+            return cls(problem, run, free, candidates(problem, run, present=present))
+        run, table = refined_candidates(problem, with_ends(problem, run), present)
+        return cls(problem, run, with_ends(without, free) if problem.constraints else run, table)
 
     def describe(self) -> list[str]:
         """Return what limits and bounds do, and which measures are equal on the front, a sentence each."""
-        return [*self._equal(), *self._limits(), self._active()]
+        return [*self._equal(), *self._limits(), self._exact(), self._active()]
 
     def _equal(self) -> Iterator[str]:
         """Yield a sentence about measures that all designs of the front have alike."""
@@ -101,6 +103,17 @@ class Decision(NamedTuple):
         own = self.table.active.get(0)
         parts += [f"present design: {own}"] if own else []
         return f"Active, by candidate: {'; '.join(parts) or 'no bound and no limit'}."
+
+    def _exact(self) -> str:
+        """Return a sentence about the residuals of the candidates."""
+        if RESIDUAL not in self.table:
+            return "Candidates are as they were found: a measure that may have kinks is not refined."
+        residuals = self.table[RESIDUAL][self.table.index > 0]
+        if residuals.max() <= EXACT and residuals.notna().all():
+            return f"Every candidate is an exact optimum: residuals are at most {residuals.max():.0e}."
+        others = residuals.index[~(residuals <= EXACT)]
+        told = ", ".join(map(str, others))
+        return f"Every candidate but {told} is an exact optimum, with a residual of at most {EXACT:.0e}."
 
 
 def measured(limit: Limit, g: Real) -> Real:

@@ -1,4 +1,4 @@
-"""Table 5: the best struts at a suspension travel, by SLSQP and from a Pareto set, beside published values."""
+"""Table 5: the best struts at a suspension travel, refined and from a Pareto set, beside published values."""
 
 from contextlib import suppress
 from typing import TYPE_CHECKING
@@ -7,8 +7,7 @@ import numpy as np
 
 from .. import checks
 from ..desk.choosing import pick
-from ..desk.descent import least_within_limits
-from ..response.measures.limits import Limit
+from ..desk.refinement import least_of
 from ..response.measures.vibration import ACC, DTL, SWS
 from ..response.problem import RideProblem
 from . import experiment, tables
@@ -27,7 +26,7 @@ AT_LIMIT = 0.002
 KINDS = EXACT, PICKED = "exact", "picked"
 """Designs beside those of the paper, by the first word of their rows."""
 
-_STARTS = 8  # designs of a run nearest to the limit, from which SLSQP starts
+_STARTS = 3  # designs of a run nearest to the limit, that are refined
 
 
 def table5(problem: RideProblem, run: "Run", limit: float = TRAVEL) -> "pd.DataFrame":
@@ -46,9 +45,8 @@ def table5(problem: RideProblem, run: "Run", limit: float = TRAVEL) -> "pd.DataF
     starts = run.designs[np.abs(travel - limit).argsort(kind="stable")[:_STARTS]]
     for objective in (ACC(), DTL()):
         with suppress(ValueError):  # of a travel that no design has
-            designs[f"{EXACT}, least {objective}"] = least_within_limits(
-                problem, objective, starts, at=Limit(SWS(), limit)
-            )
+            best = least_of(problem, objective.label, starts, {SWS().label: (limit, limit)})
+            designs[f"{EXACT}, least {objective}"] = tuple(best.design.values())
     within = {SWS().label: ((1 - AT_LIMIT) * limit, limit)}
     for objective in (ACC(), DTL()):
         with suppress(ValueError):  # of a front that has no design so near the limit

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
+from ..quantities import Real
 from ..search.constraints import InfeasibleWarning
 from ..search.indicators import ReferenceFront
 from . import lock, machine, plans, reference, timing
@@ -73,14 +74,16 @@ class Campaign:
         if judged and self.has_judged:
             plans.agree(self.folder / QUALITY / plans.FILE, {"seeds": self.comparison.seeds}, "to resume there")
 
-    def reference(self, store: FolderStore, given: Reference | None = None) -> Reference | None:
+    def reference(
+        self, store: FolderStore, given: Reference | None = None, known: Callable[[], Real] | None = None
+    ) -> Reference | None:
         """Return the reference front, stored in the folder: the given one or that of `reference.sought`."""
         of_given = {"given": given and reference.summary(given.front)}
         kept = self._store(reference.FOLDER, "repeats", **of_given)
         if reference.NAME not in kept:
             made = [run.name for run in self.comparison.timed_runs() if run.name in store]
             finals = [timing.feasible_objectives(self.comparison.problem, store[name]) for name in made]
-            found = given or reference.sought(self.comparison.problem, finals, self.tolerance)
+            found = given or reference.sought(self.comparison.problem, finals, self.tolerance, known=known)
             if found is None:
                 return None
             kept[reference.NAME] = found.stored()

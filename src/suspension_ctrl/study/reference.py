@@ -1,7 +1,7 @@
 """The reference front of a problem: that of a grid whose hypervolume settles, or of all runs."""
 
 import hashlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from itertools import pairwise
 from math import inf, isnan, nan, prod
@@ -72,10 +72,12 @@ def sought(
     tolerance: float = TOLERANCE,
     most: int = MOST,
     seconds: float = SECONDS,
+    known: Callable[[], Real] | None = None,
 ) -> Reference | None:
-    """Return the front of a grid that settles, or else that of runs (n, m) and the finest grid together.
+    """Return the front of a grid that settles, or else that of runs (n, m), the finest grid and what is known.
 
-    None without two feasible designs that differ in every objective.
+    `known` returns feasible objectives (k, m) that are found in another way, such as an exact front; it is called
+    if no grid settles. None without two feasible designs that differ in every objective.
     """
     grid = refined(problem, tolerance, most, seconds)
     if grid and grid.settles(tolerance):
@@ -84,15 +86,20 @@ def sought(
         origin = f"a {grid.describe(problem)} (hypervolume {front.volume:.4f}, which {changes})"
         return Reference(front, origin)
     none = np.empty((0, len(problem.objectives)))
-    best = best_of(np.concatenate([none, *runs, grid.objectives if grid else none]))
+    also = none if known is None else known()
+    best = best_of(np.concatenate([none, *runs, grid.objectives if grid else none, also]))
     if not spans(best):
         return None
     budget = f"within {most:,} designs and {seconds:g} s"
-    origin = f"all timed runs (no grid {budget} has a front)"
-    if grid:
-        change = "" if isnan(grid.change) else f": half as many values change its hypervolume by {grid.change:.1e}"
-        finest = grid.describe(problem)
-        origin = f"all timed runs and a {finest} (no grid {budget} settles to {tolerance:g}{change})"
+    sources = [
+        "all timed runs",
+        *[f"{len(also):,} designs of an exact front and between its points"] * bool(len(also)),
+    ]
+    if grid is None:
+        return Reference(ReferenceFront.of(best), f"{' and '.join(sources)} (no grid {budget} has a front)")
+    change = "" if isnan(grid.change) else f": half as many values change its hypervolume by {grid.change:.1e}"
+    sources.append(f"a {grid.describe(problem)}")
+    origin = f"{' and '.join(sources)} (no grid {budget} settles to {tolerance:g}{change})"
     return Reference(ReferenceFront.of(best), origin)
 
 

@@ -30,7 +30,11 @@ def own_name_and_unit(header: str) -> tuple[str, str]:
 
 
 def shown_unit(unit: str) -> tuple[str, float]:
-    """Return the unit in which an engineer reads a quantity, and the factor to it: mm, kN, kN/m."""
+    """Return the unit in which an engineer reads a quantity, and the factor to it: mm, kN, kN/m, kN per mm."""
+    own, per, of = unit.partition(" per ")
+    if per:
+        (shown, factor), (below, divisor) = shown_unit(own), shown_unit(of)
+        return f"{shown} per {below}", factor / divisor
     return _SHOWN.get(unit, (unit, 1.0))
 
 
