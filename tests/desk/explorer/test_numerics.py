@@ -4,6 +4,7 @@ import json
 import os
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,14 +12,16 @@ import pytest
 from scipy.special import gamma
 from scipy.stats import norm
 
-from garage import DRIVER, FULL, QUARTER, ROAD
+from garage import DRIVER, FULL, HALF, QUARTER, ROAD
 from suspension_ctrl import (
+    BilinearDamper,
     BumpStop,
     Damper,
     Friction,
     Inerter,
     Iso8608Road,
     MeasuredStiffness,
+    Payload,
     PowerDamper,
     QuarterCar,
     RideProblem,
@@ -42,7 +45,7 @@ HERE = Path(__file__).parent
 NORMALS = np.linspace(-10, 10, 401)
 GAMMAS = np.linspace(0.05, 3.0, 60)
 NAMES = (
-    "quarter", "parameters", "half", "full", "seat", "table", "power", "stops", "network", "rubber",
+    "quarter", "parameters", "half", "full", "seat", "table", "power", "stops", "network", "rubber", "payload",
     "damper curves",
 )  # fmt: skip
 LAWS = ("table", "power", "stops", "damper curves")
@@ -66,6 +69,7 @@ def studies() -> dict[str, RideProblem]:
     bush = MeasuredStiffness("bush", frequency=[0.1, 10.0, 50.0], storage=[2e5, 2.5e5, 3e5], loss=[1e3, 2e4, 6e4])
     odd = TableDamper(velocity=[-1.0, -0.1, 0.0, 0.1, 1.0], force=[-900.0, -400.0, 0.0, 400.0, 900.0])
     rubber = parallel(Spring(), series(odd, Rubber("mount", storage=300e3, loss=30e3), bush))
+    damped = parallel(Spring(), BilinearDamper(), BumpStop(gap=0.05, stiffness=60e3))
     return {
         "quarter": load_study("paper").problem,
         "parameters": RideProblem(
@@ -86,6 +90,13 @@ def studies() -> dict[str, RideProblem]:
         "stops": quarter(stops, {"damper": (800.0, 3e3)}),
         "network": quarter(mount, {"damper": (800.0, 3e3)}),
         "rubber": quarter(rubber, {"damper.scale": (0.5, 2.0), "mount.loss": (10e3, 50e3)}),
+        "payload": RideProblem(
+            Payload(mass=200.0, position=(-1.0, 0.0)).on(replace(HALF, front_strut=damped, rear_strut=damped)),
+            Iso8608Road("C"), speed=20.0, band=(0.3, 20.0),
+            bounds={"rear.spring": (15e3, 30e3), "rear.damper.bump": (800.0, 2e3), "payload.mass": (50.0, 300.0)},
+            struts={"front.spring": 20e3, "front.damper.bump": 1000.0, "front.damper.rebound": 2000.0,
+                    "rear.damper.rebound": 2500.0},
+        ),
         "damper curves": load_study("damper_curve").problem,
     }  # fmt: skip
 

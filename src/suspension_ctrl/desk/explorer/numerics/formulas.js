@@ -1,8 +1,10 @@
 // Coefficients of struts as sums of products of the variables of a design.
 
+/** @typedef {import("./packed.js").Numbers} Numbers */
+
 /**
  * Return the coefficients (w,) of a design (v,) by formulas, see `Formulas` in vehicles/formulas.py.
- * @param {Record<"start" | "target" | "factor" | "base" | "power" | "result", import("./packed.js").Numbers>} formulas
+ * @param {Record<"start" | "target" | "factor" | "base" | "power" | "result", Numbers>} formulas
  * @param {ArrayLike<number>} design
  * @returns {Float64Array}
  */

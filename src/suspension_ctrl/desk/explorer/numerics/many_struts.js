@@ -5,7 +5,7 @@ import { addProduct, complexRows, copyOf, invert, multiply, sumOfSquares, zeroRo
 
 /** @typedef {import("./rows.js").Row} Row */
 /**
- * A block of q coupled struts with s sources and k terms at n frequencies, see `ManyStruts` in response/many_struts.py.
+ * A block of q coupled struts with s sources and k terms at n frequencies, see response/many_struts.py.
  * @typedef {object} Block
  * @property {number} n
  * @property {number} q

@@ -78,7 +78,13 @@ function place({ nodes, laws }, statics, states, share) {
   return error;
 }
 
-/** @param {Static} whole @param {number} ratio @param {Static} one @param {Static} other divide a deflection in series */
+/**
+ * Divide the mean deflection of two parts in series, by the force in the stiffer one.
+ * @param {Static} whole
+ * @param {number} ratio
+ * @param {Static} one
+ * @param {Static} other
+ */
 function divide(whole, ratio, one, other) {
   const own = ratio * whole.position;
   const [stiff, soft] = one.stiffness > other.stiffness ? [one, other] : [other, one];

@@ -1,4 +1,5 @@
-// Working point of force laws: the deviations that the linearised laws themselves cause, see response/working_point.py.
+// Working point of force laws: the deviations that the linearised laws themselves cause.
+// See response/working_point.py.
 
 /** @typedef {import("./network_rows.js").Networks} Networks */
 /** @typedef {import("./network_rows.js").State} State */

@@ -14,8 +14,11 @@ export function drawDownloads(explorer, study) {
   byId("downloads").append(
     button("Keep beside others", () => explorer.keep()),
     button("Designs shown, CSV", () => save("designs.csv", designsAsCsv(explorer))),
-    ...(study ? [button("Study with this design, TOML", () => save("study.toml", asStudy(explorer.design, study)))] : []),
   );
+  if (study) {
+    const pressed = () => save("study.toml", asStudy(explorer.design, study));
+    byId("downloads").append(button("Study with this design, TOML", pressed));
+  }
 }
 
 /** @param {string} name @param {string} text hand a file to the user */

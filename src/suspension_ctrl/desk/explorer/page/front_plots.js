@@ -18,8 +18,8 @@ export function drawFront(explorer) {
   const axes = { across: 0, colour: Math.min(2, explorer.columns.length - 1), space: [0, 1, 2] };
   const names = explorer.columns.map(headed);
   const redraw = () => explorer.tell("shown");
-  const chooser = (/** @type {string} */ label, /** @type {number} */ first, /** @type {(i: number) => void} */ set) =>
-    choice(label, names, first, (index) => { set(index); redraw(); });
+  /** @type {(label: string, first: number, set: (index: number) => void) => HTMLElement} */
+  const chooser = (label, first, set) => choice(label, names, first, (index) => { set(index); redraw(); });
   byId("axes").append(
     chooser("across", axes.across, (i) => (axes.across = i)),
     chooser("colour", axes.colour, (i) => (axes.colour = i)),
@@ -68,7 +68,8 @@ function linked(explorer, panel) {
 function traces(explorer, columns, coordinates, colour, style) {
   const shown = explorer.shown(), { brushed } = explorer;
   const marked = (/** @type {Point} */ point) => !brushed || brushed.has(point);
-  const trace = (/** @type {string} */ name, /** @type {Point[]} */ points, /** @type {any} */ marker, extra = {}) => ({
+  /** @type {(name: string, points: Point[], marker: any, extra?: any) => any} */
+  const trace = (name, points, marker, extra = {}) => ({
     name, mode: "markers", ...style, ...extra, marker,
     customdata: points.map((point) => explorer.points.indexOf(point)),
     ...Object.fromEntries(coordinates.map((axis, i) => [axis, points.map((p) => explorer.valueAt(columns[i], p))])),
@@ -80,13 +81,15 @@ function traces(explorer, columns, coordinates, colour, style) {
     size: 5, color: lit.map((point) => explorer.valueAt(by, point)), colorscale: SCALE, showscale: true,
     colorbar: { title: { text: headed(by), side: "right" }, thickness: 10 },
   };
-  const texts = { mode: "markers+text", text: candidates.map(({ name }) => name.split(" ")[0]), textposition: "top center" };
+  const numbers = candidates.map(({ name }) => name.split(" ")[0]);
+  const texts = { mode: "markers+text", text: numbers, textposition: "top center" };
+  const ofGroup = (/** @type {Point["group"]} */ group) => shown.filter((point) => point.group === group);
   return [
     trace("others", front.filter((point) => !marked(point)), { size: 4, color: FAINT }),
     trace("front", lit, shades),
     trace("candidates", candidates, { size: 9, color: PRESENT, symbol: "circle-open" }, texts),
-    trace("kept", shown.filter((point) => point.group === "kept"), { size: 10, color: KEPT, symbol: "square-open" }),
-    trace("present design", shown.filter((point) => point.group === "present"), { size: 9, color: PRESENT, symbol: "square" }),
+    trace("kept", ofGroup("kept"), { size: 10, color: KEPT, symbol: "square-open" }),
+    trace("present design", ofGroup("present"), { size: 9, color: PRESENT, symbol: "square" }),
     ...otherFronts(explorer, columns, coordinates, style),
     here(explorer, columns, coordinates, style),
   ];
@@ -96,7 +99,8 @@ function traces(explorer, columns, coordinates, colour, style) {
 function otherFronts(explorer, columns, coordinates, style) {
   if (columns.some(({ kind }) => kind !== "objective")) return [];
   return explorer.others.map(({ name, objectives }, i) => ({
-    name, mode: "markers", hoverinfo: "skip", ...style, marker: { size: 4, color: OTHERS[i % OTHERS.length], symbol: "diamond-open" },
+    name, mode: "markers", hoverinfo: "skip", ...style,
+    marker: { size: 4, color: OTHERS[i % OTHERS.length], symbol: "diamond-open" },
     ...Object.fromEntries(coordinates.map((axis, k) =>
       [axis, objectives.map((row) => row[columns[k].place] * columns[k].factor)])),
   }));
@@ -122,7 +126,14 @@ function moved(explorer, panel, columns, coordinates) {
   Plotly.restyle(panel, Object.fromEntries(own), [last]);
 }
 
-/** @param {Explorer} explorer @param {HTMLElement} panel @param {Column} x @param {Column} y @param {number} colour */
+/**
+ * Draw a projection.
+ * @param {Explorer} explorer
+ * @param {HTMLElement} panel
+ * @param {Column} x
+ * @param {Column} y
+ * @param {number} colour
+ */
 function projection(explorer, panel, x, y, colour) {
   const layout = {
     margin: { l: 60, r: 10, t: 10, b: 50 }, showlegend: false, dragmode: "select", hovermode: "closest",
@@ -152,5 +163,6 @@ function inSpace(explorer, columns, colour) {
       xaxis: x, yaxis: y, zaxis: z, uirevision: columns.map((column) => column.name).join(),
     },
   };
-  Plotly.react(byId("space"), traces(explorer, columns, ["x", "y", "z"], colour, { type: "scatter3d" }), layout, CONFIG);
+  const drawn = traces(explorer, columns, ["x", "y", "z"], colour, { type: "scatter3d" });
+  Plotly.react(byId("space"), drawn, layout, CONFIG);
 }

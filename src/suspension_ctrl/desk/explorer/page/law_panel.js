@@ -12,6 +12,8 @@ import { byId, digits, element, later, svg } from "./elements.js";
 
 const WIDTH = 420, CURVE = 260, BELL = 70, EDGE = 0.9; // px; share of the width at which the outer points stand
 const LINES = 201;
+/** @type {Record<string, [number, number]>} */
+const ARROWS = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 /** @param {Explorer} explorer put the curves of all force laws of the first load case into the page */
 export function drawLaws(explorer) {
@@ -29,7 +31,12 @@ export function drawLaws(explorer) {
   });
 }
 
-/** @param {Explorer} explorer @param {ArrayLike<number>} design @returns {{networks: Networks, values: Float64Array}} */
+/**
+ * Return the networks of the first load case and their coefficients at a design.
+ * @param {Explorer} explorer
+ * @param {ArrayLike<number>} design
+ * @returns {{networks: Networks, values: Float64Array}}
+ */
 function settingAt(explorer, design) {
   const [first] = explorer.kernel.cases, inner = first.class === "Mapped" ? first.case : first;
   const coefficients = first.class === "Mapped" ? coefficientsOf(first.formulas, design) : design;
@@ -80,8 +87,8 @@ function lawChart(explorer, name, law) {
     handle.addEventListener("pointermove", (event) => held === i && moveTo(...fromChart(event, chart, size)));
     handle.addEventListener("pointerup", () => { held = -1; draw(); });
     handle.addEventListener("keydown", (event) => {
-      const [right, up] = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key] ?? [];
-      if (right === undefined || up === undefined) return;
+      const [right, up] = ARROWS[event.key] ?? [0, 0];
+      if (!right && !up) return;
       event.preventDefault();
       const [x, y] = pointsAt(explorer, law, size)[i];
       moveTo(x + 0.02 * right * size.x, y + 0.02 * up * size.y);
@@ -115,7 +122,14 @@ function pointsAt(explorer, law, size, design = explorer.design) {
   return places.map((x) => [x, force(x)]);
 }
 
-/** @param {Explorer} explorer @param {number} law @param {number} i @param {[number, number]} wanted @param {Size} size */
+/**
+ * Take the design whose curve has a point nearest to a place.
+ * @param {Explorer} explorer
+ * @param {number} law
+ * @param {number} i the point
+ * @param {[number, number]} wanted
+ * @param {Size} size
+ */
 function moved(explorer, law, i, wanted, size) {
   const moving = explorer.variables.map((variable, place) => ({ ...variable, place })).filter(({ kind, low, high }) =>
     high > low && !["catalogue", "integer"].includes(kind));
@@ -155,11 +169,12 @@ function curveLines(force, size) {
   ];
 }
 
-/** @param {{deviation: number, mean: number}} state @param {Size} size @returns {SVGElement[]} bars of the distribution */
+/** @param {{deviation: number, mean: number}} state @param {Size} size @returns {SVGElement[]} a Gaussian in bars */
 function bell({ deviation, mean }, size) {
   const bars = 41, width = WIDTH / bars;
   return Array.from({ length: bars }, (_, i) => {
-    const x = size.x * ((2 * (i + 0.5)) / bars - 1), height = (BELL - 8) * Math.exp(-(((x - mean) / deviation) ** 2) / 2);
+    const x = size.x * ((2 * (i + 0.5)) / bars - 1), z = (x - mean) / deviation;
+    const height = (BELL - 8) * Math.exp((-z * z) / 2);
     return svg("rect", { x: i * width, y: CURVE + BELL - height, width: width - 1, height, fill: "#56b4e9" });
   });
 }
