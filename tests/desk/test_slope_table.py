@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garage import DRIVER, FULL, GEOMETRY, QUARTER, ROAD
-from suspension_ctrl import LoadCase, Payload, RideProblem, sensitivity
+from suspension_ctrl import LoadCase, Payload, RideProblem, Scatter, refine, robustness, sensitivity
 
 BOUNDS = {"spring": (1e4, 3e4), "damper": (1e3, 4e3)}
 BAND = (0.3, 20.0)
@@ -126,6 +126,51 @@ def test_rows_are_ranked_and_a_variable_at_0_moves_by_its_range():
     np.testing.assert_allclose(row, (4 * near - far - 3 * zero) / 2, rtol=0.02)  # by 500 N m/rad, of second order
     assert "front_antiroll" not in table.index
     assert table["kind"]["driver.mass"] == "parameter"
+
+
+def test_the_price_of_a_limit_is_what_a_larger_one_gains():
+    """Against the least ACC at a limit 0.1 % larger and smaller: the error is of second order."""
+    limits = {
+        share: quarter(constraints=[f"SWS <= {0.0287 * share!r}"], nodes=None) for share in (0.999, 1.0, 1.001)
+    }
+    best = {share: refine(one, [22e3, 1500.0], minimise="ACC") for share, one in limits.items()}
+    table = sensitivity(limits[1.0], best[1.0].design, minimise="ACC")
+    row = table.loc["SWS <= 0.0287"]
+    gain = 10 * (best[1.001].measures["ACC"] - best[0.999].measures["ACC"]) / 2
+    assert row["ACC [m/s^2]"] == pytest.approx(gain, rel=1e-4)
+    assert row["ACC [%]"] == pytest.approx(100 * gain / best[1.0].measures["ACC"], rel=1e-4)
+    assert row[["kind", "value", "unit"]].tolist() == ["limit", 0.0287, "m"]
+    assert row[["SWS [%]", "DTL [%]"]].isna().all()
+    assert "note" not in table.attrs
+
+
+def test_a_design_that_is_no_optimum_has_no_prices():
+    table = sensitivity(quarter(nodes=None), [22e3, 1500.0], minimise="ACC")
+    assert "limit" not in table["kind"].to_numpy()
+    found = refine(quarter(nodes=None), [22e3, 1500.0], minimise="ACC", within=_held([22e3, 1500.0]))
+    gain = 100 * (1 - found.measures["ACC"] / quarter(nodes=None).evaluate([[22e3, 1500.0]])[0, 0])
+    assert table.attrs["note"] == f"no prices: ACC could be {gain:.1f} % less at the same other measures"
+    with pytest.raises(ValueError, match=r"^minimise must be one of ACC, SWS, DTL, got 'speed'$"):
+        sensitivity(quarter(nodes=None), [22e3, 1500.0], minimise="speed")
+
+
+def test_robust_measures_are_refined_in_one_load_case_alone():
+    """At the optimum 95 % of the samples meet the limit; over load cases each sample counts by itself."""
+    scatter = Scatter({"damper": 0.15}, samples=40)
+    robust = {"measures": ("mean ACC", "CVaR90 DTL"), "constraints": ["q95 SWS <= 29mm"], "scatter": scatter}
+    found = refine(quarter(**robust, nodes=None), [22e3, 2e3], minimise="mean ACC")
+    beyond = robustness(quarter(**robust, nodes=None), found.design)["beyond limit [%]"].iloc[-1]
+    assert beyond == pytest.approx(5.0, abs=2.6)  # the sample at the limit may count
+    assert found.residual < 1e-8
+    cases = [LoadCase(vehicle=QUARTER, road=ROAD, speed=speed) for speed in (15.0, 25.0)]
+    both = RideProblem(cases=cases, bounds=BOUNDS, band=BAND, **robust)
+    with pytest.raises(ValueError, match=r"^measures must be of nominal vehicles in several load cases"):
+        refine(both, [22e3, 2e3], minimise="mean ACC")
+
+
+def _held(design):
+    """Return the other objectives of a design."""
+    return dict(zip(("SWS", "DTL"), quarter(nodes=None).evaluate([design])[0, 1:].tolist(), strict=True))
 
 
 def test_designs_outside_of_the_bounds_and_robust_problems():

@@ -18,6 +18,7 @@ from ..response.scattered import Scattered, names_of
 from ..vehicles.parameters import parameters_of
 from ..vehicles.vehicle import AssembledVehicle, coefficients_by_name
 from .candidate_table import Present, design_of, reaching
+from .refinement import refine
 from .scatter_table import nodes_at
 
 if TYPE_CHECKING:
@@ -26,7 +27,9 @@ if TYPE_CHECKING:
 STEP = 0.01
 """The change of each value, as a share of it."""
 
-VARIABLE, COEFFICIENT, PARAMETER = "variable", "coefficient", "parameter"
+VARIABLE, COEFFICIENT, PARAMETER, LIMIT = "variable", "coefficient", "parameter", "limit"
+
+_OPTIMUM = 1e-3  # largest share of an objective that a refined design may be better
 
 
 class Source(NamedTuple):
@@ -58,7 +61,7 @@ class Slopes(NamedTuple):
         return [str(one) if isinstance(one, Limit) else one.label for one in self.judged]
 
 
-def sensitivity(problem: RideProblem, design: Present) -> "pd.DataFrame":
+def sensitivity(problem: RideProblem, design: Present, *, minimise: str | None = None) -> "pd.DataFrame":
     """Return what 1 % more of each variable, coefficient and parameter does to the measures of a design.
 
     Parameters
@@ -66,6 +69,8 @@ def sensitivity(problem: RideProblem, design: Present) -> "pd.DataFrame":
     problem : RideProblem
     design : (d,) array_like, or mapping of str to float
         Variables of the design, also outside the bounds.
+    minimise : str, optional
+        Objective of which the prices of limits are told.
 
     Returns
     -------
@@ -77,10 +82,15 @@ def sensitivity(problem: RideProblem, design: Present) -> "pd.DataFrame":
         its range. In each load case a parameter changes from its value there. A robust measure of the problem
         stands for that of the nominal vehicle.
 
+        With `minimise` there is a row of each ``limit`` and bound that the design reaches, and of each other
+        objective, held at its value: what a limit that is 1 % larger does to the least of the objective, by the
+        multipliers of `refine`. A design that `refine` makes better by more than 0.1 % is no optimum and has no
+        prices: ``attrs["note"]`` says so.
+
     Raises
     ------
     ValueError
-        About the design.
+        About the design or the objective, or with `minimise` as of `refine`.
 
     Examples
     --------
@@ -104,6 +114,7 @@ def sensitivity(problem: RideProblem, design: Present) -> "pd.DataFrame":
     import pandas as pd
 
     found = slopes_at(problem, design)
+    found, note = (found, "") if minimise is None else _with_prices(found, problem.nominal, design, minimise)
     index = pd.Index([one.name for one in found.sources], name="name")
     table = pd.DataFrame([one[1:] for one in found.sources], index=index, columns=list(Source._fields[1:]))
     units = [one.measure.unit if isinstance(one, Limit) else one.unit for one in found.judged]
@@ -111,6 +122,7 @@ def sensitivity(problem: RideProblem, design: Present) -> "pd.DataFrame":
         table[f"{label} [%]"] = column
     for label, unit, column in zip(found.labels, units, found.changes.T, strict=True):
         table[f"{label} [{unit}]"] = column
+    table.attrs |= {"note": note} if note else {}
     return table
 
 
@@ -158,6 +170,25 @@ def _source(problem: RideProblem, scattered: Scattered, place: int, value: float
     parameter = next(known[name] for known in (parameters_of(one.assembly) for one in vehicles) if name in known)
     default = fixed.get(name, parameter.default) if name in scattered.relative else 1.0
     return Source(name, PARAMETER, value * default, parameter.unit)
+
+
+def _with_prices(slopes: Slopes, problem: RideProblem, design: Present, minimise: str) -> tuple[Slopes, str]:
+    """Return the slopes with those of the limits and bounds that hold the least of an objective, or why not."""
+    checks.one_of("minimise", minimise, problem.objectives)
+    x = design_of(problem, design, "design")
+    values = dict(zip(problem.objectives, problem.evaluate(x[None])[0].tolist(), strict=False))
+    best = refine(
+        problem, x, minimise=minimise, within={name: one for name, one in values.items() if name != minimise}
+    )
+    gain = (values[minimise] - best.measures[minimise]) / abs(values[minimise])
+    if gain > _OPTIMUM or not best.active:
+        return slopes, f"no prices: {minimise} could be {100 * gain:.1f} % less at the same other measures"
+    sources = [Source(name, LIMIT, float(name.rpartition(" ")[2]), best.units[name]) for name in best.active]
+    changes = np.full((len(sources), len(slopes.judged)), np.nan)
+    column = problem.objectives.index(minimise)
+    changes[:, column] = [STEP * one.value * best.multipliers[one.name] for one in sources]
+    more = slopes._replace(sources=[*slopes.sources, *sources], changes=np.vstack([slopes.changes, changes]))
+    return more, ""
 
 
 def _ranked(slopes: Slopes) -> Slopes:

@@ -14,6 +14,7 @@ from .. import checks
 from ..quantities import Bool, Real
 from ..response.load_case import LoadCase
 from ..response.measures.measure import Measure
+from ..response.measures.robust import Robust
 from ..response.measures.vibration import WheelMeasure
 from ..response.problem import RideProblem
 
@@ -62,6 +63,8 @@ class Atoms:
     def __init__(self, problem: RideProblem) -> None:
         self.problem, self.box = problem, Box.of(problem)
         judged = [*problem.measures, *(limit.measure for limit in problem.constraints)]
+        if len(problem.cases) > 1 and (robust := [one.label for one in judged if isinstance(one, Robust)]):
+            raise ValueError(f"measures must be of nominal vehicles in several load cases, got {robust[0]}")
         singles = [one for each in judged for one in by_wheel(problem, each)]
         every, cases = list(dict.fromkeys(singles)), problem.cases
         self._cases, self._place, self.count = list[RideProblem](), dict[tuple[int, Measure], int](), 0
