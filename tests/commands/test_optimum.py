@@ -1,5 +1,7 @@
 """Table 5, and candidates of other vehicles: files, values by other roads, words."""
 
+import re
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -119,3 +121,31 @@ def test_candidates_of_a_plant_of_another_program_are_those_of_its_quarter_car(c
     for i in (0, 2):
         expected = ride(car, struts.iloc[i].tolist(), load_road("C"), 20.0).value[["ACC", "SWS", "DTL"]]
         np.testing.assert_allclose(table.loc[i, OBJECTIVES].tolist(), expected, rtol=1e-6)
+
+
+def test_a_study_with_scatter_has_its_candidates_over_it(called, tmp_path):
+    text = """
+vehicle = "yuen_ramli_2010"
+road = "C"
+speed_m_per_s = 20.0
+band_Hz = [0.3, 20.0]
+measures = ["mean ACC", "q95 DTL"]
+constraints = ["q95 SWS <= 12mm"]
+[scatter]
+damper = [-0.25, 0.1]
+samples = 16
+[search]
+populations = [12]
+iterations = [2]
+"""
+    (tmp_path / "robust.toml").write_text(text)
+    done = called("optimum", "--study", "robust.toml", "--out", "out")
+    assert done.returncode == 0, done.stderr
+    shown = done.stdout
+    assert "Over the scatter\n" in shown
+    assert "What changes each measure most, by 1 % more\n" in shown
+    assert "Scatter: damper -25 to 10 %; 16 samples, seed 1." in shown
+    assert any(re.search(r"damper [+-]\d", line) for line in shown.splitlines())
+    page = (tmp_path / "out" / "candidates.md").read_text(encoding="utf-8")
+    assert "## Over the scatter" in page
+    assert "beyond SWS" in page

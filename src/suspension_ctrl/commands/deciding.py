@@ -9,6 +9,7 @@ import pandas as pd
 
 from .. import checks
 from ..desk import figures
+from ..desk.candidate_scatter import parts_over_scatter
 from ..desk.candidate_table import PRESENT
 from ..desk.candidate_texts import decimals_of, markdown, parts_of
 from ..desk.decision import Decision
@@ -88,7 +89,7 @@ def carry_out(request: Request, out: Path | None) -> None:
     folder = studies.folder_with(study, out)
     if printed:
         write_csv(folder / "table5.csv", pd.concat(printed))
-    parts = parts_of(study.problem, decision.table)
+    parts = parts_of(study.problem, decision.table) | parts_over_scatter(study.problem, decision.table)
     write_csv(folder / "candidates.csv", decision.table.reset_index())
     write_text(folder / "candidates.md", markdown(study.name, parts, said))
     save_candidates(study.problem, decision.table, folder / "candidates", study.name)

@@ -12,6 +12,7 @@ from ..response.scatter import Scatter, fits
 from ..response.scattered import names_of
 from ..vehicles.vehicle import coefficients_by_name
 from .active import limit_text
+from .candidate_slopes import candidate_slopes
 from .scatter_table import sampled
 
 if TYPE_CHECKING:
@@ -48,3 +49,14 @@ def candidate_scatter(problem: RideProblem, table: "pd.DataFrame", scatter: Scat
             level = 100 - _LEVEL if one.maximise else _LEVEL
             columns[f"q{level:g} {one.label} [{one.unit}]"] = ordered[:, k] @ of_quantile(scatter.samples, level)
     return pd.DataFrame(columns, index=table.index)
+
+
+def parts_over_scatter(problem: RideProblem, table: "pd.DataFrame") -> dict[str, "pd.DataFrame"]:
+    """Return tables of candidates over the scatter of a problem and of what changes them, none without scatter."""
+    if problem.scatter is None:
+        return {}
+    titles = {
+        "Over the scatter": candidate_scatter(problem, table, problem.scatter),
+        "What changes each measure most, by 1 % more": candidate_slopes(problem, table),
+    }
+    return {title: one.rename_axis("no.").reset_index() for title, one in titles.items()}
