@@ -30,7 +30,7 @@ def test_every_column_is_in_one_part():
     }
     proof = {"residual": [float("nan"), 1e-13], "price of DTL [m per N]": [float("nan"), -2e-6]}
     assert list(parts_of(PROBLEM, TABLE.assign(**proof)).items())[-1][0] == (
-        "Optimality: residual, and prices of limits in SWS"
+        "Prices: change of SWS by the values of other measures and by limits"
     )
     page = markdown("Car", parts_of(PROBLEM, TABLE.assign(**proof)), [])
     assert "price of DTL [mm per kN]" in page

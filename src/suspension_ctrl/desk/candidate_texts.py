@@ -23,14 +23,16 @@ def parts_of(problem: Minimisable, table: pd.DataFrame) -> dict[str, pd.DataFram
     given = [str(one) for one in table]
     changes = {f"{name} change [%]": f"{name} [%]" for name in problem.objectives}
     travels = [one for one in given if "travel in " in one]
-    proofs = [one for one in given if one == RESIDUAL or one.startswith(PRICE)]
-    modes = [one for one in given if one not in {"name", "active", *headers, *changes, *travels, *proofs}]
+    prices = [one for one in given if one.startswith(PRICE)]
+    modes = [
+        one for one in given if one not in {"name", "active", *headers, *changes, *travels, *prices, RESIDUAL}
+    ]
     columns = {
         "Candidates": ["name", *headers[d:]],
         "Changes against the present design": [one for one in given if one in changes],
         "Designs and largest travel" if travels else "Designs": [*headers[:d], *travels],
         "Modes, without dampers, and damping ratios": [] if len(modes) > 2 * _MODES else modes,
-        f"Optimality: residual, and prices of limits in {problem.objectives[0]}": proofs,
+        f"Prices: change of {problem.objectives[0]} by the values of other measures and by limits": prices,
     }
     numbered = table.rename(columns=changes).rename_axis("no.").reset_index()
     parts = {

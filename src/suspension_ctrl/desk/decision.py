@@ -110,7 +110,7 @@ class Decision(NamedTuple):
             return "Candidates are as they were found: a measure that may have kinks is not refined."
         residuals = self.table[RESIDUAL][self.table.index > 0]
         if residuals.max() <= EXACT and residuals.notna().all():
-            return f"Every candidate is an exact optimum: residuals are at most {residuals.max():.0e}."
+            return f"Every candidate is an exact optimum: no residual is above {EXACT:.0e}."
         others = residuals.index[~(residuals <= EXACT)]
         told = ", ".join(map(str, others))
         return f"Every candidate but {told} is an exact optimum, with a residual of at most {EXACT:.0e}."

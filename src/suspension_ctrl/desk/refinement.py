@@ -20,6 +20,7 @@ from .smooth import atoms_of
 if TYPE_CHECKING:
     import pandas as pd
 
+_EQUAL = 1e-8  # relative difference of two values of one optimum
 _ACTIVE = 1e-6
 """Largest distance of an active limit, as a share of it, and of an active bound, as a share of its range."""
 
@@ -136,10 +137,15 @@ def refine(problem: RideProblem, design: Present, *, minimise: str, within: With
 
 
 def least_of(problem: RideProblem, minimise: str, starts: Real, within: Within | None = None) -> Refined:
-    """Return the best optimum that descents reach from starts (k, d); ValueError if none is within the limits."""
+    """Return the best optimum that descents reach from starts (k, d); ValueError if none is within the limits.
+
+    Of optima that are equal but for rounding it is the first, for all last bits of sums the same.
+    """
     ends = [descended(program_of(problem, start, minimise, within or {})) for start in starts]
     check_limits(ends)
-    return refined_at(min((end for end in ends if end.feasible), key=lambda end: end.value), minimise)
+    held = [end for end in ends if end.feasible]
+    best = min(end.value for end in held)
+    return refined_at(next(end for end in held if end.value <= best + _EQUAL * abs(best)), minimise)
 
 
 def check_limits(ends: Sequence[End]) -> None:
