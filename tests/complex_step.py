@@ -172,6 +172,7 @@ class Placed:
     port: int
     values: Mapping[str, complex]
     laws: dict[int, Law] = field(default_factory=dict)
+    first: dict[int, complex] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.laws = {id(one): Law(one) for one in self.strut.elements if isinstance(one, ForceLaw)}
@@ -232,13 +233,14 @@ class Placed:
         return ratio * force, ratio**2 * stiffness
 
     def in_series(self, parts: tuple[Strut, ...], x: complex) -> tuple[complex, complex]:
-        """Return them for parts in series: Newton's method on the deflection of the first."""
+        """Return them for parts in series: Newton's steps from the last deflection of the first."""
         if len(parts) == 1:
             return self.tension(parts[0], x)
-        first, rest = 0.5 * x, parts[1:]
-        for _ in range(60):
+        first, rest = self.first.get(id(parts[0]), 0.5 * x), parts[1:]
+        for _ in range(2):
             (force, k), (other, k_rest) = self.tension(parts[0], first), self.in_series(rest, x - first)
             first += (other - force) / (k + k_rest) if k + k_rest != 0 else 0.0
+        self.first[id(parts[0])] = first
         return force, k * k_rest / (k + k_rest) if k + k_rest != 0 else 0.0
 
 
@@ -257,6 +259,7 @@ class Ride:
             for port in np.flatnonzero(network.share).tolist()
         ]
         q = len(case.vehicle.struts)
+        self.position = np.zeros(q, dtype=complex)
         self.nominal = np.zeros((3, q, q))  # a usual strut in place of each network
         for one in self.placed:
             self.nominal[:2, one.port, one.port] = 2e4, 1500.0
@@ -311,14 +314,14 @@ class Ride:
                 break
 
     def balance(self) -> None:
-        """Move ports and laws to mean deflections, d = sag + C (F(d) - K0 d) of the case, by Newton's steps."""
+        """Move ports and laws to mean deflections, d = sag + C (F(d) - K0 d) of the case, by two steps."""
         networks, q = self.inner.networks, len(self.case.vehicle.struts)
         straight, weight = np.zeros((q, q), dtype=complex), np.zeros(q, dtype=complex)
         for c, name in enumerate(self.origin):
             straight += self.values[name] * networks.gain[c] if networks.order[c] == 0 else 0.0
             weight += self.values[name] * networks.weight[c] * np.diag(networks.gain[c])
-        d = np.zeros(q, dtype=complex)
-        for _ in range(30):
+        d = self.position
+        for _ in range(2):
             force, stiffness = straight @ d + weight, straight.copy()
             for one in self.placed:
                 tension, k = one.tension(one.strut, d[one.port])
@@ -326,3 +329,4 @@ class Ride:
                 stiffness[one.port, one.port] += k
             off = d - networks.sag - networks.compliance @ (force - networks.nominal @ d)
             d -= np.linalg.solve(np.eye(q) - networks.compliance @ (stiffness - networks.nominal), off)
+        self.position = d

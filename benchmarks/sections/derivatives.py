@@ -10,39 +10,42 @@ from sections import struts
 from sections.timing import Prepare, take_turns
 
 BAR = 3.0
-"""Largest ratio to hold."""
+"""Largest ratio to hold, but for networks of a single port, whose mean squares cost less than an adjoint, and for
+measures by a function, which are evaluated four times by each variable."""
+STUDY, HANDLING = "full_car with limits on travel and tyre load", "full_car"
 VALUES, BOTH = "values", "values and derivatives"
 LIMIT, LEAST = 60.0, 0.02
 """Seconds: of a call after which there is no other, and up to which calls are repeated within one timing."""
 
 
 class Row(NamedTuple):
-    """A case, and the vehicle and strut of `struts.problems` or the study that it is."""
+    """A case, its vehicle and strut in `struts.problems` or its study, and the largest ratio to hold."""
 
     case: str
     vehicle: str
     source: str
+    bar: float = BAR
 
 
 ROWS = (
     Row("quarter car", struts.QUARTER, struts.DEFAULT),
-    Row("quarter car, damper on a mount", struts.QUARTER, "damper on a mount"),
-    Row("quarter car, damper by a measured table", struts.QUARTER, "damper by a measured table of 13 rows"),
+    Row("quarter car, damper on a mount", struts.QUARTER, "damper on a mount", 7.0),
+    Row("quarter car, damper by a measured table", struts.QUARTER, "damper by a measured table of 13 rows", 4.0),
     Row("full car", struts.FULL, struts.DEFAULT),
     Row("full car, dampers on mounts", struts.FULL, "dampers on mounts"),
     Row("full car, dampers by measured tables", struts.FULL, "two dampers by measured tables"),
-    Row("full car, 8 variables, 2 limits, 3 load cases", struts.FULL, "full_car"),
+    Row("full car, 8 variables, 2 limits, 3 load cases", struts.FULL, STUDY),
+    Row("the same with a limit on roll, by a function", struts.FULL, HANDLING, 12.0),
     Row("semitrailer", struts.TRUCK, "springs, dampers of two axles"),
 )
 
 
 def problems(nodes: int) -> dict[str, sc.RideProblem]:
     """Return a problem by case."""
-    known, found = struts.problems(nodes), dict[str, sc.RideProblem]()
-    for row in ROWS:
-        study = row.source == "full_car"
-        found[row.case] = sc.load_study(row.source).problem if study else known[row.vehicle, row.source]
-    return found
+    study = sc.load_study("full_car").problem
+    known = {(struts.FULL, HANDLING): study, **struts.problems(nodes)}
+    known[struts.FULL, STUDY] = study.replace(constraints=["SWS <= 0.012", "DTL <= 1500"])
+    return {row.case: known[row.vehicle, row.source] for row in ROWS}
 
 
 def measure(nodes: int, designs: dict[str, int], repeats: int) -> pd.DataFrame:
@@ -66,14 +69,14 @@ def _entry(problem: sc.RideProblem, what: str, drawn: np.ndarray) -> Prepare:
 
 
 def ratios(timings: pd.DataFrame) -> pd.DataFrame:
-    """Return by case the least processor time per design [s] of values and of both, and their ratio."""
+    """Return by case the bar, the least processor time per design [s] of values and of both, and their ratio."""
     least = (timings.cpu_seconds / timings.designs).groupby([timings.case, timings.what]).min()
-    rows = [(row.case, least[row.case, VALUES], least[row.case, BOTH]) for row in ROWS]
-    table = pd.DataFrame(rows, columns=["case", "values", "both"])
+    rows = [(row.case, row.bar, least[row.case, VALUES], least[row.case, BOTH]) for row in ROWS]
+    table = pd.DataFrame(rows, columns=["case", "bar", "values", "both"])
     return table.assign(ratio=table.both / table["values"])
 
 
 def goals(timings: pd.DataFrame) -> list[tuple[str, float, float]]:
     """Return what is to hold: what, largest ratio, and the one measured."""
-    table = ratios(timings)
-    return [(f"derivatives, {case}", BAR, ratio) for case, ratio in zip(table.case, table.ratio, strict=True)]
+    found = ratios(timings).ratio
+    return [(f"derivatives, {row.case}", row.bar, ratio) for row, ratio in zip(ROWS, found, strict=True)]

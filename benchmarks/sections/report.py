@@ -241,7 +241,7 @@ def derivative_table(found: Measurements) -> pd.DataFrame:
             "values, µs": [number(1e6 * seconds) for seconds in table["values"]],
             "values and derivatives, µs": [number(1e6 * seconds) for seconds in table.both],
             "ratio": table.ratio.map(number),
-            "bar": f"<= {derivatives.BAR:g}",
+            "bar": [f"<= {bar:g}" for bar in table.bar],
         }
     )
 

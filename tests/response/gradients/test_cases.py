@@ -40,4 +40,5 @@ def test_mean_squares_and_derivatives_of_a_case(vehicle, bounds):
             (mean_squares_of(case, designs + m * by) - mean_squares_of(case, designs - m * by)) / (2e-3 * m)
             for m in (1, 2)
         )
-        np.testing.assert_allclose(slopes[:, :, v] * low, (4 * half - whole) / 3, atol=1e-9 * squares.max(axis=0))
+        off = np.abs(slopes[:, :, v] * low - (4 * half - whole) / 3)
+        assert (off < 1e-9 * squares.max(axis=0)).all()

@@ -5,7 +5,7 @@ import pytest
 
 import suspension_ctrl as sc
 from suspension_ctrl.response.gradients.laws import fill_law_slopes, law_slopes_of
-from suspension_ctrl.response.gradients.mean_position import fill_mean_slopes, solve
+from suspension_ctrl.response.gradients.mean_position import fill_mean_slopes, solve, yielding_of
 from suspension_ctrl.response.mean_position import balance
 from suspension_ctrl.response.network_rows import DEVIATION, MEAN, STATES
 from suspension_ctrl.response.strut_data import networks_of
@@ -53,7 +53,7 @@ def test_means_move_as_those_of_differences(name):
         expected.append((4 * half - whole) / 3)
     state, slopes, means = state_at(start), law_slopes_of(networks), np.empty((len(laws), start.size))
     fill_law_slopes(networks, curve, start[: len(setting)], state, slopes)
-    fill_mean_slopes(networks, start[: len(setting)], nodes, position, slopes, means)
+    fill_mean_slopes(networks, start[: len(setting)], nodes, position, slopes, yielding_of(networks), means)
     means[:, : len(setting)] *= start[: len(setting)]
     assert np.abs(means).max() > 1e-3
     np.testing.assert_allclose(means, np.transpose(expected), rtol=1e-6, atol=1e-8)

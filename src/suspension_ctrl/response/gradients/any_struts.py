@@ -19,7 +19,7 @@ from ..network_rows import (
 )
 from ..working_point import Points
 from .many_struts import ENTRY, Loops, close, fill_force, fill_values, fold, loops_of, moments, set_to
-from .network_rows import Adjoint, adjoint_of, clear, pull, pull_share
+from .network_rows import Adjoint, adjoint_of, clear, fill_joints, pull, pull_share
 from .one_port import total_of
 from .wanted import Wanted, fill_weights
 from .working_point import (
@@ -46,13 +46,13 @@ def with_slopes(any_struts: AnyStruts, wanted: Wanted, designs: Real) -> tuple[R
     points = Points(np.empty((count, laws, STATES)), np.empty((count, q)), np.empty(count, dtype=np.int64))
     squares = solve(any_struts, designs, points) if laws > 0 else np.empty((count, struts.channel.size))
     settled, loops, added = settled_of(networks, n), loops_of(struts), np.empty(designs.shape[1])
-    adjoint, point = adjoint_of(networks, n), point_of(networks)
+    adjoint, point = adjoint_of(networks, n, True), point_of(networks)
     slopes, weight = np.empty((count, wanted.largest.size, designs.shape[1])), np.empty(wanted.factor.shape)
     for p in range(count):
         for v in range(added.size):
             added[v] = designs[p, v] - struts.origin[v]
         settle(networks, designs, p, points.state, settled)
-        close_networks(any_struts, loops, added, settled)
+        close_networks(any_struts, loops, added, settled, adjoint)
         for term in range(struts.channel.size if laws == 0 else 0):
             squares[p, term] = loops.found[struts.channel[term]]
         if laws > 0:
@@ -64,16 +64,17 @@ def with_slopes(any_struts: AnyStruts, wanted: Wanted, designs: Real) -> tuple[R
         for s in range(wanted.largest.size):
             clear(adjoint)
             fold(struts.channel, weight[s], loops.weight)
-            differentiate(any_struts, loops, settled, adjoint)
+            differentiate(any_struts, loops, adjoint)
             fill_slopes(networks, adjoint, point, slopes[p, s])
     return squares, slopes
 
 
 @uncounted()
-def close_networks(any_struts: AnyStruts, loops: Loops, added: Real, settled: Settled) -> None:
+def close_networks(any_struts: AnyStruts, loops: Loops, added: Real, settled: Settled, adjoint: Adjoint) -> None:
     """Solve the loops of all blocks for variables with values `added` (v,), and fill in responses."""
     struts, networks, direct = any_struts.struts, any_struts.networks, settled.direct
     fill_rows(networks, struts.omega, settled.values, direct, settled.rows)
+    fill_joints(networks, struts.omega, direct, settled.rows, adjoint)
     fill(loops.found, 0.0)
     for t in range(networks.root.size):
         direct[networks.root[t], STIFFNESS] -= any_struts.nominal[t, 0]
@@ -117,7 +118,7 @@ def differentiate_law(
     point.square[law] = total_of(share[1])
     if networks.law[law, IN_SERIES]:
         pull_share(networks, struts.omega, law, settled.direct, settled.rows, share[1], adjoint)
-    pull(networks, struts.omega, settled.direct, settled.rows, adjoint)
+    pull(networks, struts.omega, adjoint)
     keep_law(law, adjoint, point)
 
 
@@ -152,13 +153,13 @@ def weigh(member: float, share: Real, value: Real, weighed: Real) -> None:
 
 
 @uncounted(error_model="numpy")
-def differentiate(any_struts: AnyStruts, loops: Loops, settled: Settled, adjoint: Adjoint) -> None:
+def differentiate(any_struts: AnyStruts, loops: Loops, adjoint: Adjoint) -> None:
     """Add up the derivatives of a combination of mean squares by coefficients and slopes."""
     for b in range(loops.block.shape[0]):
         for source in range(loops.block[b, 1]):
             if fill_force(any_struts.struts, loops, b, source):
                 add_entries(any_struts, loops, b, source, adjoint)
-    pull(any_struts.networks, any_struts.struts.omega, settled.direct, settled.rows, adjoint)
+    pull(any_struts.networks, any_struts.struts.omega, adjoint)
 
 
 @uncounted()

@@ -10,8 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ...compiled import compilable, uncounted
-from ...quantities import Integer, Real
+from ...quantities import Bool, Integer, Real
 from ...vehicles.networks import INERTER, LAW, MEASURED, PARALLEL, RUBBER, SERIES
+from ..many_struts import add_product
 from ..network_rows import (
     COEFFICIENT,
     DAMPING,
@@ -28,10 +29,16 @@ from ..network_rows import (
     stiffness_at,
 )
 
+Elements = tuple[float, float, float, float]
+"""Direct elements of a node."""
+
 
 class Adjoint(NamedTuple):
     """Work arrays of one output at a time, over m nodes, c coefficients and l laws."""
 
+    joint: Integer  # (m,), row of a part in series
+    joints: Real  # (y, 2, n), r^2 (b/(a + b))^2 of these, once for a design
+    needed: Bool  # (m,), whether a variable or a law stands below a node
     place: Integer  # (m,), row of the adjoint of a node, 0 of a node below direct elements alone
     rows: Real  # (1 + x, 2, n), the first for any use
     moment: Real  # (m, 4), derivatives by the direct elements of a node
@@ -40,22 +47,57 @@ class Adjoint(NamedTuple):
 
 
 @compilable()
-def adjoint_of(networks: Networks, n: int) -> Adjoint:
-    """Return work arrays at n frequencies; each root has a row."""
-    nodes, last = networks.row.size, 0
-    place = np.empty(nodes, dtype=np.int64)
+def adjoint_of(networks: Networks, n: int, roots: bool) -> Adjoint:
+    """Return work arrays at n frequencies, with a row for every root or for those with parts in series alone."""
+    nodes, last, parts = networks.row.size, 0, 0
+    place, joint = np.empty(nodes, dtype=np.int64), np.zeros(nodes, dtype=np.int64)
     for i in range(nodes):
         place[i] = networks.row[i]
         last = max(last, place[i])
-    for t in range(networks.root.size):
+        for j in range(2 if networks.node[i, KIND] == SERIES else 0):
+            joint[networks.node[i, PART + j]] = parts
+            parts += 1
+    for t in range(networks.root.size if roots else 0):
         if place[networks.root[t]] == 0:
             last += 1
             place[networks.root[t]] = last
-    rows, moment = np.empty((1 + last, 2, n)), np.empty((nodes, DIRECT))
-    return Adjoint(place, rows, moment, np.empty(networks.setting.size), np.empty(networks.law.shape[0]))
+    rows, moment, joints = np.empty((1 + last, 2, n)), np.empty((nodes, DIRECT)), np.empty((parts, 2, n))
+    by_value, by_slope = np.empty(networks.setting.size), np.empty(networks.law.shape[0])
+    needed = np.zeros(nodes, dtype=np.bool_)
+    fill_needed(networks, needed)
+    return Adjoint(joint, joints, needed, place, rows, moment, by_value, by_slope)
 
 
 @uncounted()
+def fill_needed(networks: Networks, needed: Bool) -> None:
+    """Fill in below which nodes a variable or a law stands."""
+    node = networks.node
+    for i in range(needed.size):
+        needed[i] = node[i, KIND] == LAW
+        if node[i, KIND] >= PARALLEL:
+            needed[i] = needed[node[i, PART]] or needed[node[i, PART + 1]]
+        for v in range(networks.variable.size):
+            for j in range(2):
+                needed[i] |= node[i, COEFFICIENT + j] == networks.variable[v]
+
+
+@uncounted(error_model="numpy")
+def fill_joints(networks: Networks, omega: Real, direct: Real, rows: Real, adjoint: Adjoint) -> None:
+    """Fill in by what the adjoint of a node in series is multiplied for its parts."""
+    node, row = networks.node, networks.row
+    for i in range(row.size):
+        for j in range(2 if node[i, KIND] == SERIES else 0):
+            part, other = node[i, PART + j], node[i, PART + 1 - j]
+            joint, square = adjoint.joints[adjoint.joint[part]], networks.ratio[i] * networks.ratio[i]
+            if not adjoint.needed[part]:
+                continue
+            if row[part] == 0 and row[other] == 0:
+                fill_direct_joint(square, omega, elements(direct, part), elements(direct, other), joint)
+            else:
+                fill_joint(square, omega, direct, part, other, rows[row[part]], rows[row[other]], joint)
+
+
+@uncounted(forceinline=True)
 def clear(adjoint: Adjoint) -> None:
     """Begin with another output."""
     for i in range(adjoint.rows.shape[0]):
@@ -70,21 +112,22 @@ def clear(adjoint: Adjoint) -> None:
         adjoint.by_slope[i] = 0.0
 
 
-@uncounted(error_model="numpy")
-def pull(networks: Networks, omega: Real, direct: Real, rows: Real, adjoint: Adjoint) -> None:
+@uncounted(error_model="numpy", forceinline=True)
+def pull(networks: Networks, omega: Real, adjoint: Adjoint) -> None:
     """Carry the adjoints of the roots down to all nodes, and add up derivatives by coefficients and slopes."""
     node, ratio, place = networks.node, networks.ratio, adjoint.place
     for i in range(ratio.size - 1, -1, -1):
         kind, square, one, other = node[i, KIND], ratio[i] * ratio[i], node[i, PART], node[i, PART + 1]
         if kind == SERIES:
-            pull_part(square, omega, direct, rows, networks.row, i, one, other, adjoint)
-            pull_part(square, omega, direct, rows, networks.row, i, other, one, adjoint)
+            for j in range(2):
+                if adjoint.needed[node[i, PART + j]]:
+                    pull_part(omega, i, node[i, PART + j], adjoint)
         elif kind == MEASURED:
             own = networks.measured[node[i, COEFFICIENT + 1]]
             adjoint.by_value[node[i, COEFFICIENT]] += square * real_product(adjoint.rows[place[i]], own)
         else:
             if place[i] > 0:
-                add_moments(1.0, adjoint.rows[place[i]], omega, adjoint.moment[i])
+                add_moments(adjoint.rows[place[i]], omega, adjoint.moment[i])
             if kind == PARALLEL:
                 pull_beside(square, i, one, adjoint)
                 pull_beside(square, i, other, adjoint)
@@ -119,55 +162,47 @@ def pull_beside(square: float, i: int, part: int, adjoint: Adjoint) -> None:
             adjoint.moment[part, j] += square * adjoint.moment[i, j]
 
 
-@uncounted(error_model="numpy")
-def pull_part(
-    square: float,
-    omega: Real,
-    direct: Real,
-    rows: Real,
-    row: Integer,
-    i: int,
-    part: int,
-    other: int,
-    adjoint: Adjoint,
-) -> None:
+@uncounted()
+def pull_part(omega: Real, i: int, part: int, adjoint: Adjoint) -> None:
     """Hand the adjoint of a node on to one of its parts in series."""
-    above, own = adjoint.rows[adjoint.place[i]], adjoint.rows[adjoint.place[part]]
-    if adjoint.place[part] == 0:
-        for t in range(own.shape[1]):
-            own[0, t] = own[1, t] = 0.0
-    add_in_series(square, omega, direct, part, other, rows[row[part]], rows[row[other]], above, own)
-    if adjoint.place[part] == 0:
-        add_moments(1.0, own, omega, adjoint.moment[part])
+    above, joint = adjoint.rows[adjoint.place[i]], adjoint.joints[adjoint.joint[part]]
+    if adjoint.place[part] > 0:
+        add_product(1.0, above, joint, adjoint.rows[adjoint.place[part]])
+    else:
+        add_product_moments(above, joint, omega, adjoint.moment[part])
+
+
+# Fewer rows in a loop than below: the compiler can tell them apart, and vectorises it.
+@compilable(fastmath={"contract", "nsz"}, error_model="numpy")
+def fill_direct_joint(square: float, omega: Real, part: Elements, other: Elements, joint: Real) -> None:
+    """Fill in (b/(a + b))^2 times a squared ratio (2, n), of direct elements a in series with others b."""
+    (k, c, b, h), (k_2, c_2, b_2, h_2) = part, other
+    for t in range(omega.size):
+        w = omega[t]
+        re_2, im_2 = k_2 - b_2 * (w * w), h_2 + c_2 * w
+        x, y = k - b * (w * w) + re_2, h + c * w + im_2
+        inverse = 1.0 / (x * x + y * y)
+        re, im = (re_2 * x + im_2 * y) * inverse, (im_2 * x - re_2 * y) * inverse
+        joint[0, t], joint[1, t] = square * (re * re - im * im), 2.0 * square * re * im
 
 
 @compilable(fastmath={"contract", "nsz"}, error_model="numpy")
-def add_in_series(
-    square: float,
-    omega: Real,
-    direct: Real,
-    part: int,
-    other: int,
-    upper: Real,
-    lower: Real,
-    above: Real,
-    own: Real,
+def fill_joint(
+    square: float, omega: Real, direct: Real, part: int, other: int, upper: Real, lower: Real, joint: Real
 ) -> None:
-    """Add to the adjoint of a, in series with b, that above (2, n) times (b/(a + b))^2 and a squared ratio."""
+    """Fill in (b/(a + b))^2 times a squared ratio (2, n), of a part a in series with b."""
     first, second = elements(direct, part), elements(direct, other)
     for t in range(omega.size):
         a, b = stiffness_at(first, omega[t], upper, t)
         c, d = stiffness_at(second, omega[t], lower, t)
         x, y = a + c, b + d
-        size = x * x + y * y
-        re, im = (c * x + d * y) / size, (d * x - c * y) / size
-        real, imaginary = square * (re * re - im * im), 2.0 * square * re * im
-        own[0, t] += real * above[0, t] - imaginary * above[1, t]
-        own[1, t] += real * above[1, t] + imaginary * above[0, t]
+        inverse = 1.0 / (x * x + y * y)
+        re, im = (c * x + d * y) * inverse, (d * x - c * y) * inverse
+        joint[0, t], joint[1, t] = square * (re * re - im * im), 2.0 * square * re * im
 
 
 @compilable(fastmath={"reassoc", "contract", "nsz"})
-def add_moments(factor: float, row: Real, omega: Real, moment: Real) -> None:
+def add_moments(row: Real, omega: Real, moment: Real) -> None:
     """Add derivatives (4,) by stiffness, damping, inertance and loss of a node with an adjoint (2, n)."""
     re, im = row[0], row[1]
     stiffness, damping, inertance, loss = 0.0, 0.0, 0.0, 0.0
@@ -177,10 +212,27 @@ def add_moments(factor: float, row: Real, omega: Real, moment: Real) -> None:
         damping -= w * im[t]
         inertance -= w * w * re[t]
         loss -= im[t]
-    moment[STIFFNESS] += factor * stiffness
-    moment[DAMPING] += factor * damping
-    moment[INERTANCE] += factor * inertance
-    moment[LOSS] += factor * loss
+    moment[STIFFNESS] += stiffness
+    moment[DAMPING] += damping
+    moment[INERTANCE] += inertance
+    moment[LOSS] += loss
+
+
+@compilable(fastmath={"reassoc", "contract", "nsz"})
+def add_product_moments(left: Real, right: Real, omega: Real, moment: Real) -> None:
+    """Add the derivatives (4,) of a node whose adjoint is the product of two rows (2, n)."""
+    a, b, x, y = left[0], left[1], right[0], right[1]
+    stiffness, damping, inertance, loss = 0.0, 0.0, 0.0, 0.0
+    for t in range(omega.size):
+        w, re, im = omega[t], a[t] * x[t] - b[t] * y[t], a[t] * y[t] + b[t] * x[t]
+        stiffness += re
+        damping -= w * im
+        inertance -= w * w * re
+        loss -= im
+    moment[STIFFNESS] += stiffness
+    moment[DAMPING] += damping
+    moment[INERTANCE] += inertance
+    moment[LOSS] += loss
 
 
 @compilable(fastmath={"reassoc", "contract", "nsz"})
@@ -213,7 +265,7 @@ def pull_share(
                     upper, lower = rows[row[own]], rows[row[beside]]
                     add_of_share(omega, direct, own, beside, upper, lower, density, part == own, target)
                     if adjoint.place[part] == 0:
-                        add_moments(1.0, target, omega, adjoint.moment[part])
+                        add_moments(target, omega, adjoint.moment[part])
             own = i
 
 

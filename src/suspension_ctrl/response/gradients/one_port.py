@@ -3,11 +3,23 @@
 import numpy as np
 
 from ...compiled import compilable, compiled, uncounted
-from ...quantities import Integer, Real
-from ..network_rows import DIRECT, IN_SERIES, OF_RATE, STATES, fill, fill_rows, fill_share
+from ...quantities import Real
+from ..network_rows import (
+    DAMPING,
+    DIRECT,
+    IN_SERIES,
+    INERTANCE,
+    LOSS,
+    OF_RATE,
+    STATES,
+    STIFFNESS,
+    fill,
+    fill_rows,
+    fill_share,
+)
 from ..one_port import OnePort, add_terms, fill_gain, solve
 from ..working_point import Points
-from .network_rows import Adjoint, add_moments, adjoint_of, clear, pull, pull_share
+from .network_rows import Adjoint, add_moments, adjoint_of, clear, fill_joints, pull, pull_share
 from .wanted import Wanted, fill_weights
 from .working_point import (
     Point,
@@ -26,31 +38,58 @@ from .working_point import (
 def with_slopes(port: OnePort, wanted: Wanted, designs: Real) -> tuple[Real, Real]:
     """Return the mean squares (p, k) of designs (p, v), and the derivatives (p, s, v) of what is wanted.
 
-    NaN without a working point.
+    NaN without a working point. Outputs are the mean squares of laws, then what is wanted.
     """
     networks, n, count, laws = port.networks, port.omega.size, designs.shape[0], port.networks.law.shape[0]
     points = Points(np.empty((count, laws, STATES)), np.empty((count, 1)), np.empty(count, dtype=np.int64))
     squares = solve(port, designs, points) if laws > 0 else np.zeros((count, port.terms))
-    settled, adjoint, point = settled_of(networks, n), adjoint_of(networks, n), point_of(networks)
-    gain, numerator, beside = np.empty((4, n)), np.empty((4, n)), np.empty(DIRECT)
+    settled, adjoint, point = settled_of(networks, n), adjoint_of(networks, n, False), point_of(networks)
+    gain, beside, numerators = np.empty((4, n)), np.empty(DIRECT), numerators_of(port, wanted)
     slopes, weight = np.empty((count, wanted.largest.size, designs.shape[1])), np.empty(wanted.factor.shape)
     for p in range(count):
         settle(networks, designs, p, points.state, settled)
         close(port, settled, gain)
+        fill_joints(networks, port.omega, settled.direct, settled.rows, adjoint)
         if laws == 0:
             add_terms(port.numerators, port.term, port.power, gain, p, squares)
         else:
             fill_rise(networks, settled, point)
-            for law in range(laws):
-                differentiate_law(port, settled, gain, law, numerator, beside, adjoint, point)
-            settle_slopes(point)
         fill_weights(wanted, squares, p, weight)
-        for s in range(wanted.largest.size):
+        for output in range(laws + wanted.largest.size):
             clear(adjoint)
-            fill_numerator(port.numerators, port.term, port.power, weight[s], numerator)
-            differentiate(port, settled, gain, numerator, beside, adjoint)
-            fill_slopes(networks, adjoint, point, slopes[p, s])
+            s = output - laws
+            which = numerators.shape[0] - 1 if s < 0 else row_of(wanted, weight, s)
+            if s < 0:
+                fill_law(port, settled, gain, output, numerators[which, 0], adjoint, point)
+            elif s == 0 and laws > 0:
+                settle_slopes(point)
+            differentiate(port, gain, numerators[which], settled.share[1], beside, adjoint)
+            if s < 0:
+                keep_law(output, adjoint, point)
+            else:
+                fill_slopes(networks, adjoint, point, slopes[p, s])
     return squares, slopes
+
+
+@compilable()
+def numerators_of(port: OnePort, wanted: Wanted) -> Real:
+    """Return numerators (s k + 1, 4, n) of what is wanted: of sums, or of each term; the last are zeros."""
+    terms, found = port.terms, np.zeros((wanted.factor.size + 1, 4, port.omega.size))
+    for s in range(wanted.largest.size):
+        for q in range(port.power.size):
+            which = s * terms + (port.term[q] if wanted.largest[s] else 0)
+            for t in range(port.omega.size):
+                found[which, port.power[q], t] += wanted.factor[s, port.term[q]] * port.numerators[q, t]
+    return found
+
+
+@compilable()
+def row_of(wanted: Wanted, weight: Real, s: int) -> int:
+    """Return which of the numerators is that of a combination with weights (s, k)."""
+    terms, best = weight.shape[1], 0
+    for k in range(terms if wanted.largest[s] else 0):
+        best = k if weight[s, k] != 0.0 else best
+    return s * terms + best
 
 
 @uncounted(error_model="numpy")
@@ -64,75 +103,95 @@ def close(port: OnePort, settled: Settled, gain: Real) -> None:
     fill_gain(port.denominator, port.omega, direct, last, settled.rows, networks.row[last], gain)
 
 
-@uncounted(error_model="numpy")
-def differentiate_law(
-    port: OnePort,
-    settled: Settled,
-    gain: Real,
-    law: int,
-    numerator: Real,
-    beside: Real,
-    adjoint: Adjoint,
-    point: Point,
+@uncounted(error_model="numpy", forceinline=True)
+def fill_law(
+    port: OnePort, settled: Settled, gain: Real, law: int, numerator: Real, adjoint: Adjoint, point: Point
 ) -> None:
-    """Fill in the mean square of a law's own deflection or rate, and its derivatives."""
+    """Fill in the mean square of a law's own deflection or rate, its numerator (n,), and adjoints by its share."""
     networks, share, direct, rows = port.networks, settled.share[0], settled.direct, settled.rows
-    clear(adjoint)
     fill(share, networks.square[law])
     if networks.law[law, IN_SERIES]:
         fill_share(networks, port.omega, law, direct, rows, share)
-    fill_product(port.excitation[networks.law[law, OF_RATE]], share, numerator[0])
-    for power in range(1, 4):
-        fill(numerator[power], 0.0)
-    fill_product(numerator[0], gain[0], share)
+    fill_product(port.excitation[networks.law[law, OF_RATE]], share, numerator)
+    fill_product(numerator, gain[0], share)
     point.square[law] = total_of(share)
     if networks.law[law, IN_SERIES]:
         pull_share(networks, port.omega, law, direct, rows, share, adjoint)
-    differentiate(port, settled, gain, numerator, beside, adjoint)
-    keep_law(law, adjoint, point)
 
 
-@uncounted(error_model="numpy")
-def differentiate(
-    port: OnePort, settled: Settled, gain: Real, numerator: Real, beside: Real, adjoint: Adjoint
-) -> None:
+@uncounted(error_model="numpy", forceinline=True)
+def differentiate(port: OnePort, gain: Real, numerator: Real, value: Real, beside: Real, adjoint: Adjoint) -> None:
     """Add up the derivatives of an output by coefficients and slopes, by its numerator (4, n).
 
-    Works in those by the direct elements beside the network (4,).
+    Works in its summands (n,), and in the derivatives by direct elements beside the network (4,).
     """
     networks = port.networks
-    row = adjoint.rows[adjoint.place[networks.root[0]]]
-    add_adjoint(port.denominator, numerator, gain, row)
+    last = networks.root[0]
     fill(beside, 0.0)
-    add_moments(1.0, row, port.omega, beside)
-    pull(networks, port.omega, settled.direct, settled.rows, adjoint)
+    if adjoint.place[last] > 0:
+        row = adjoint.rows[adjoint.place[last]]
+        fill_adjoint(port.denominator, numerator, gain, value, row)
+        add_moments(row, port.omega, beside)
+    else:
+        add_port_moments(port.denominator, numerator, gain, port.omega, beside)
+        for i in range(DIRECT):
+            adjoint.moment[last, i] += beside[i]
+    pull(networks, port.omega, adjoint)
     for c in range(adjoint.by_value.size):
         adjoint.by_value[c] += networks.gain[c, 0, 0] * beside[networks.order[c]]
 
 
-@compilable(fastmath={"contract", "nsz"})
-def add_adjoint(denominator: Real, numerator: Real, gain: Real, row: Real) -> None:
-    """Add the adjoint of D (2, n) in the sum of N/|1 + c D|^2 with N of 1, Re D, Im D and |D|^2 (4, n)."""
-    for t in range(row.shape[1]):
-        one, re, im = gain[0, t], gain[1, t], gain[2, t]
+@compilable(fastmath={"reassoc", "contract", "nsz"})
+def add_port_moments(denominator: Real, numerator: Real, gain: Real, omega: Real, moment: Real) -> None:
+    """Add the derivatives (4,) by direct elements, as `fill_adjoint` and `add_moments` in one."""
+    stiffness, damping, inertance, loss = 0.0, 0.0, 0.0, 0.0
+    for t in range(omega.size):
+        one, re, im, w = gain[0, t], gain[1, t], gain[2, t], omega[t]
         value = numerator[0, t] * one + numerator[1, t] * re + numerator[2, t] * im + numerator[3, t] * gain[3, t]
-        row[0, t] += numerator[1, t] * one + 2.0 * numerator[3, t] * re
-        row[0, t] -= value * (denominator[1, t] * one + 2.0 * denominator[3, t] * re)
-        row[1, t] -= numerator[2, t] * one + 2.0 * numerator[3, t] * im
-        row[1, t] += value * (denominator[2, t] * one + 2.0 * denominator[3, t] * im)
+        twice = 2.0 * (numerator[3, t] - value * denominator[3, t])
+        by_re = (numerator[1, t] - value * denominator[1, t]) * one + twice * re
+        by_im = (numerator[2, t] - value * denominator[2, t]) * one + twice * im
+        stiffness += by_re
+        damping += w * by_im
+        inertance -= w * w * by_re
+        loss += by_im
+    moment[STIFFNESS] += stiffness
+    moment[DAMPING] += damping
+    moment[INERTANCE] += inertance
+    moment[LOSS] += loss
+
+
+# Rows few enough in a loop for the compiler to tell them apart: more are not vectorised.
+@compilable(fastmath={"contract", "nsz"})
+def fill_adjoint(denominator: Real, numerator: Real, gain: Real, value: Real, row: Real) -> None:
+    """Fill in the adjoint of D (2, n) in the sum of N/|1 + c D|^2 with N of 1, Re D, Im D and |D|^2 (4, n).
+
+    Works in the summands (n,).
+    """
+    n_0, n_re, n_im, n_d = numerator[0], numerator[1], numerator[2], numerator[3]
+    one, by_re, by_im, square = gain[0], gain[1], gain[2], gain[3]
+    for t in range(value.size):
+        value[t] = n_0[t] * one[t] + n_re[t] * by_re[t] + n_im[t] * by_im[t] + n_d[t] * square[t]
+    fill_slope(1.0, n_re, n_d, denominator[1], denominator[3], one, by_re, value, row[0])
+    fill_slope(-1.0, n_im, n_d, denominator[2], denominator[3], one, by_im, value, row[1])
 
 
 @compilable(fastmath={"contract", "nsz"})
-def fill_numerator(numerators: Real, term: Integer, power: Integer, weight: Real, numerator: Real) -> None:
-    """Fill in the numerator (4, n) of a combination of terms with weights (k,)."""
-    for i in range(numerator.shape[0]):
-        for t in range(numerator.shape[1]):
-            numerator[i, t] = 0.0
-    for q in range(power.size):
-        factor = weight[term[q]]
-        if factor != 0.0:
-            for t in range(numerator.shape[1]):
-                numerator[power[q], t] += factor * numerators[q, t]
+def fill_slope(
+    sign: float,
+    linear: Real,
+    quadratic: Real,
+    below: Real,
+    below_quadratic: Real,
+    one: Real,
+    by: Real,
+    value: Real,
+    row: Real,
+) -> None:
+    """Fill in the derivatives (n,) of ratios by a part of D, times a sign."""
+    for t in range(row.size):
+        own = linear[t] * one[t] + 2.0 * quadratic[t] * by[t]
+        row[t] = sign * (own - value[t] * (below[t] * one[t] + 2.0 * below_quadratic[t] * by[t]))
 
 
 @compilable()

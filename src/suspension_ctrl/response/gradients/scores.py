@@ -1,6 +1,6 @@
 """Derivatives of objectives and constraints, from those of the mean squares of every load case."""
 
-from typing import NamedTuple
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -11,13 +11,6 @@ from .stencils import by_stencils
 from .wanted import Wanted
 
 
-class _Rows(NamedTuple):
-    """What is wanted of the mean squares of each case, and the row of each score in it."""
-
-    wanted: tuple[Wanted, ...]
-    row: Integer  # (s,)
-
-
 def with_jacobian(scores: Scores, designs: Real, nodes: int, bounds: tuple[Real, Real]) -> tuple[Real, Real]:
     """Return the scores (p, s) of designs (p, v), and their derivatives (p, s, v) by the variables.
 
@@ -25,15 +18,19 @@ def with_jacobian(scores: Scores, designs: Real, nodes: int, bounds: tuple[Real,
     a function are differentiated by `by_stencils` within the lower and upper bounds (v,).
     """
     kernel = scores.kernel(nodes)
-    rows = _rows_of(kernel, not scores.compiled)
-    pairs = [with_slopes(case, one, designs) for case, one in zip(kernel.cases, rows.wanted, strict=True)]
+    combined, row = _combinations(kernel)
+    alone = [_of_functions(scores, c) for c in range(len(kernel.cases))]
+    each = zip(kernel.cases, combined, alone, strict=True)
+    pairs = [with_slopes(case, _with_rows(wanted, own), designs) for case, wanted, own in each]
     squares = [reached(found, designs) for found, _ in pairs]
     values = kernel.scores(squares)
     root = (values - kernel.offset) / kernel.scale
     half = np.divide(0.5 * kernel.scale, root, out=np.zeros_like(root), where=root > 0)
-    jacobian = half[:, :, None] * _total(kernel, squares, [slopes[:, rows.row] for _, slopes in pairs])
+    jacobian = half[:, :, None] * _total(kernel, squares, [slopes[:, row] for _, slopes in pairs])
     if not scores.compiled:
-        tangents = [slopes[:, rows.row.max() + 1 :] for _, slopes in pairs]
+        tangents = [np.zeros((*found.shape, designs.shape[1])) for found in squares]
+        for tangent, own, (_, slopes) in zip(tangents, alone, pairs, strict=True):
+            tangent[:, own] = slopes[:, slopes.shape[1] - len(own) :]
         scores.fill_functions(values, designs, nodes, squares)
         found = by_stencils(scores, designs, nodes, squares, tangents, values, bounds)
         by_function = [score.by_function for score in scores.scores]
@@ -41,14 +38,25 @@ def with_jacobian(scores: Scores, designs: Real, nodes: int, bounds: tuple[Real,
     return values, jacobian
 
 
-def _rows_of(kernel: Kernel, each: bool) -> _Rows:
-    """Return the different combinations of mean squares in scores, then `each` alone if asked for."""
+def _combinations(kernel: Kernel) -> tuple[list[Wanted], Integer]:
+    """Return the different combinations of mean squares in scores by case, and the one (s,) of each score."""
     keys = np.concatenate([*kernel.squares, kernel.worst_term[:, None]], axis=1)
     _, first, row = np.unique(keys, axis=0, return_index=True, return_inverse=True)
-    alone = np.eye(kernel.squares.shape[2] if each else 0, kernel.squares.shape[2])
-    largest = np.append(kernel.worst_term[first], np.zeros(len(alone), dtype=bool))
-    wanted = (Wanted(np.concatenate([squares[first], alone]), largest) for squares in kernel.squares)
-    return _Rows(tuple(wanted), row.ravel())
+    return [Wanted(squares[first], kernel.worst_term[first]) for squares in kernel.squares], row.ravel()
+
+
+def _of_functions(scores: Scores, case: int) -> list[int]:
+    """Return the mean squares of a case that measures by a function ask for."""
+    measures = (score.cases[case] for score in scores.scores if score.by_function)
+    terms = {term.integral: None for one in measures for term in one.terms}
+    return [scores.terms[case].index(term) for term in terms]
+
+
+def _with_rows(wanted: Wanted, alone: Sequence[int]) -> Wanted:
+    """Return what is wanted, and then some mean squares alone."""
+    unit = np.eye(wanted.factor.shape[1])[list(alone)]
+    factor = np.concatenate([wanted.factor, unit.reshape(len(alone), wanted.factor.shape[1])])
+    return Wanted(factor, np.append(wanted.largest, np.zeros(len(alone), dtype=bool)))
 
 
 def _total(kernel: Kernel, squares: list[Real], slopes: list[Real]) -> Real:

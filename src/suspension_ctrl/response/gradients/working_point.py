@@ -133,7 +133,7 @@ def settle_slopes(point: Point) -> None:
                 point.total[i, v] += point.rise[i, c + k] * point.deviation[k, v]
 
 
-@uncounted()
+@uncounted(forceinline=True)
 def fill_slopes(networks: Networks, adjoint: Adjoint, point: Point, slopes: Real) -> None:
     """Fill in the derivatives (v,) of an output by the variables, with the working point that moves with them."""
     for v in range(slopes.size):
