@@ -45,3 +45,37 @@ def test_a_document_has_no_nan_and_names_columns_once():
     assert table["records"] == [{"ACC [m/s^2]": None, "ACC [%]": None, "n": 3, "held": True}]
     assert table["units"] == {"ACC [m/s^2]": "m/s^2", "ACC [%]": "%"}
     assert json.loads(Report().document()) == {"folder": None, "paragraphs": [], "tables": []}
+
+
+LOADS = pd.DataFrame(
+    {"name": ["front_left_load", "front_right_load", "rear"], "value": [1500.0, 1500.0, 3.25], "n": [1, 1, 20]}
+)
+
+
+def rows_of(table: Table, *, plain: bool = True) -> list[list[str]]:
+    return [line.split() for line in table.lines(80, plain=plain)]
+
+
+def test_left_and_right_are_one_row_where_the_table_says_so_and_two_in_the_document():
+    table = Table("Loads", LOADS, {}, 1, False, sides=True)
+    assert rows_of(table)[2] == ["front_load", "(left", "and", "right)", "1500", "1"]
+    assert len(rows_of(table)) == len(rows_of(table._replace(sides=False))) - 1 == 4
+    assert [row["name"] for row in table.record()["records"]] == LOADS["name"].tolist()
+
+
+def test_decimals_are_those_given_or_each_number_has_its_own_where_units_differ():
+    """Of one unit the decimals of a column are those of its largest number."""
+    close = LOADS.assign(value=[12.5, 12.5, 3.25])
+    for table, decimals, cells in (
+        (close, {"value": 3}, ["12.500", "12.500", "3.250"]),
+        (close, {}, ["12.50", "12.50", "3.25"]),
+        (close.assign(unit="m"), {}, ["12.5", "12.5", "3.25"]),
+    ):
+        assert [row[1] for row in rows_of(Table("", table, decimals, 1, False))[2:]] == cells
+
+
+def test_numbers_stand_to_the_right_also_whole_ones_under_a_rule_of_the_form():
+    lines = list(Table("", LOADS, {}, 1, False).lines(80, plain=False))
+    assert [line[-2:] for line in lines[2:]] == [" 1", " 1", "20"]
+    assert set(lines[1]) == {"─"}
+    assert set(list(Table("", LOADS, {}, 1, False).lines(80, plain=True))[1]) == {"-"}
