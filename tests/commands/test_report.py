@@ -79,3 +79,13 @@ def test_numbers_stand_to_the_right_also_whole_ones_under_a_rule_of_the_form():
     assert [len(line) for line in lines] == [len(lines[1])] * 5  # all end under the last digit
     assert set(lines[1]) == {"─"}
     assert set(list(Table("", LOADS, {}, 1, False).lines(80, plain=True))[1]) == {"-"}
+
+
+def test_tables_and_paragraphs_stand_apart_and_names_are_printed_as_text():
+    """An empty line before and after a table, but not at the top; an empty paragraph is an empty line."""
+    table = Table("T", RIDE.assign(name=["\x1b[31mS", "D"]), {}, 1, False)
+    lines = text(Report(items=["one", "", table, "two", table]))
+    assert [n for n, line in enumerate(lines) if not line] == [1, 2, 8, 10]
+    assert lines[3] == lines[11] == "T"
+    assert not any("\x1b" in line for line in lines)
+    assert text(Report(items=[table]))[0] == "T"

@@ -25,6 +25,7 @@ from suspension_ctrl import (
 )
 from suspension_ctrl.vehicles.cars import SPRING_AND_DAMPER
 from suspension_ctrl.vehicles.mounted import Mounted
+from suspension_ctrl.vehicles.varied import ported
 
 LAW = parallel(
     Spring(), BumpStop(gap=0.03, stiffness=60e3), DigressiveDamper(low_speed=4e3, high_speed=800.0, knee=0.1)
@@ -166,6 +167,30 @@ def test_rejects_what_is_not_exact(car, bounds, measures, message):
         del struts["front.damper"]
     with pytest.raises(ValueError, match=f"^{message}$"):
         problem_of(car, bounds, struts, measures).evaluate([[0.6] * len(bounds)])
+
+
+def test_the_plant_with_the_responses_of_its_seat_is_refused_where_the_place_of_that_varies():
+    """Its travel is one of the responses that are taken if none are named; others are those of the fixed seat."""
+    car = DRIVER.on(FULL)
+    moved = ported(car, ("driver.x",), {}, car)
+    message = r"^driver_suspension_travel must be of a seat in a fixed place, got driver.x among the variables$"
+    with pytest.raises(ValueError, match=message):
+        moved.plant()
+    assert moved.plant(["driver_acceleration"]).output_labels[0] == "driver_acceleration"
+
+
+@pytest.mark.parametrize("varies", [True, False])
+def test_a_tyre_follows_the_hop_frequency_in_its_place(varies):
+    """Which varies, or is held while the spring varies: as of the vehicle built with that tyre, to 1e-10."""
+    hop = 11.0
+    bounds = {"spring": (1e4, 3e4)} | ({"wheel_hop_frequency": (9.0, 13.0)} if varies else {})
+    struts = {"damper": 1500.0} | ({} if varies else {"wheel_hop_frequency": hop})
+    problem = problem_of(QUARTER, bounds, struts, ("ACC", "DTL"), 256)
+    tyre = (2 * np.pi * hop) ** 2 * QUARTER.wheel_mass - 2e4  # spring and tyre carry the wheel
+    car = replace(QUARTER, tyre_stiffness=tyre)
+    plain = problem_of(car, {"spring": (1e4, 3e4)}, {"damper": 1500.0}, ("ACC", "DTL"), 256)
+    found = problem.evaluate([[2e4, hop] if varies else [2e4]])
+    np.testing.assert_allclose(found, plain.evaluate([[2e4]]), rtol=1e-10)
 
 
 LORRY = """
