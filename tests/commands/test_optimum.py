@@ -10,7 +10,7 @@ from suspension_ctrl import load_road, load_vehicle, ride, save_system
 
 FILES = {
     *("candidates.csv", "candidates.md", "front.csv", "front.png", "front.pdf", "changes.png", "changes.pdf"),
-    *("study.toml", "report.html", "candidates"),
+    *("study.toml", "report.html", "candidates", "attained.csv", "attainable.csv"),
 }  # fmt: skip
 QUICK = ("--population", 60, "--iterations", 5)
 OBJECTIVES = ["ACC [m/s^2]", "SWS [m]", "DTL [N]"]
@@ -82,6 +82,12 @@ def test_candidates_of_another_vehicle(called, tmp_path):
     assert [knee.setting[name] for name in file.bounds] == table.loc[3, names].tolist()
     front = pd.read_csv(folder / "front.csv")
     assert (front["SWS [m]"] <= 0.01 * (1 + 1e-6)).all()
+    shares = pd.read_csv(folder / "attained.csv", index_col="suspension")
+    own = table.loc[0, OBJECTIVES].tolist()
+    np.testing.assert_allclose(shares.loc["present design", OBJECTIVES], own, rtol=1e-9)
+    assert f"The passive optimum takes {shares['share [%]']['passive optimum']:.0f} % of" in done.stdout
+    active = pd.read_csv(folder / "attainable.csv")
+    assert set(active.controller) == {"LQR", "skyhook"}
     page = (folder / "candidates.md").read_text(encoding="utf-8")
     for text in (
         "20 m/s",
@@ -103,6 +109,8 @@ def test_candidates_of_force_laws(called, tmp_path):
     table = pd.read_csv(tmp_path / "out" / "candidates.csv")
     assert {"damper.knee [m/s]", "damper.rebound_over_bump", "heave damping [-]"} <= set(table.columns)
     assert "No limit is set. The front has ACC from" in done.stdout
+    assert "The passive optimum takes" in done.stdout
+    assert "skyhook" not in done.stdout  # which takes springs and dampers alone
 
 
 def test_candidates_of_a_plant_of_another_program_are_those_of_its_quarter_car(called, tmp_path):

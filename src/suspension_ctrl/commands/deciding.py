@@ -9,6 +9,7 @@ import pandas as pd
 
 from .. import checks
 from ..desk import figures
+from ..desk.active_beside import ActiveBeside
 from ..desk.candidate_scatter import parts_over_scatter
 from ..desk.candidate_table import PRESENT
 from ..desk.candidate_texts import decimals_of, markdown, parts_of
@@ -84,8 +85,9 @@ def carry_out(request: Request, out: Path | None) -> None:
     check_fits_file(study)
     with terminal.compiling(), terminal.waiting("searching"):
         decision = request.decide()
+        beside = ActiveBeside.of(study.problem, study.present)
     printed = [] if request.travel is None else tables5(request, request.travel)
-    said = [*introduced(study), *without_designs(decision, printed), *decision.describe()]
+    said = [*introduced(study), *without_designs(decision, printed), *decision.describe(), beside.text]
     folder = studies.folder_with(study, out)
     if printed:
         write_csv(folder / "table5.csv", pd.concat(printed))
@@ -94,9 +96,12 @@ def carry_out(request: Request, out: Path | None) -> None:
     write_text(folder / "candidates.md", markdown(study.name, parts, said))
     save_candidates(study.problem, decision.table, folder / "candidates", study.name)
     write_csv(folder / "front.csv", decision.run.front())
+    if beside.shares is not None and beside.fronts is not None:
+        write_csv(folder / "attained.csv", beside.shares.reset_index())
+        write_csv(folder / "attainable.csv", beside.fronts)
     write_text(folder / "report.html", page_of(study, decision, said))
     with terminal.waiting("drawing"):
-        draw(folder, decision, study.name)
+        draw(folder, decision, beside.fronts, study.name)
     show(said, printed, parts)
     terminal.end(folder)
 
@@ -123,8 +128,8 @@ def without_designs(decision: Decision, printed: Sequence[pd.DataFrame]) -> list
     return [f"Table 5 lacks designs {rows}: none is at the limit; the front has SWS of {have}."]
 
 
-def draw(folder: Path, decision: Decision, title: str) -> None:
-    """Write the front and, with a present design, the changes."""
+def draw(folder: Path, decision: Decision, fronts: pd.DataFrame | None, title: str) -> None:
+    """Write the front, before fronts of active suspensions if there are any, and with a present design changes."""
     problem, table = decision.problem, decision.table
     headers = dict(zip(problem.objectives, column_headers(problem.objectives, problem.units), strict=True))
     across = next((name for name in headers if problem.units[name] == "m"), next(reversed(headers)))
@@ -134,7 +139,9 @@ def draw(folder: Path, decision: Decision, title: str) -> None:
     )  # a limit is of the worst case
     limits = {headers[one.measure.label]: one.value for one in drawn if one.measure.label in headers}
     free = decision.free.front() if problem.constraints else pd.DataFrame()
-    write_figure(folder / "front", figures.front_figure(decision.run.front(), free, table, ordered, limits, title))
+    behind = fronts if fronts is not None and {*ordered} <= {*fronts} else None  # not of robust measures
+    front = figures.front_figure(decision.run.front(), free, table, ordered, limits, title, behind)
+    write_figure(folder / "front", front)
     if PRESENT in table.name.to_numpy():
         write_figure(folder / "changes", figures.changes_figure(table, problem.objectives, title))
 
