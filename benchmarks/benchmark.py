@@ -33,6 +33,7 @@ SETTINGS: dict[str, Any] = {
     "memory_designs": 1_000_000,
     "strut_nodes": 256,
     "strut_designs": {struts.QUARTER: 4000, struts.FULL: 400, struts.TRUCK: 400},
+    "derivative_cases": tuple(row.case for row in derivatives.ROWS),
     "populations": (500, 1000, 4000, 16_000),
     "generations": 20,
     "limit": 60.0,
@@ -55,6 +56,7 @@ QUICK = SETTINGS | {
     "designs": (1, 10, 1000),
     "evaluation_limit": 1.0,
     "strut_designs": {struts.QUARTER: 200, struts.FULL: 20, struts.TRUCK: 20},
+    "derivative_cases": ("quarter car", "full car"),  # others compile for long
     "populations": (100, 200),
     "generations": 2,
     "limit": 1.0,
@@ -124,7 +126,10 @@ def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summar
         ),
         struts=kept("struts", struts.measure(settings["strut_nodes"], settings["strut_designs"], repeats)),
         derivatives=kept(
-            "derivatives", derivatives.measure(settings["strut_nodes"], settings["strut_designs"], repeats)
+            "derivatives",
+            derivatives.measure(
+                settings["strut_nodes"], settings["strut_designs"], repeats, settings["derivative_cases"]
+            ),
         ),
         **measure_searches(settings, field, problem, kept),
         absent=field.absent,

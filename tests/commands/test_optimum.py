@@ -150,10 +150,10 @@ iterations = [2]
     done = called("optimum", "--study", "robust.toml", "--out", "out")
     assert done.returncode == 0, done.stderr
     shown = done.stdout
-    assert "Over the scatter\n" in shown
+    assert "Over a scatter of damper -25 to +10 %, 16 samples, seed 1\n" in shown
     assert "What changes each measure most, by 1 % more\n" in shown
     assert "Scatter: damper -25 to 10 %; 16 samples, seed 1." in shown
     assert any(re.search(r"damper [+-]\d", line) for line in shown.splitlines())
     page = (tmp_path / "out" / "candidates.md").read_text(encoding="utf-8")
-    assert "## Over the scatter" in page
+    assert "## Over a scatter of damper -25 to +10 %" in page
     assert "beyond SWS" in page

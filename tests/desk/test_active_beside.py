@@ -26,6 +26,10 @@ def test_the_share_is_told_with_its_values(problem):
         f"information {active}."
     )
     assert found.fronts.attrs["present"][0] == pytest.approx(values.iloc[0])
+    headers = ["ACC [m/s^2]", "SWS [m]", "DTL [N]"]
+    assert [*found.by_controller(headers)] == ["attainable, LQR", "attainable, skyhook"]
+    assert sum(map(len, found.by_controller(headers).values())) == len(found.fronts)
+    assert found.by_controller([*headers, "mean ACC [m/s^2]"]) == {}
 
 
 def test_without_it_the_reason_is_told(problem):

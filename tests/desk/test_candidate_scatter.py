@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from garage import DAMPED_QUARTER, QUARTER, ROAD
-from suspension_ctrl import Nsga2, RideProblem, Scatter, candidates, minimise, robustness
-from suspension_ctrl.desk.candidate_scatter import candidate_scatter, scatter_for
+from suspension_ctrl import Measure, Nsga2, RideProblem, Scatter, SpeedBump, candidates, minimise, robustness
+from suspension_ctrl.desk.candidate_scatter import candidate_scatter, parts_over_scatter, scatter_for
 
 BOUNDS = {"spring": (1e4, 3e4), "damper": (1e3, 4e3)}
+BUMP, PEAK = SpeedBump(height=0.05, length=2.0), "peak travel bump <= 0.2"
 
 
 @pytest.fixture(scope="module")
@@ -56,3 +57,21 @@ def test_a_problem_without_scatter_has_that_of_springs_and_dampers(problem):
         struts={"spring": 2e4, "damper": 1500.0},
     )
     assert scatter_for(tyre) == Scatter({"spring": 0.05, "damper": 0.15})
+
+
+def test_peaks_and_functions_of_python_have_no_scatter_but_their_own(problem):
+    heavy = Measure("heavy", "-", lambda frequency, spectra: 1.0)
+    for own in (
+        problem.replace(measures=["ACC", heavy]),
+        problem.replace(events={"bump": BUMP}, constraints=[PEAK]),
+    ):
+        assert scatter_for(own) is None
+        table = candidates(own, minimise(own, Nsga2(population=8), iterations=1, seed=1), count=2)
+        assert [*parts_over_scatter(own, table)] == ["What changes each measure most, by 1 % more"]
+
+
+def test_tables_tell_the_scatter(problem):
+    table = candidates(problem, minimise(problem, Nsga2(population=8), iterations=1, seed=1), count=2)
+    first, second = parts_over_scatter(problem, table)
+    assert first == "Over a scatter of spring -5 to +5 %, damper -15 to +15 %, 256 samples, seed 1"
+    assert second == "What changes each measure most, by 1 % more"

@@ -8,6 +8,7 @@ import pytest
 import suspension_ctrl as sc
 from garage import FULL, GEOMETRY, HALF, QUARTER, ROAD, struts_of
 from suspension_ctrl.response.measures.measure import Measure
+from suspension_ctrl.response.measures.robust import Robust
 from suspension_ctrl.response.trips import random_profile
 
 SPEED, BAND, LENGTH, SEEDS = 20.0, (0.1, 20.0), 1000.0, range(3)
@@ -191,7 +192,8 @@ def test_every_kind_of_measure_is_of_a_trip_an_event_or_the_design():
         roll_geometry=GEOMETRY,
         events={"bump": sc.SpeedBump(height=0.05, length=2.0)},
     )
-    for word in Measure.words:
+    nominal = [word for word, kind in Measure.words.items() if not issubclass(kind, Robust)]
+    for word in nominal:
         measure = Measure.parse(texts.get(word, word))
         found = measure.in_case(case, "Wk")
         in_time = bool(found.in_trip or found.in_event or not found.values)

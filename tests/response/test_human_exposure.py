@@ -126,7 +126,7 @@ def test_the_table_has_the_measures_of_each_axis():
     [
         (({}, STEP), {}, "accelerations must be a mapping by axis, got \\{\\}"),
         (([1.0], STEP), {}, "accelerations must be a mapping by axis, got \\[1.0\\]"),
-        (({"head z": sine(1.0)}, STEP), {}, "axis must be one of seat x, .*, got 'head z'"),
+        (({"head z": sine(1.0)}, STEP), {}, "axis must be one of hand z, seat z, .*, got 'head z'"),
         (({3: sine(1.0)}, STEP), {}, "axis must be one of seat x, .*, got 3"),
         (
             ({"z": sine(1.0), "seat z": sine(1.0)}, STEP),

@@ -216,7 +216,7 @@ PLAIN = {"vehicle": FULL, "road": ROAD, "speed": 30.0}
         ({**PLAIN, "nodes": 20}, "nodes must resolve every resonance in the box to 1e-06, got 20, which is off"),
         ({**PLAIN, "nodes": 2.5}, "nodes must be a whole number >= 2, got 2.5"),
         ({"cases": [CASES[0], replace(CASES[0], vehicle=HALF)]},
-         "setting must be one of front.spring, front.damper, rear.spring, rear.damper, front_tyre_stiffness, "),
+         "setting must be one of front.damping_ratio, front.spring, front.damper, rear.spring, rear.damper, "),
     ],
 )  # fmt: skip
 def test_rejects_bad_settings(changes, message):

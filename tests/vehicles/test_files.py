@@ -387,7 +387,7 @@ def test_keys_end_in_their_units(unit, key):
         ),
         (
             changed(HALF, "[struts.front]", "[struts.forward]"),
-            "struts.forward.spring_N_per_m must be one of the keys fr",
+            "struts.forward.spring_N_per_m must be one of the keys rear.spring_N_per_m, front.spring_N_per_m, ",
         ),
         (
             changed(HALF, "[struts.front]", "[struts.x]\n[struts.front]"),

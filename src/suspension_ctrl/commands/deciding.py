@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, NamedTuple, Self
 
 import pandas as pd
 
@@ -78,20 +78,42 @@ class Request:
         return Decision.of(study.problem, self.optimiser, **settings)
 
 
+class Findings(NamedTuple):
+    """A decision, what is attainable beside it, tables of the candidates by title, and sentences."""
+
+    decision: Decision
+    beside: ActiveBeside
+    parts: Mapping[str, pd.DataFrame]
+    said: list[str]
+
+    @classmethod
+    def of(cls, request: Request) -> Self:
+        """Search, choose and compare."""
+        study = request.study
+        with terminal.compiling(), terminal.waiting("searching"):
+            decision = request.decide()
+            beside = ActiveBeside.of(study.problem, study.present)
+            parts = parts_of(study.problem, decision.table) | parts_over_scatter(study.problem, decision.table)
+        return cls(decision, beside, parts, [*introduced(study), *decision.describe(), beside.text])
+
+    def page(self, study: StudyFile) -> str:
+        """Return the page for a browser."""
+        headers = column_headers(study.problem.objectives, study.problem.units)
+        return page_of(study, self.decision, self.said, self.parts, self.beside.by_controller(headers))
+
+
 def carry_out(request: Request, out: Path | None) -> None:
     """Search, write all files, then print."""
     results.check(out)
     study = request.study
     check_fits_file(study)
-    with terminal.compiling(), terminal.waiting("searching"):
-        decision = request.decide()
-        beside = ActiveBeside.of(study.problem, study.present)
+    found = Findings.of(request)
+    decision, beside, parts, said = found
     printed = [] if request.travel is None else tables5(request, request.travel)
-    said = [*introduced(study), *without_designs(decision, printed), *decision.describe(), beside.text]
+    said += without_designs(decision, printed)
     folder = studies.folder_with(study, out)
     if printed:
         write_csv(folder / "table5.csv", pd.concat(printed))
-    parts = parts_of(study.problem, decision.table) | parts_over_scatter(study.problem, decision.table)
     write_csv(folder / "candidates.csv", decision.table.reset_index())
     write_text(folder / "candidates.md", markdown(study.name, parts, said))
     save_candidates(study.problem, decision.table, folder / "candidates", study.name)
@@ -99,9 +121,9 @@ def carry_out(request: Request, out: Path | None) -> None:
     if beside.shares is not None and beside.fronts is not None:
         write_csv(folder / "attained.csv", beside.shares.reset_index())
         write_csv(folder / "attainable.csv", beside.fronts)
-    write_text(folder / "report.html", page_of(study, decision, said))
+    write_text(folder / "report.html", found.page(study))
     with terminal.waiting("drawing"):
-        draw(folder, decision, beside.fronts, study.name)
+        draw(folder, decision, beside, study.name)
     show(said, printed, parts)
     terminal.end(folder)
 
@@ -128,7 +150,7 @@ def without_designs(decision: Decision, printed: Sequence[pd.DataFrame]) -> list
     return [f"Table 5 lacks designs {rows}: none is at the limit; the front has SWS of {have}."]
 
 
-def draw(folder: Path, decision: Decision, fronts: pd.DataFrame | None, title: str) -> None:
+def draw(folder: Path, decision: Decision, beside: ActiveBeside, title: str) -> None:
     """Write the front, before fronts of active suspensions if there are any, and with a present design changes."""
     problem, table = decision.problem, decision.table
     headers = dict(zip(problem.objectives, column_headers(problem.objectives, problem.units), strict=True))
@@ -139,7 +161,7 @@ def draw(folder: Path, decision: Decision, fronts: pd.DataFrame | None, title: s
     )  # a limit is of the worst case
     limits = {headers[one.measure.label]: one.value for one in drawn if one.measure.label in headers}
     free = decision.free.front() if problem.constraints else pd.DataFrame()
-    behind = fronts if fronts is not None and {*ordered} <= {*fronts} else None  # not of robust measures
+    behind = beside.fronts if beside.by_controller(ordered) else None
     front = figures.front_figure(decision.run.front(), free, table, ordered, limits, title, behind)
     write_figure(folder / "front", front)
     if PRESENT in table.name.to_numpy():

@@ -17,7 +17,6 @@ def report(
     present design; sliders of the variables move measures and curves. Writes the page and the resolved study to a
     folder; its path is the last line printed.
     """
-    from ..desk.explorer.page_file import page_of
     from ..tables import write_text
     from . import deciding, results, studies, terminal
 
@@ -26,12 +25,9 @@ def report(
         study=study, allow_outside=allow_outside, seed=seed, populations=population, iterations=iterations,
         search=deciding.SEARCH,
     )  # fmt: skip
-    request = deciding.Request(chosen)
-    with terminal.compiling(), terminal.waiting("searching"):
-        decision = request.decide()
-    said = [*deciding.introduced(chosen), *decision.describe()]
+    found = deciding.Findings.of(deciding.Request(chosen))
     folder = studies.folder_with(chosen, out)
-    write_text(folder / "report.html", page_of(chosen, decision, said))
-    for line in said:
+    write_text(folder / "report.html", found.page(chosen))
+    for line in found.said:
         terminal.note(line)
     terminal.end(folder)

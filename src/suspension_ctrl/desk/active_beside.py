@@ -1,5 +1,6 @@
 """Active suspensions beside a decision: the share that passive ones take in a sentence, and fronts to draw."""
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, NamedTuple, Self
 
 from ..response.problem import RideProblem
@@ -29,6 +30,12 @@ class ActiveBeside(NamedTuple):
             return cls(_text(problem.nominal, shares), shares, attainable(problem, present=present))
         except ValueError as error:
             return cls(f"What is attainable is not told: {error}.")
+
+    def by_controller(self, headers: Iterable[str]) -> "dict[str, pd.DataFrame]":
+        """Return the front of each controller, none where it lacks one of the headers: of robust measures."""
+        if self.fronts is None or not {*headers} <= {*self.fronts}:
+            return {}
+        return {f"attainable, {name}": part for name, part in self.fronts.groupby("controller", sort=False)}
 
 
 def _text(problem: RideProblem, shares: "pd.DataFrame") -> str:

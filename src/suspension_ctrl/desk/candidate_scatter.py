@@ -6,6 +6,8 @@ import numpy as np
 
 from ..quantities import column_headers
 from ..response.measures.limits import Limit
+from ..response.measures.measure import OwnMeasure
+from ..response.measures.peak import Peak
 from ..response.measures.robust import of_quantile
 from ..response.problem import RideProblem
 from ..response.scatter import Scatter, fits
@@ -20,11 +22,16 @@ if TYPE_CHECKING:
 
 _USUAL = {"spring": 0.05, "damper": 0.15}  # in production, where a problem has no scatter of its own
 _LEVEL = 95.0
+_SLOW = (Peak, OwnMeasure)
 
 
 def scatter_for(problem: RideProblem) -> Scatter | None:
-    """Return the scatter of a problem, else ±5 % of springs and ±15 % of dampers; None if there are neither."""
-    if problem.scatter:
+    """Return the scatter of a problem, else ±5 % of springs and ±15 % of dampers; None if there are neither.
+
+    None too where peaks or functions of Python would take minutes for all samples.
+    """
+    judged = [*problem.measures, *(limit.measure for limit in problem.constraints)]
+    if problem.scatter or any(isinstance(one, _SLOW) for one in judged):
         return problem.scatter
     known = names_of(problem.cases, problem.variables, coefficients_by_name(problem.struts, {}))
     usual = {name: share for name, share in _USUAL.items() if any(fits(name, one) for one in known)}
@@ -52,11 +59,14 @@ def candidate_scatter(problem: RideProblem, table: "pd.DataFrame", scatter: Scat
 
 
 def parts_over_scatter(problem: RideProblem, table: "pd.DataFrame") -> dict[str, "pd.DataFrame"]:
-    """Return tables of candidates over the scatter of a problem and of what changes them, none without scatter."""
-    if problem.scatter is None:
-        return {}
-    titles = {
-        "Over the scatter": candidate_scatter(problem, table, problem.scatter),
-        "What changes each measure most, by 1 % more": candidate_slopes(problem, table),
-    }
+    """Return tables of candidates over a scatter, of the problem or of production, and of what changes them."""
+    titles = {}
+    if scatter := scatter_for(problem):
+        titles[_title(scatter)] = candidate_scatter(problem, table, scatter)
+    titles["What changes each measure most, by 1 % more"] = candidate_slopes(problem, table)
     return {title: one.rename_axis("no.").reset_index() for title, one in titles.items()}
+
+
+def _title(scatter: Scatter) -> str:
+    spread = (f"{name} {100 * low:+g} to {100 * high:+g} %" for name, (low, high) in scatter.intervals.items())
+    return f"Over a scatter of {', '.join(spread)}, {scatter.samples} samples, seed {scatter.seed}"

@@ -24,6 +24,7 @@ from suspension_ctrl import (
     parallel,
     series,
 )  # fmt: skip
+from suspension_ctrl.desk.candidate_texts import parts_of
 from suspension_ctrl.desk.decision import Decision
 from suspension_ctrl.desk.explorer.page_file import page_of
 from suspension_ctrl.desk.explorer.record import Column, columns_of
@@ -65,7 +66,8 @@ def searched(study: StudyFile) -> str:
         if not present
         else minimise(problem.replace(constraints=()), Nsga2(population=20), iterations=1, seed=1)
     )
-    return page_of(study, Decision(problem, run, free, table), ["Said: <b>bold</b>."])
+    decision = Decision(problem, run, free, table)
+    return page_of(study, decision, ["Said: <b>bold</b>."], parts_of(problem, table))
 
 
 def studies() -> dict[str, StudyFile]:

@@ -10,6 +10,7 @@ import pytest
 
 import suspension_ctrl.desk.explorer.page_file
 from suspension_ctrl import Nsga2, load_study
+from suspension_ctrl.desk.candidate_texts import parts_of
 from suspension_ctrl.desk.decision import Decision
 from suspension_ctrl.desk.explorer.page_file import page_of
 
@@ -21,7 +22,7 @@ PUBLISHED = "4ac841837b31c1bfd2ab140e3a248ddcc6c2106978fbf2c1c18a7aada930a37a"  
 def page() -> str:
     study = load_study("paper")
     decision = Decision.of(study.problem, Nsga2(population=40), iterations=2, seed=1, present=study.present)
-    return page_of(study, decision, ["a < b"])
+    return page_of(study, decision, ["a < b"], parts_of(decision.problem, decision.table))
 
 
 def test_the_plotting_library_is_the_published_one():

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from ... import checks
 from ...response.problem import RideProblem
 from ..candidate_table import Present, candidates, design_of
+from ..candidate_texts import parts_of
 from ..decision import Decision
 from ..study_files import StudyFile
 from .page_file import page_of
@@ -81,4 +82,6 @@ def explore(problem: RideProblem, run: "Run", *, present: Present | None = None,
         {} if present is None else dict(zip(problem.variables, design_of(problem, present).tolist(), strict=True))
     )
     study = StudyFile(problem=problem, name=title, present=own)
-    return Page(title, page_of(study, Decision(problem, run, run, table), problem.describe()))
+    return Page(
+        title, page_of(study, Decision(problem, run, run, table), problem.describe(), parts_of(problem, table))
+    )

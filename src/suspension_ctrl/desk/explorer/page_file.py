@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from ... import checks, escaping
 from ...tables.headers import readable
 from ...tables.rounding import rounded
-from ..candidate_texts import decimals_of, parts_of
+from ..candidate_texts import decimals_of
 from ..decision import Decision
 from ..study_files import StudyFile
 from .bundling import bundled
@@ -28,9 +28,10 @@ def page_of(
     study: StudyFile,
     decision: Decision,
     said: Sequence[str],
+    parts: "Mapping[str, pd.DataFrame]",
     others: "Mapping[str, pd.DataFrame] | None" = None,
 ) -> str:
-    """Return the page of a study and its decision as HTML; `said` are sentences to stand above.
+    """Return the page of a study and its decision as HTML, with sentences `said` and tables by title.
 
     Beside the front stands that without limits, if it was searched, and others by name, tables with a column for
     each objective.
@@ -49,7 +50,7 @@ def page_of(
     return environment.from_string(_text("page.html.jinja")).render(
         title=study.name,
         said=said,
-        tables=[_table(title, part) for title, part in parts_of(decision.problem, decision.table).items()],
+        tables=[_table(title, part) for title, part in parts.items()],
         record=json.dumps(record_of(study, decision, {**free, **(others or {})}), allow_nan=False),
         style=Markup(_text("page.css")),
         script=Markup(script),
