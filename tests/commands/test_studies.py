@@ -129,7 +129,7 @@ def test_the_study_of_a_comparison_makes_the_same_fronts_bit_for_bit(called, tmp
 
 
 QUICK = {
-    "optimum": ("--population", 60, "--iterations", 4),
+    "optimum": ("--population", 40, "--iterations", 2),
     "compare": ("--populations", 20, "--iterations", 1, "--repeats", 1, "--algorithms", "nsga2,sobol"),
 }
 

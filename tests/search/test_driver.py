@@ -288,10 +288,10 @@ def test_callbacks_get_the_run_so_far_and_may_end_it(optimiser):
 
 def test_seconds_end_a_search_alone_or_beside_another_budget():
     problem = Problem(evaluate=slow, lower=(0.0,) * 4, upper=(1.0,) * 4, objectives=("f1", "f2"))
-    alone = minimise(problem, Nsga2(population=8), seconds=0.2, seed=0)  # an evaluation takes 0.03 s
-    assert 2 <= len(alone.history) <= 9
-    beside = minimise(problem, Nsga2(population=8), iterations=10**6, seconds=0.1, seed=0)
-    assert 2 <= len(beside.history) <= 6
+    alone = minimise(problem, Nsga2(population=8), seconds=0.1, seed=0)  # an evaluation takes 0.01 s
+    assert 2 <= len(alone.history) <= 13
+    beside = minimise(problem, Nsga2(population=8), iterations=10**6, seconds=0.05, seed=0)
+    assert 2 <= len(beside.history) <= 8
     assert len(minimise(problem, Nsga2(population=8), evaluations=24, seconds=60.0, seed=0).history) == 3
     with pytest.raises(ValueError, match=r"^seconds must be finite and > 0 s, got 0$"):
         minimise(problem, Nsga2(population=8), seconds=0)
