@@ -12,11 +12,13 @@ from .slope_table import STEP
 if TYPE_CHECKING:
     import pandas as pd
 
+_SHOWN = 0.005  # least change that is not 0.00 % [%]
+
 
 def candidate_slopes(problem: RideProblem, table: "pd.DataFrame") -> "pd.DataFrame":
     """Return by candidate the variable that changes each measure of the nominal vehicle most, and by how much.
 
-    Changes are by 1 % more of a variable.
+    Changes are by 1 % more of a variable; at an optimum of the measure there may be none.
     """
     import pandas as pd
 
@@ -32,7 +34,7 @@ def candidate_slopes(problem: RideProblem, table: "pd.DataFrame") -> "pd.DataFra
         shares = wide.measures[k].sign * changes[:, k] / np.where(size > 0, size, np.nan)
         most = np.nan_to_num(np.abs(shares)).argmax(axis=1)
         columns[f"{label} by 1 % more"] = [
-            f"{name} {share:+.2f} %"
+            f"{name} {share:+.2f} %" if abs(share) >= _SHOWN else "none"
             for name, share in zip(names[most], shares[np.arange(len(most)), most], strict=True)
         ]
     return pd.DataFrame(columns, index=table.index)
