@@ -18,7 +18,7 @@ from suspension_ctrl.paper import experiment as paper
 Script = Callable[..., subprocess.CompletedProcess]
 
 # Examples are drawn from a fixed stream, so that a failure can be had again; timings of examples say nothing here.
-settings.register_profile("suspension_ctrl", deadline=None, derandomize=True)
+settings.register_profile("suspension_ctrl", deadline=None, derandomize=True, max_examples=50)
 settings.load_profile("suspension_ctrl")
 
 
