@@ -84,7 +84,7 @@ def masked(text: str) -> str:
 
 
 CHANGE = re.compile(r"^ *\d+  .*(?:[+-]\d+\.\d\d %|none) *$", re.MULTILINE)
-"""A row of what changes measures most: at an optimum two wheels are the worst, and rounding decides between them."""
+"""A row of what changes measures most: of two wheels that are the worst at an optimum rounding decides."""
 
 
 def without_numbers(text: str) -> str:
