@@ -43,7 +43,7 @@ def jacobian(problem: RideProblem, design: np.ndarray, of: slice = slice(None)) 
 def scores(problem: RideProblem, design: np.ndarray) -> np.ndarray:
     """Return the objectives and constraints (m + c,) at a complex design (d,)."""
     judged = [*problem.measures, *problem.constraints]
-    by_case = [problem.in_cases(one) for one in judged]
+    by_case = [problem.scoring.in_cases(one) for one in judged]
     found = np.array(
         [_squares(problem, c, [one[c] for one in by_case], design) for c in range(len(problem.cases))]
     )

@@ -88,7 +88,7 @@ class Writer:
             places = dict.fromkeys(place for wheels in cases for place in wheels)
             return Row(self._worst(list(places), measure.sign))
         shares = np.array([case.share for case in problem.cases])
-        judged = problem.in_cases(measure)[0]
+        judged = problem.scoring.in_cases(measure)[0]
         weights = dict[int, float]()
         for wheels, share in zip(cases, (shares / shares.sum()).tolist(), strict=True):
             (place,) = self._worst(wheels, 1.0)

@@ -124,7 +124,7 @@ def sampled(problem: RideProblem, designs: Real, scatter: Scatter) -> Sampled:
             known[name].check(name, value)
     measures = dict.fromkeys(one.nominal for one in problem.measures)
     judged: list[Measure | Limit] = [*measures, *problem.constraints]
-    scores = problem.scattered(judged, scatter)
+    scores = problem.scoring.scattered(judged, scatter)
     nodes = nodes_at(scores, designs, problem.nodes)
     return Sampled(judged, scores.nominal(designs, nodes), scores.samples(designs, nodes), scatter)
 

@@ -133,7 +133,7 @@ def slopes_at(problem: RideProblem, design: Present) -> Slopes:
     wide = reaching(problem.nominal, x)
     known = names_of(wide.cases, wide.variables, coefficients_by_name(wide.struts, {}))
     judged = _judged(wide)
-    scores = wide.scattered(judged, Scatter(dict.fromkeys(known, STEP), samples=1))
+    scores = wide.scoring.scattered(judged, Scatter(dict.fromkeys(known, STEP), samples=1))
     z, values, jacobian = _derivatives(scores, x, nodes_at(scores, x[None], wide.nodes))
     own = slopes_of(scores.scattered.formulas, x[None])[0]
     steps = np.where(x == 0, np.subtract(wide.upper, wide.lower), x)

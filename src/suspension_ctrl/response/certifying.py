@@ -18,6 +18,7 @@ from .measures.gaussian import Bottoming, Lift, Topping
 from .measures.limits import Limit
 from .measures.measure import Measure
 from .measures.terms import CaseMeasure, Term
+from .parameters_at import without_parameters
 from .problem import RideProblem
 from .scores import Score, Scores
 from .trips import Trip, random_profile, trip
@@ -103,9 +104,11 @@ def certify(
     checks.rows_within("design", x, problem.lower, problem.upper)
     roads = _Roads(float(length), _checked_seeds(seeds), lift_off)
     _check_length(problem, length)
-    variables, (problem, values) = problem.variables, problem.without_parameters(x[0])
+    variables, (problem, values) = problem.variables, without_parameters(problem, x[0])
     measures = _measures(problem)
-    scores = problem.scores_of([Score(problem.in_cases(one), problem.worst_case, one.sign) for one in measures])
+    scores = problem.scoring.scores_of(
+        [Score(problem.scoring.in_cases(one), problem.worst_case, one.sign) for one in measures]
+    )
     found = [_found(problem, scores, c, values, roads) for c in range(len(problem.cases))]
     rows = [row for c, values in enumerate(found) for row in _rows(str(c + 1), measures, scores.scores, values)]
     if len(found) > 1:
@@ -193,7 +196,7 @@ def _measures(problem: RideProblem) -> list[Measure]:
     found = list(dict.fromkeys([*problem.measures, *(limit.measure for limit in problem.constraints)]))
     for one in (Bottoming(), Topping(), Lift()):
         with suppress(ValueError):
-            problem.in_cases(one)
+            problem.scoring.in_cases(one)
             found += [one] if one not in found else []
     return found
 

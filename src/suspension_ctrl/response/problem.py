@@ -1,10 +1,9 @@
 """The ride problem: measures of a vehicle by coefficients of its struts, in load cases, within limits."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from itertools import product
 from typing import Any
 
 import control
@@ -12,12 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import checks
-from ..quantities import FrozenMapping, Real, Record, wrapped
-from ..tables.headers import shown_range, shown_unit
-from ..vehicles.altered import plain_values
+from ..quantities import FrozenMapping, Real, Record
 from ..vehicles.unit_slips import warn_of_slip
-from ..vehicles.varied import Varied, ported, setting_of
-from ..vehicles.vehicle import Struts, Vehicle, coefficients_by_name
+from ..vehicles.vehicle import Struts, Vehicle
 from .bands import OwnBand, band_of
 from .bounds import checked_bounds
 from .gradients.robust_scores import over_scatter
@@ -25,15 +21,12 @@ from .gradients.scores import with_jacobian
 from .load_case import LoadCase, Road, load_cases
 from .measures.limits import Limit
 from .measures.measure import Measure, MeasureLike, measure_of
-from .measures.robust import Robust
-from .measures.terms import CaseMeasure
-from .robust_scores import RobustKernel, RobustScores, ScatteredScores, Statistics
+from .problem_texts import representation, sentences, sentences_of_cases
+from .robust_scores import RobustKernel
 from .scatter import Scatter, Tolerance, scatter_of
-from .scattered import Scattered
-from .scores import NODES, RESOLVED, Kernel, Score, Scores
+from .scores import Kernel, Scores
+from .scoring import Scoring
 from .weightings import Weighting, checked
-
-_CORNERS = 64  # most corners of the box at which nodes are checked, drawn at random from more
 
 
 class _Found(int):
@@ -165,7 +158,9 @@ class RideProblem(Record):
         self._keep(constraints=tuple(limits))
         self._keep(kinds=FrozenMapping(checks.kinds(kinds or {}, self.variables, self.lower, self.upper)))
         self._warn_of_slips()
-        self._keep(nodes=self._resolving(None if isinstance(nodes, _Found) else nodes))
+        given = None if isinstance(nodes, _Found) else nodes
+        taken = self.scoring.resolving(given)
+        self._keep(nodes=_Found(taken) if given is None else taken)
 
     def replace(self, **changes: Any) -> "RideProblem":
         """Return the problem with other parameters, as `dataclasses.replace`; nodes not given are found anew."""
@@ -248,8 +243,8 @@ class RideProblem(Record):
             the violation as a share of the limit.
         """
         x = self._inside(designs)
-        values = self._scores.evaluate(x, self.nodes)
-        return self._robust.put(values, x, self.nodes) if self._robust else values
+        values = self.scores.evaluate(x, self.nodes)
+        return self.scoring.robust.put(values, x, self.nodes) if self.scoring.robust else values
 
     def jacobian(self, designs: ArrayLike) -> Real:
         """Return the derivatives of the objectives and constraints by the variables.
@@ -301,155 +296,37 @@ class RideProblem(Record):
         The values are those of `evaluate` but for rounding.
         """
         x = self._inside(designs)
-        found = with_jacobian(self._scores, x, self.nodes, (np.array(self.lower), np.array(self.upper)))
-        return over_scatter(self._robust, *found, x, self.nodes) if self._robust else found
+        found = with_jacobian(self.scores, x, self.nodes, (np.array(self.lower), np.array(self.upper)))
+        return over_scatter(self.scoring.robust, *found, x, self.nodes) if self.scoring.robust else found
 
     @cached_property
     def kernel(self) -> Kernel | RobustKernel | None:
         """The compiled evaluation of one design; None with measures of handling or of a user's own."""
-        if not self._scores.compiled:
+        if not self.scores.compiled:
             return None
-        nominal = self._scores.kernel(self.nodes)
-        return self._robust.kernel(nominal, self.nodes) if self._robust else nominal
+        nominal = self.scores.kernel(self.nodes)
+        return self.scoring.robust.kernel(nominal, self.nodes) if self.scoring.robust else nominal
 
     @property
     def scores(self) -> Scores:
         """The scores of designs at any number of nodes: of each measure, then of each limit."""
-        return self._scores
+        return self.scoring.scores
+
+    @cached_property
+    def scoring(self) -> Scoring:
+        """What designs are judged by."""
+        return Scoring(**{one.name: getattr(self, one.name) for one in fields(Scoring)})
 
     def describe(self) -> list[str]:
         """Return variables, limits and load cases in sentences, a line each."""
-        lines = [f"Varied: {'; '.join(self._varied())}."]
-        lines += [f"Limits: {', '.join(one.describe() for one in self.constraints)}."] if self.constraints else []
-        if len(self.cases) > 1:
-            how = "their worst" if self.worst_case else "their mean square by shares"
-            lines.append(f"Objectives are over {len(self.cases)} load cases, {how}; limits hold in each.")
-        lines += [f"Scatter: {self.scatter.describe()}."] if self.scatter else []
-        return lines + self.describe_cases()
+        return sentences(self)
 
     def describe_cases(self) -> list[str]:
         """Return the road and the speed of each load case, a line each; a road in common once."""
-        first, *others = self.cases
-        if not others:
-            return [f"Road: {first.describe()}."]
-        common = all(case.road == first.road for case in others)
-        told = (f"{case.speed:.4g} m/s" if common else case.describe() for case in self.cases)
-        lines = [
-            f"Case {n}, share {case.share:g}: {text}."
-            for n, (case, text) in enumerate(zip(self.cases, told, strict=True), start=1)
-        ]
-        return [f"Road of all cases: {first.describe_road()}.", *lines] if common else lines
+        return sentences_of_cases(self)
 
     def __repr__(self) -> str:
-        parts = [
-            ", ".join(f"{name} [{self.units[name]}]" for name in self.objectives),
-            *map(str, self.constraints),
-            *self._variables(),
-            *([f"scatter {self.scatter.describe()}"] if self.scatter else []),
-            *(f"{type(case.vehicle).__name__} at {case.speed:g} m/s" for case in self.cases),
-            f"{self.band[0]:g} to {self.band[1]:g} Hz, weighting {self.weighting}, {self.nodes} nodes",
-        ]
-        return wrapped(f"RideProblem({'; '.join(parts)})")
-
-    def _varied(self) -> Iterator[str]:
-        """Yield the text of each variable in units to read: bounds and kind, or the values of a catalogue."""
-        for name, (low, high) in self.bounds.items():
-            kind, unit = self.kinds.get(name, ""), self.units[name]
-            if isinstance(kind, str):
-                yield f"{name} {shown_range(low, high, unit)}" + (kind and f", {kind}")
-            else:
-                shown, factor = shown_unit(unit)
-                yield f"{name} of {', '.join(f'{factor * value:.4g}' for value in kind)} {shown}".rstrip()
-
-    def _variables(self) -> Iterator[str]:
-        """Yield the text of each variable: bounds and kind, or catalogue."""
-        for name, (low, high) in self.bounds.items():
-            unit, kind = self.units[name], self.kinds.get(name, "")
-            if isinstance(kind, str):
-                yield f"{name} {low:g} to {high:g} {unit}".rstrip() + (kind and f", {kind}")
-            else:
-                yield f"{name} {', '.join(f'{value:g}' for value in kind)} {unit}"
-
-    def _common(self, name: str) -> Any:
-        first, *others = (getattr(case, name) for case in self.cases)
-        if any(other != first for other in others):
-            raise AttributeError(f"{name} differs between load cases, see cases")
-        return first
-
-    def _resolving(self, nodes: int | None) -> int:
-        """Return the nodes, found if not given; ValueError where they do not resolve every resonance."""
-        if nodes is not None:
-            nodes = checks.at_least("nodes", nodes, 2)
-        taken = nodes or next((n for n in NODES if self._error(n) < RESOLVED), NODES[-1])
-        if (error := self._error(taken)) < RESOLVED:
-            return taken if nodes else _Found(taken)
-        several = any(case.wheels > 1 for case in self.cases) and not self.band[0]
-        hint = "; under several wheels a band may have to begin above 0 Hz" if several else ""
-        got = f"{taken}, which is off by {error:.1g} at its corners{hint}"
-        raise ValueError(f"nodes must resolve every resonance in the box to {RESOLVED:g}, got {got}")
-
-    @cached_property
-    def _scores(self) -> Scores:
-        texts = list(map(str, self.constraints))
-        if len(set(self.objectives)) < max(2, len(self.measures)):
-            got = checks.shown(tuple(map(str, self.measures)))
-            raise ValueError(f"measures must be 2 or more with different names, got {got}")
-        for names, what in ((list(self.objectives), "measures"), (texts, "constraints")):
-            if len({*names, *self.bounds}) < len(names) + len(self.bounds):
-                raise ValueError(f"{what} must have names of their own, got {checks.shown(names)}")
-        if not any(
-            one.nominal.of_ride for one in (*self.measures, *(limit.measure for limit in self.constraints))
-        ):
-            raise ValueError(f"measures must hold one of the ride, got {checks.shown(list(self.objectives))}")
-        return self.scores_of([self._score(one, self._ported) for one in self._judged])
-
-    @cached_property
-    def _robust(self) -> RobustScores | None:
-        """Scores over the scatter; None without robust measures."""
-        limited = [one if isinstance(one, Measure) else one.measure for one in self._judged]
-        robust = {column: one for column, one in enumerate(limited) if isinstance(one, Robust)}
-        if not robust:
-            if self.scatter:
-                self.scattered([], self.scatter)  # which raises ValueError about its names
-            return None
-        if self.scatter is None:
-            raise ValueError(f"scatter must be given for {next(iter(robust.values())).label}, got none")
-        scattered = self.scattered([self._judged[column] for column in robust], self.scatter)
-        scores = [self._scores.scores[column] for column in robust]
-        samples, signs = self.scatter.samples, scattered.signs
-        weight = [one.weights(samples, sign) for one, sign in zip(robust.values(), signs, strict=True)]
-        scale, offset = (np.array([getattr(one, name) for one in scores]) for name in ("scale", "offset"))
-        return RobustScores(scattered, Statistics(np.array([*robust]), np.array(weight), signs, scale, offset))
-
-    def scattered(self, judged: Sequence[Measure | Limit], scatter: Scatter) -> ScatteredScores:
-        """Return measures and limits of the samples of designs, as of the nominal vehicle of each."""
-        fixed = coefficients_by_name(self.struts, {})
-        scattered = Scattered.of(scatter, self.cases, self.variables, fixed)
-        scores = [self._score(one, scattered.cases) for one in judged]
-        return ScatteredScores(scattered, scores, np.array(self._middle), self.band)
-
-    @property
-    def _middle(self) -> list[float]:
-        """The middle (d,) of the box."""
-        return [(low + high) / 2 for low, high in self.bounds.values()]
-
-    @property
-    def _judged(self) -> tuple[Measure | Limit, ...]:
-        """Objectives, then limits."""
-        return (*self.measures, *self.constraints)
-
-    def _score(self, one: Measure | Limit, cases: Sequence[LoadCase]) -> Score:
-        """Return the score of a measure or a limit in load cases."""
-        found = tuple(one.nominal.in_case(case, self.weighting) for case in cases)
-        if isinstance(one, Limit):
-            return Score(found, True, one.scale, one.offset)
-        return Score(found, self.worst_case, one.sign)
-
-    def scores_of(self, scores: Sequence[Score]) -> Scores:
-        """Return scores of designs in the load cases."""
-        middle = dict(zip(self.variables, self._middle, strict=True))
-        settings = [setting_of(case.vehicle, middle, self.struts) for case in self._ported]
-        return Scores(self._ported, scores, settings, self.variables, self.band)
+        return representation(self)
 
     def _inside(self, designs: ArrayLike) -> Real:
         """Return designs (n, d) as an array; ValueError for others, and outside the bounds."""
@@ -457,57 +334,14 @@ class RideProblem(Record):
         checks.rows_within("designs", x, self.lower, self.upper)
         return x
 
+    def _common(self, name: str) -> Any:
+        first, *others = (getattr(case, name) for case in self.cases)
+        if any(other != first for other in others):
+            raise AttributeError(f"{name} differs between load cases, see cases")
+        return first
+
     def _warn_of_slips(self) -> None:
         """Warn the caller of a likely slip of units in the vehicles, in the middle of the bounds."""
-        middle = dict(zip(self.variables, self._middle, strict=True))
         for case in self.cases:
             with suppress(ValueError):  # of values that do not fit, which are told later
-                warn_of_slip(*case.vehicle.at({**coefficients_by_name(self.struts, {}), **middle}), caller=4)
-
-    def in_cases(self, judged: Measure | Limit) -> tuple[CaseMeasure, ...]:
-        """Return a measure or a limit in each load case."""
-        return tuple(judged.nominal.in_case(case, self.weighting) for case in self._ported)
-
-    def without_parameters(self, design: Real) -> "tuple[RideProblem, Real]":
-        """Return the problem of coefficients alone at the parameters of a design (d,), and its coefficients there.
-
-        Bounds are as close as numbers are; without parameters it is the problem as it is.
-        """
-        if all(one is given for one, given in zip(self._ported, self.cases, strict=True)):
-            return self, design
-        given = {
-            **coefficients_by_name(self.struts, {}),
-            **dict(zip(self.variables, design.tolist(), strict=True)),
-        }
-        values = plain_values(self.cases[0].vehicle, given)
-        every = [case.vehicle.at(values) for case in self.cases]
-        cases = [replace(case, vehicle=one) for case, (one, _) in zip(self.cases, every, strict=True)]
-        own = {name: float(values[name]) for name in every[0][1] if name in values}
-        bounds = {name: (value, float(np.nextafter(value, np.inf))) for name, value in own.items()}
-        nodes = int(self.nodes)
-        plain = self.replace(cases=cases, bounds=bounds, struts={}, kinds={}, nodes=nodes)
-        return plain, np.array(list(own.values()))
-
-    @cached_property
-    def _ported(self) -> tuple[LoadCase, ...]:
-        """Load cases with ports on their vehicles for parameters that vary."""
-        fixed = coefficients_by_name(self.struts, {})
-        first = self.cases[0].vehicle
-        vehicles = [ported(case.vehicle, self.variables, fixed, first) for case in self.cases]
-        if isinstance(vehicles[0], Varied) and vehicles[0].has_frequencies:
-            for corner in self._corners:
-                vehicles[0].with_design(corner)  # which raises ValueError where a frequency is out of reach
-        return tuple(replace(case, vehicle=one) for case, one in zip(self.cases, vehicles, strict=True))
-
-    @cached_property
-    def _corners(self) -> Real:
-        """Corners (k, d) of the box, some of many."""
-        return np.random.default_rng(0).permutation(list(product(*self.bounds.values())))[:_CORNERS]
-
-    def _error(self, nodes: int) -> float:
-        """Return the largest error of a term at corners of the box: there resonances are sharpest."""
-        errors = self._scores.errors(self._corners, nodes)
-        if self._robust:
-            lower, upper = np.array(self.lower), np.array(self.upper)
-            errors = [*errors, *self._robust.scattered.errors(self._corners, lower, upper, nodes)]
-        return max(float(one.max(initial=0.0)) for one in errors)
+                warn_of_slip(*case.vehicle.at({**self.scoring.fixed, **self.scoring.middle}), caller=4)

@@ -140,9 +140,9 @@ def _check_coefficients(problem: RideProblem) -> None:
 
 def _scores(problem: RideProblem) -> Scores:
     """Return the scores of the measures; ValueError unless each is a root mean square."""
-    in_case = [problem.in_cases(one) for one in problem.measures]
+    in_case = [problem.scoring.in_cases(one) for one in problem.measures]
     for one, (found,) in zip(problem.measures, in_case, strict=True):
         if found.values or one.maximise or not found.terms:
             needed = "root mean squares, such as ACC, SWS and DTL, for a controller"
             raise ValueError(f"measures must be {needed}, got {checks.shown(one.label)}")
-    return problem.scores_of([Score(found, False) for found in in_case])
+    return problem.scoring.scores_of([Score(found, False) for found in in_case])
