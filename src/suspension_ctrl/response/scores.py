@@ -145,7 +145,7 @@ class Scores:
     @property
     def compiled(self) -> bool:
         """Whether the kernel alone gives all scores."""
-        return not any(score.by_function for score in self.scores)
+        return not self.functions
 
     def evaluate(self, designs: Real, nodes: int) -> Real:
         """Return the scores (p, s) of designs (p, v)."""
@@ -159,13 +159,32 @@ class Scores:
         self.fill_functions(scores, designs, nodes, mean_squares)
         return scores
 
-    def fill_functions(self, scores: Real, designs: Real, nodes: int, mean_squares: Sequence[Real]) -> None:
-        """Fill in the columns (p, s) by functions of designs (p, v) with mean squares (p, k) in each case."""
+    def fill_functions(
+        self,
+        scores: Real,
+        designs: Real,
+        nodes: int,
+        mean_squares: Sequence[Real],
+        columns: Sequence[int] | None = None,
+    ) -> None:
+        """Fill in the columns (p, s) by functions of designs (p, v) with mean squares (p, k) in each case.
+
+        All of them, or some.
+        """
+        by_case = self.in_cases(designs, nodes, mean_squares)
+        for column in self.functions if columns is None else columns:
+            score = self.scores[column]
+            scores[:, column] = score.scale * self._by_function(score, by_case) + score.offset
+
+    @cached_property
+    def functions(self) -> list[int]:
+        """Columns by functions of designs."""
+        return [column for column, score in enumerate(self.scores) if score.by_function]
+
+    def in_cases(self, designs: Real, nodes: int, mean_squares: Sequence[Real]) -> list[Designs]:
+        """Return designs (p, v) with mean squares (p, k) in each case, as functions get them."""
         kernel = self.kernel(nodes)
-        by_case = [self._designs(c, designs, kernel, each) for c, each in enumerate(mean_squares)]
-        for column, score in enumerate(self.scores):
-            if score.by_function:
-                scores[:, column] = score.scale * self._by_function(score, by_case) + score.offset
+        return [self._designs(c, designs, kernel, each) for c, each in enumerate(mean_squares)]
 
     def by_case(self, case: int, design: Real, nodes: int) -> Real:
         """Return each measure (s,) of one design (v,) in a load case, without its factor and its constant."""
@@ -271,10 +290,14 @@ class Scores:
 
     def _coefficients(self, c: int, linear: Real) -> Real:
         """Return all coefficients (p, c) of a load case by those that vary (p, w)."""
-        known, names = self.settings[c], varying(self.cases[c].vehicle, self.variables)
-        coefficients = np.tile(list(known.values()), (len(linear), 1))
-        coefficients[:, [list(known).index(name) for name in names]] = linear
+        coefficients = np.tile(list(self.settings[c].values()), (len(linear), 1))
+        coefficients[:, self.varying(c)] = linear
         return coefficients
+
+    def varying(self, c: int) -> list[int]:
+        """Return the places of the coefficients of a load case that vary, among all."""
+        known = list(self.settings[c])
+        return [known.index(name) for name in varying(self.cases[c].vehicle, self.variables)]
 
     def _spectra(
         self, c: int, designs: Real, coefficients: Real, squares: Case

@@ -16,7 +16,7 @@ from .. import checks
 from ..quantities import Checked, Real, unit
 from .assembly import GRAVITY, Assembly, Network
 
-_TOPPLED = 180.0  # deg/g, roll gradient of a body that its struts and tyres do not hold upright
+TOPPLED = 180.0  # deg/g, roll gradient of a body that its struts and tyres do not hold upright
 _AXLES, _SIDES = ("front", "rear"), ("left", "right")
 
 
@@ -95,6 +95,8 @@ class Mechanics(NamedTuple):
     damping: Real
     by_stiffness: Real  # (v, n, n), of the struts for coefficients of 1
     by_damping: Real
+    elongation: Real  # (q, n), of each strut by coordinate
+    springs: Real  # (v, q, q), tensions of the struts by their elongations, of springs for coefficients of 1
     tyre_loads: Real  # (t, n), tension of each tyre by coordinate, without struts on its road
 
     @classmethod
@@ -104,20 +106,19 @@ class Mechanics(NamedTuple):
         e, _ = assembly.elongations(links)
         p, _ = assembly.elongations(assembly.struts)
         k, c = (np.array([getattr(link, name) for link in links])[:, None] for name in ("stiffness", "damping"))
-        stiff, damp = (
-            np.array([p.T @ (q.gain * (q.order == order)) @ p for q in assembly.strut_coefficients])
-            for order in (0, 1)
+        springs, dampers = (
+            np.array([one.gain * (one.order == order) for one in assembly.strut_coefficients]) for order in (0, 1)
         )
         loads = np.zeros((len(assembly.contacts), e.shape[1]))
         loads[[list(assembly.contacts).index(tyre.name) for tyre in assembly.tyres]] = (k * e)[
             : len(assembly.tyres)
         ]
-        return cls(assembly, e.T @ (k * e), e.T @ (c * e), stiff, damp, loads)
+        stiff, damp = (np.array([p.T @ gain @ p for gain in gains]) for gains in (springs, dampers))
+        return cls(assembly, e.T @ (k * e), e.T @ (c * e), stiff, damp, p, springs, loads)
 
     def stiffness_of(self, coefficients: Real) -> Real:
         """Return the stiffness matrices (p, n, n) of designs with these coefficients (p, v)."""
-        total = self.stiffness + weighted_sum(coefficients, self.by_stiffness)
-        p, _ = self.assembly.elongations(self.assembly.struts)
+        total, p = self.stiffness + weighted_sum(coefficients, self.by_stiffness), self.elongation
         for network, stiffness in self._networks(coefficients):
             total = total + np.multiply.outer(stiffness, p.T * network.share @ p)
         return total
@@ -132,15 +133,16 @@ class Mechanics(NamedTuple):
     def loads(self, coefficients: Real, displacement: Real) -> Real:
         """Return the tension (p, t) on each road at displacements (p, n)."""
         loads = (self.tyre_loads @ displacement[..., None])[..., 0]
-        standing = self.assembly.standing
-        if not standing.any():
-            return np.asarray(loads)
-        p, _ = self.assembly.elongations(self.assembly.struts)
-        gains = np.array([one.gain * (one.order == 0) for one in self.assembly.strut_coefficients])
-        struts = weighted_sum(coefficients, gains)
+        if self.assembly.standing.any():
+            loads = loads + (self.standing_loads(coefficients) @ displacement[..., None])[..., 0]
+        return np.asarray(loads)
+
+    def standing_loads(self, coefficients: Real) -> Real:
+        """Return the tension (p, t, n) on each road of struts that stand on it, by coordinate."""
+        struts = weighted_sum(coefficients, self.springs)
         for network, stiffness in self._networks(coefficients):
             struts = struts + np.multiply.outer(stiffness, np.diag(network.share))
-        return np.asarray(loads + (standing @ struts @ p @ displacement[..., None])[..., 0])
+        return np.asarray(self.assembly.standing @ struts @ self.elongation)
 
     def displacement(self, coefficients: Real, mass: Real) -> Real:
         """Return the displacement (p, n) by the weight of masses (n,) [kg, kg m] on springs alone."""
@@ -156,15 +158,19 @@ class Mechanics(NamedTuple):
 
     def roll_gradient(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Return the roll angle (p,) per lateral acceleration [deg/g], at most 180: the body topples."""
-        lean = np.degrees(self._lean(coefficients, geometry)[:, self.assembly.coordinates.index("roll")])
-        topples = np.linalg.eigvalsh(self._leaning(coefficients, geometry))[:, 0] <= 0
-        return np.where(topples, _TOPPLED, np.minimum(lean, _TOPPLED))
+        lean = np.degrees(self.lean(coefficients, geometry)[:, self.assembly.coordinates.index("roll")])
+        topples = np.linalg.eigvalsh(self.leaning(coefficients, geometry))[:, 0] <= 0
+        return np.where(topples, TOPPLED, np.minimum(lean, TOPPLED))
 
     def front_load_transfer(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Return the share (p,) of the front axle in the lateral load transfer [-], void if the body topples."""
-        loads = self.loads(coefficients, self._lean(coefficients, geometry))
-        front, rear = (loads[:, list(self.assembly.contacts).index(f"{axle}_left")] for axle in _AXLES)
+        front, rear = self.loads(coefficients, self.lean(coefficients, geometry))[:, self.left].T
         return front / (front + rear)
+
+    @property
+    def left(self) -> list[int]:
+        """Places of the left tyres of the two axles."""
+        return [list(self.assembly.contacts).index(f"{axle}_left") for axle in _AXLES]
 
     def roll_damping(self, coefficients: Real) -> Real:
         """Return the damping ratio (p,) of the mode with most of its kinetic energy in roll, 1 if overdamped."""
@@ -180,23 +186,29 @@ class Mechanics(NamedTuple):
         pole = np.take_along_axis(poles, share.argmax(axis=1)[:, None], axis=1)[:, 0]
         return np.asarray(-pole.real / np.abs(pole))
 
-    def _lean(self, coefficients: Real, geometry: RollGeometry) -> Real:
+    def lean(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Displacement (p, n) at 1 g to the left: the weight turns the body, forces at roll centres the axles."""
-        load = np.zeros((len(coefficients), len(self.assembly.coordinates)))
-        load[:, self.assembly.coordinates.index("roll")] = self.assembly.sprung_mass * GRAVITY * geometry.roll_arm
-        static, tyres = self.static_loads(coefficients), list(self.assembly.contacts)
-        for axle, centre in zip(_AXLES, (geometry.front_roll_centre, geometry.rear_roll_centre), strict=True):
-            corners = [f"{axle}_{side}" for side in _SIDES]
-            left, right = (self.assembly.coordinates.index(f"{corner}_wheel") for corner in corners)
-            wheels = 2 * self.assembly.weights[left] * GRAVITY
-            body = static[:, [tyres.index(corner) for corner in corners]].sum(axis=1) - wheels
-            (_, y), (_, other) = (self.assembly.contacts[corner] for corner in corners)
-            load[:, left] = (body * centre + wheels * geometry.wheel_centre) / (y - other)
-            load[:, right] = -load[:, left]
-        return np.asarray(np.linalg.solve(self._leaning(coefficients, geometry), load[..., None])[..., 0])
+        load, by_tyre = self.cornering(geometry)
+        load = load + weighted_sum(self.static_loads(coefficients), by_tyre.T)
+        return np.asarray(np.linalg.solve(self.leaning(coefficients, geometry), load[..., None])[..., 0])
 
-    def _leaning(self, coefficients: Real, geometry: RollGeometry) -> Real:
+    def leaning(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Stiffness matrices (p, n, n) minus the moment of the leaning weight."""
         stiffness, roll = self.stiffness_of(coefficients), self.assembly.coordinates.index("roll")
         stiffness[:, roll, roll] -= self.assembly.sprung_mass * GRAVITY * geometry.roll_arm
         return stiffness
+
+    def cornering(self, geometry: RollGeometry) -> tuple[Real, Real]:
+        """Return the load (n,) on the coordinates at 1 g, and what static tyre loads add to it (n, t)."""
+        coordinates, tyres = self.assembly.coordinates, list(self.assembly.contacts)
+        load, by_tyre = np.zeros(len(coordinates)), np.zeros((len(coordinates), len(tyres)))
+        load[coordinates.index("roll")] = self.assembly.sprung_mass * GRAVITY * geometry.roll_arm
+        for axle, centre in zip(_AXLES, (geometry.front_roll_centre, geometry.rear_roll_centre), strict=True):
+            corners = [f"{axle}_{side}" for side in _SIDES]
+            wheels = [coordinates.index(f"{corner}_wheel") for corner in corners]
+            weight = 2 * self.assembly.weights[wheels[0]] * GRAVITY
+            (_, y), (_, other) = (self.assembly.contacts[corner] for corner in corners)
+            for wheel, arm in zip(wheels, (y - other, other - y), strict=True):
+                load[wheel] = weight * (geometry.wheel_centre - centre) / arm
+                by_tyre[wheel, [tyres.index(corner) for corner in corners]] = centre / arm
+        return load, by_tyre

@@ -7,7 +7,7 @@ import numpy as np
 from ...quantities import Integer, Real
 from ..scores import Kernel, Scores, reached
 from .cases import with_slopes
-from .stencils import by_stencils
+from .functions import fill_slopes
 from .wanted import Wanted
 
 
@@ -15,7 +15,7 @@ def with_jacobian(scores: Scores, designs: Real, nodes: int, bounds: tuple[Real,
     """Return the scores (p, s) of designs (p, v), and their derivatives (p, s, v) by the variables.
 
     Of the largest of terms or load cases it is that of the largest one, of a mean square of 0 it is 0. Measures by
-    a function are differentiated by `by_stencils` within the lower and upper bounds (v,).
+    a function are differentiated by `fill_slopes` within the lower and upper bounds (v,).
     """
     kernel = scores.kernel(nodes)
     combined, row = _combinations(kernel)
@@ -32,9 +32,7 @@ def with_jacobian(scores: Scores, designs: Real, nodes: int, bounds: tuple[Real,
         for tangent, own, (_, slopes) in zip(tangents, alone, pairs, strict=True):
             tangent[:, own] = slopes[:, slopes.shape[1] - len(own) :]
         scores.fill_functions(values, designs, nodes, squares)
-        found = by_stencils(scores, designs, nodes, squares, tangents, values, bounds)
-        by_function = [score.by_function for score in scores.scores]
-        jacobian[:, by_function] = found[:, by_function]
+        fill_slopes(scores, jacobian, designs, nodes, squares, tangents, values, bounds)
     return values, jacobian
 
 
@@ -47,7 +45,7 @@ def _combinations(kernel: Kernel) -> tuple[list[Wanted], Integer]:
 
 def _of_functions(scores: Scores, case: int) -> list[int]:
     """Return the mean squares of a case that measures by a function ask for."""
-    measures = (score.cases[case] for score in scores.scores if score.by_function)
+    measures = (scores.scores[column].cases[case] for column in scores.functions)
     terms = {term.integral: None for one in measures for term in one.terms}
     return [scores.terms[case].index(term) for term in terms]
 

@@ -22,6 +22,7 @@ _HERE = np.array([0.0, -25.0, 25.0]) / 12  # weight of the value at the design
 
 def by_stencils(
     scores: Scores,
+    columns: Sequence[int],
     designs: Real,
     nodes: int,
     squares: Sequence[Real],
@@ -29,26 +30,24 @@ def by_stencils(
     values: Real,
     bounds: tuple[Real, Real],
 ) -> Real:
-    """Return the derivatives (p, s, v) of measures by functions, zero in other columns.
+    """Return the derivatives (p, f, v) of the measures in some columns.
 
     Of each load case are given the mean squares (p, k) and their derivatives (p, k, v), of the measures the values
-    (p, s) at the designs (p, v) within lower and upper bounds (v,).
+    (p, s) at the designs (p, v) within lower and upper bounds (v,). All designs are evaluated at once.
     """
     step, side = _steps(designs, *bounds)
-    jacobian = np.empty((*values.shape, designs.shape[1]))
-    for v in range(designs.shape[1]):
-        by = _POINTS[side[:, v]].T * step[:, v]  # (4, p)
-        moved = np.repeat(designs[None], len(by), axis=0)
-        moved[:, :, v] += by
-        lines = [
-            (found + by[:, :, None] * tangent[:, :, v]).reshape(-1, found.shape[1])
-            for found, tangent in zip(squares, tangents, strict=True)
-        ]
-        found = np.zeros((by.size, values.shape[1]))
-        scores.fill_functions(found, moved.reshape(-1, designs.shape[1]), nodes, lines)
-        sums = np.einsum("ips,pi->ps", found.reshape(len(by), *values.shape), _WEIGHTS[side[:, v]])
-        jacobian[:, :, v] = (sums + _HERE[side[:, v], None] * values) / step[:, v, None]
-    return jacobian
+    by = np.moveaxis(_POINTS[side], 2, 0) * step  # (4, p, v)
+    points, (p, v) = len(by), designs.shape
+    moved = np.broadcast_to(designs[:, None], (points, p, v, v)) + np.eye(v) * by[..., None]
+    lines = [
+        (found[:, None] + by[..., None] * tangent.swapaxes(1, 2)).reshape(-1, found.shape[1])
+        for found, tangent in zip(squares, tangents, strict=True)
+    ]
+    found = np.zeros((by.size, values.shape[1]))
+    scores.fill_functions(found, moved.reshape(-1, v), nodes, lines, columns)
+    each = found[:, columns].reshape(points, p, v, len(columns))
+    sums = np.einsum("ipvf,pvi->pfv", each, _WEIGHTS[side])
+    return np.asarray((sums + _HERE[side][:, None] * values[:, columns, None]) / step[:, None])
 
 
 def _steps(designs: Real, lower: Real, upper: Real) -> tuple[Real, np.ndarray]:

@@ -5,11 +5,15 @@ from collections.abc import Callable
 from ... import checks
 from ...quantities import Real
 from ...vehicles.handling import Mechanics, RollGeometry, check_cornering, check_roll
-from ...vehicles.vehicle import assembled
+from ...vehicles.lean_slopes import front_load_transfer_slopes, roll_gradient_slopes
+from ...vehicles.varied import Varied
+from ...vehicles.vehicle import Vehicle, assembled
 from ..load_case import LoadCase
 from ..weightings import Weighting
 from .measure import Measure
-from .terms import CaseMeasure
+from .terms import CaseMeasure, Designs
+
+_Function = Callable[[Mechanics, Real, RollGeometry], Real]
 
 
 class RollDamping(Measure, word="roll_damping", unit="-"):
@@ -31,7 +35,7 @@ class RollDamping(Measure, word="roll_damping", unit="-"):
         if vehicle.networks:
             others = checks.listing(one.name for network in vehicle.networks for one in network.strut.elements)
             raise ValueError(f"{self.word} must be of struts of a spring beside a damper, got {others}")
-        return _of_statics(lambda statics, given: statics.roll_damping(given))
+        return CaseMeasure(values=_of_statics(Mechanics.roll_damping))
 
 
 class RollGradient(Measure, word="roll_gradient", unit="deg/g"):
@@ -49,7 +53,7 @@ class RollGradient(Measure, word="roll_gradient", unit="deg/g"):
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError without four wheels or roll geometry."""
         geometry = _cornering(self.word, case)
-        return _of_statics(lambda statics, given: statics.roll_gradient(given, geometry))
+        return _of_cornering(case.vehicle, geometry, Mechanics.roll_gradient, roll_gradient_slopes)
 
 
 class FrontLoadTransfer(Measure, word="front_load_transfer", unit="-"):
@@ -67,12 +71,20 @@ class FrontLoadTransfer(Measure, word="front_load_transfer", unit="-"):
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError without four wheels or roll geometry."""
         geometry = _cornering(self.word, case)
-        return _of_statics(lambda statics, given: statics.front_load_transfer(given, geometry))
+        return _of_cornering(case.vehicle, geometry, Mechanics.front_load_transfer, front_load_transfer_slopes)
 
 
-def _of_statics(function: Callable[[Mechanics, Real], Real]) -> CaseMeasure:
-    """Return a measure by a function of statics and coefficients (p, c)."""
-    return CaseMeasure(values=lambda designs: designs.by_vehicle(lambda one, given: function(one.statics, given)))
+def _of_statics(function: Callable[[Mechanics, Real], Real]) -> Callable[[Designs], Real]:
+    """Return a function of designs by one of statics and coefficients (p, c)."""
+    return lambda designs: designs.by_vehicle(lambda one, given: function(one.statics, given))
+
+
+def _of_cornering(vehicle: Vehicle, geometry: RollGeometry, values: _Function, slopes: _Function) -> CaseMeasure:
+    """Return a measure by a function of cornering; its derivatives by coefficients if nothing else varies."""
+    one, exact = assembled(vehicle), None
+    if not (isinstance(one, Varied) or one.networks):
+        exact = _of_statics(lambda statics, given: slopes(statics, given, geometry))
+    return CaseMeasure(values=_of_statics(lambda statics, given: values(statics, given, geometry)), slopes=exact)
 
 
 def _cornering(word: str, case: LoadCase) -> RollGeometry:

@@ -104,14 +104,15 @@ class CaseMeasure(NamedTuple):
     """A measure in a load case: the root of the sum of its mean squares or of the largest, or a function.
 
     A function of designs may ask them for the mean squares of the terms; its mean over load cases is that of a
-    power of it. Beside it stands a function of a trip and
-    the coefficients (c,), or of a vehicle in an event with its setting, without or with tyres that lift off. A
-    measure that depends on neither has none.
+    power of it, and its `slopes` are its exact derivatives (p, c) by coefficients. Beside it stands a function of
+    a trip and the coefficients (c,), or of a vehicle in an event with its setting, without or with tyres that lift
+    off. A measure that depends on neither has none.
     """
 
     terms: tuple[Term, ...] = ()
     largest: bool = False
     values: Callable[[Designs], Real] | None = None
+    slopes: Callable[[Designs], Real] | None = None
     power: float = 1.0
     in_trip: "Callable[[Trip, Real], float] | None" = None
     in_event: Callable[[Vehicle, Mapping[str, float], bool], float] | None = None
