@@ -8,7 +8,7 @@ import pytest
 from garage import FULL, GEOMETRY
 from suspension_ctrl import Payload
 from suspension_ctrl.vehicles.handling import GRAVITY
-from suspension_ctrl.vehicles.lean_slopes import front_load_transfer_slopes, roll_gradient_slopes
+from suspension_ctrl.vehicles.lean_slopes import with_roll_slopes, with_transfer_slopes
 
 STRUTS = {"front": (2e4, 1500.0), "rear": (2.4e4, 1700.0), "front_antiroll": 9e3, "rear_antiroll": 3e3}
 
@@ -36,13 +36,13 @@ def test_derivatives_are_those_of_the_formulas_by_hand():
     weights = {axle: FULL.body_mass * GRAVITY * arm / wheelbase for axle, arm in arms.items()}
     steps = [by_hand(design + 1e-30j * row, weights).imag / 1e-30 for row in np.eye(4)]
     given = np.array([list(setting.values())])
-    found = np.array([slopes(FULL.statics, given, GEOMETRY)[0] for slopes in SLOPES])
+    found = np.array([slopes(FULL.statics, given, GEOMETRY)[1][0] for slopes in SLOPES])
     np.testing.assert_allclose(found[:, places], np.transpose(steps), rtol=1e-9)
     others = np.delete(found, places, axis=1)  # dampers
     np.testing.assert_array_equal(others, 0.0)
 
 
-SLOPES = (roll_gradient_slopes, front_load_transfer_slopes)
+SLOPES = (with_roll_slopes, with_transfer_slopes)
 
 
 @pytest.mark.parametrize("slopes", SLOPES)
@@ -52,12 +52,12 @@ def test_static_loads_that_depend_on_springs_beside_differences(slopes):
     given = np.array([list(FULL.coefficients(STRUTS).values()), list(FULL.coefficients(STRUTS).values())])
     given[1] *= 1.2
     steps = 1e-4 * given[:, None] * np.eye(given.shape[1])
-    values = statics.roll_gradient if slopes is roll_gradient_slopes else statics.front_load_transfer
+    values = statics.roll_gradient if slopes is with_roll_slopes else statics.front_load_transfer
     expected = [
         (values(row + step, GEOMETRY) - values(row - step, GEOMETRY)) / 2e-4
         for row, step in zip(given, steps, strict=True)
     ]
-    found = slopes(statics, given, GEOMETRY) * given
+    found = slopes(statics, given, GEOMETRY)[1] * given
     np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-6 * np.abs(found).max())
 
 
@@ -65,4 +65,4 @@ def test_a_body_that_topples_has_no_derivative():
     car = replace(FULL, front_track=0.9, rear_track=0.9)
     given = np.array([list(car.coefficients({"front": (2e3, 1500.0), "rear": (2e3, 1500.0)}).values())])
     high = replace(GEOMETRY, roll_arm=1.0)
-    np.testing.assert_array_equal(roll_gradient_slopes(car.statics, given, high), 0.0)
+    np.testing.assert_array_equal(with_roll_slopes(car.statics, given, high)[1], 0.0)

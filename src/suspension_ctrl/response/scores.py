@@ -156,23 +156,15 @@ class Scores:
             return np.asarray(kernel.scale * np.sqrt(factor * found).T + kernel.offset)
         mean_squares = [mean_squares_of(case, designs) for case in kernel.cases]
         scores = reached(kernel.scores(mean_squares), designs)
-        self.fill_functions(scores, designs, nodes, mean_squares)
+        self.fill_functions(scores, designs, nodes, mean_squares, self.functions)
         return scores
 
     def fill_functions(
-        self,
-        scores: Real,
-        designs: Real,
-        nodes: int,
-        mean_squares: Sequence[Real],
-        columns: Sequence[int] | None = None,
+        self, scores: Real, designs: Real, nodes: int, mean_squares: Sequence[Real], columns: Sequence[int]
     ) -> None:
-        """Fill in the columns (p, s) by functions of designs (p, v) with mean squares (p, k) in each case.
-
-        All of them, or some.
-        """
-        by_case = self.in_cases(designs, nodes, mean_squares)
-        for column in self.functions if columns is None else columns:
+        """Fill in columns (p, s) by functions of designs (p, v) with mean squares (p, k) in each case."""
+        by_case = self.in_cases(designs, nodes, mean_squares) if columns else []
+        for column in columns:
             score = self.scores[column]
             scores[:, column] = score.scale * self._by_function(score, by_case) + score.offset
 
@@ -246,7 +238,10 @@ class Scores:
     def _by_function(self, score: Score, designs: Sequence[Designs]) -> Real:
         """Return a measure by a function (p,) of designs in each case: its mean by shares, or the worst."""
         functions = [one.values for one in score.cases if one.values]
-        by_case = np.array([values(one) for values, one in zip(functions, designs, strict=True)])
+        return self.joined(score, np.array([values(one) for values, one in zip(functions, designs, strict=True)]))
+
+    def joined(self, score: Score, by_case: Real) -> Real:
+        """Return a measure by a function (p,) by its values (c, p) in each case."""
         if not score.worst_case:
             mean, power = np.zeros(by_case.shape[1]), score.cases[0].power
             for share, values in zip(self.shares, by_case, strict=True):  # in order, for one design as for many

@@ -84,6 +84,15 @@ def weighted_sum(weights: Real, arrays: Real) -> Real:
     return result
 
 
+class Lean(NamedTuple):
+    """Displacements (p, n) on level ground and at 1 g to the left, each with its stiffness matrices (p, n, n)."""
+
+    level: Real
+    stiffness: Real
+    displacement: Real
+    leaning: Real  # minus the moment of the leaning weight
+
+
 class Mechanics(NamedTuple):
     """Matrices of a vehicle with n coordinates, t tyres and v coefficients of struts.
 
@@ -146,11 +155,7 @@ class Mechanics(NamedTuple):
 
     def displacement(self, coefficients: Real, mass: Real) -> Real:
         """Return the displacement (p, n) by the weight of masses (n,) [kg, kg m] on springs alone."""
-        try:
-            found = np.linalg.solve(self.stiffness_of(coefficients), -GRAVITY * mass[:, None])[..., 0]
-        except np.linalg.LinAlgError:
-            raise ValueError("struts must have a spring that carries the vehicle, got none") from None
-        return np.asarray(found, dtype=float)
+        return _sunk(self.stiffness_of(coefficients), mass)
 
     def static_loads(self, coefficients: Real) -> Real:
         """Return the load (p, t) of each tyre on level ground [N]."""
@@ -158,13 +163,18 @@ class Mechanics(NamedTuple):
 
     def roll_gradient(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Return the roll angle (p,) per lateral acceleration [deg/g], at most 180: the body topples."""
-        lean = np.degrees(self.lean(coefficients, geometry)[:, self.assembly.coordinates.index("roll")])
-        topples = np.linalg.eigvalsh(self.leaning(coefficients, geometry))[:, 0] <= 0
-        return np.where(topples, TOPPLED, np.minimum(lean, TOPPLED))
+        return self.roll_at(self.lean(coefficients, geometry))
+
+    def roll_at(self, lean: Lean) -> Real:
+        """Return the roll gradient (p,) of bodies that lean."""
+        roll = np.degrees(lean.displacement[:, self.assembly.coordinates.index("roll")])
+        topples = np.linalg.eigvalsh(lean.leaning)[:, 0] <= 0
+        return np.where(topples, TOPPLED, np.minimum(roll, TOPPLED))
 
     def front_load_transfer(self, coefficients: Real, geometry: RollGeometry) -> Real:
         """Return the share (p,) of the front axle in the lateral load transfer [-], void if the body topples."""
-        front, rear = self.loads(coefficients, self.lean(coefficients, geometry))[:, self.left].T
+        loads = self.loads(coefficients, self.lean(coefficients, geometry).displacement)
+        front, rear = loads[:, self.left].T
         return front / (front + rear)
 
     @property
@@ -186,17 +196,16 @@ class Mechanics(NamedTuple):
         pole = np.take_along_axis(poles, share.argmax(axis=1)[:, None], axis=1)[:, 0]
         return np.asarray(-pole.real / np.abs(pole))
 
-    def lean(self, coefficients: Real, geometry: RollGeometry) -> Real:
-        """Displacement (p, n) at 1 g to the left: the weight turns the body, forces at roll centres the axles."""
-        load, by_tyre = self.cornering(geometry)
-        load = load + weighted_sum(self.static_loads(coefficients), by_tyre.T)
-        return np.asarray(np.linalg.solve(self.leaning(coefficients, geometry), load[..., None])[..., 0])
-
-    def leaning(self, coefficients: Real, geometry: RollGeometry) -> Real:
-        """Stiffness matrices (p, n, n) minus the moment of the leaning weight."""
+    def lean(self, coefficients: Real, geometry: RollGeometry) -> Lean:
+        """Return how the body leans: its weight turns it, forces at roll centres turn the axles."""
         stiffness, roll = self.stiffness_of(coefficients), self.assembly.coordinates.index("roll")
-        stiffness[:, roll, roll] -= self.assembly.sprung_mass * GRAVITY * geometry.roll_arm
-        return stiffness
+        level = _sunk(stiffness, self.assembly.weights)
+        load, by_tyre = self.cornering(geometry)
+        load = load + weighted_sum(-self.loads(coefficients, level), by_tyre.T)
+        leaning = stiffness.copy()
+        leaning[:, roll, roll] -= self.assembly.sprung_mass * GRAVITY * geometry.roll_arm
+        lean = np.asarray(np.linalg.solve(leaning, load[..., None])[..., 0], dtype=float)
+        return Lean(level, stiffness, lean, leaning)
 
     def cornering(self, geometry: RollGeometry) -> tuple[Real, Real]:
         """Return the load (n,) on the coordinates at 1 g, and what static tyre loads add to it (n, t)."""
@@ -212,3 +221,12 @@ class Mechanics(NamedTuple):
                 load[wheel] = weight * (geometry.wheel_centre - centre) / arm
                 by_tyre[wheel, [tyres.index(corner) for corner in corners]] = centre / arm
         return load, by_tyre
+
+
+def _sunk(stiffness: Real, mass: Real) -> Real:
+    """Return the displacement (p, n) by the weight of masses (n,) on springs with matrices (p, n, n)."""
+    try:
+        found = np.linalg.solve(stiffness, -GRAVITY * mass[:, None])[..., 0]
+    except np.linalg.LinAlgError:
+        raise ValueError("struts must have a spring that carries the vehicle, got none") from None
+    return np.asarray(found, dtype=float)

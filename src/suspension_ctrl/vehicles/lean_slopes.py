@@ -6,34 +6,37 @@ A displacement x under a load f, K x = f, changes by dx, K dx = df - dK x.
 import numpy as np
 
 from ..quantities import Real
-from .handling import TOPPLED, Mechanics, RollGeometry
+from .handling import TOPPLED, Lean, Mechanics, RollGeometry
 
 
-def roll_gradient_slopes(statics: Mechanics, coefficients: Real, geometry: RollGeometry) -> Real:
-    """Return the derivatives (p, v) of `Mechanics.roll_gradient`, 0 where the body topples; without networks."""
-    _, slopes = _lean_slopes(statics, coefficients, geometry)
-    stands = statics.roll_gradient(coefficients, geometry) < TOPPLED
-    roll = statics.assembly.coordinates.index("roll")
-    return np.where(stands[:, None], np.degrees(slopes[:, roll]), 0.0)
+def with_roll_slopes(statics: Mechanics, coefficients: Real, geometry: RollGeometry) -> tuple[Real, Real]:
+    """Return `Mechanics.roll_gradient` (p,) and its derivatives (p, v), 0 where the body topples.
 
-
-def front_load_transfer_slopes(statics: Mechanics, coefficients: Real, geometry: RollGeometry) -> Real:
-    """Return the derivatives (p, v) of `Mechanics.front_load_transfer`; without networks."""
-    lean, slopes = _lean_slopes(statics, coefficients, geometry)
-    front, rear = statics.loads(coefficients, lean)[:, statics.left, None].transpose(1, 0, 2)
-    by_front, by_rear = _load_slopes(statics, coefficients, lean, slopes)[:, statics.left].transpose(1, 0, 2)
-    return np.asarray((by_front * rear - front * by_rear) / (front + rear) ** 2)
-
-
-def _lean_slopes(statics: Mechanics, coefficients: Real, geometry: RollGeometry) -> tuple[Real, Real]:
-    """Return the displacement (p, n) at 1 g and its derivatives (p, n, v)."""
-    level = statics.displacement(coefficients, statics.assembly.weights)
-    sinking = _solved(statics.stiffness_of(coefficients), -_spring_forces(statics, level))
-    by_load = -_load_slopes(statics, coefficients, level, sinking)
-    _, by_tyre = statics.cornering(geometry)
+    Of struts without networks.
+    """
     lean = statics.lean(coefficients, geometry)
-    forces = by_tyre @ by_load - _spring_forces(statics, lean)
-    return lean, _solved(statics.leaning(coefficients, geometry), forces)
+    values, slopes = statics.roll_at(lean), _lean_slopes(statics, coefficients, geometry, lean)
+    roll = np.degrees(slopes[:, statics.assembly.coordinates.index("roll")])
+    return values, np.where(values[:, None] < TOPPLED, roll, 0.0)
+
+
+def with_transfer_slopes(statics: Mechanics, coefficients: Real, geometry: RollGeometry) -> tuple[Real, Real]:
+    """Return `Mechanics.front_load_transfer` (p,) and its derivatives (p, v), of struts without networks."""
+    lean = statics.lean(coefficients, geometry)
+    slopes = _lean_slopes(statics, coefficients, geometry, lean)
+    front, rear = statics.loads(coefficients, lean.displacement)[:, statics.left].T
+    changes = _load_slopes(statics, coefficients, lean.displacement, slopes)[:, statics.left]
+    by_front, by_rear = changes.swapaxes(0, 1)
+    both = (front + rear)[:, None]
+    return front / (front + rear), (by_front * rear[:, None] - front[:, None] * by_rear) / both**2
+
+
+def _lean_slopes(statics: Mechanics, coefficients: Real, geometry: RollGeometry, lean: Lean) -> Real:
+    """Return the derivatives (p, n, v) of the displacement at 1 g."""
+    sinking = _solved(lean.stiffness, -_spring_forces(statics, lean.level))
+    by_load = -_load_slopes(statics, coefficients, lean.level, sinking)
+    _, by_tyre = statics.cornering(geometry)
+    return _solved(lean.leaning, by_tyre @ by_load - _spring_forces(statics, lean.displacement))
 
 
 def _solved(matrices: Real, right: Real) -> Real:

@@ -1,13 +1,14 @@
 """Derivatives of objectives and constraints, from those of the mean squares of every load case."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 
 from ...quantities import Integer, Real
 from ..scores import Kernel, Scores, reached
+from . import functions
 from .cases import with_slopes
-from .functions import fill_slopes
 from .wanted import Wanted
 
 
@@ -15,13 +16,10 @@ def with_jacobian(scores: Scores, designs: Real, nodes: int, bounds: tuple[Real,
     """Return the scores (p, s) of designs (p, v), and their derivatives (p, s, v) by the variables.
 
     Of the largest of terms or load cases it is that of the largest one, of a mean square of 0 it is 0. Measures by
-    a function are differentiated by `fill_slopes` within the lower and upper bounds (v,).
+    a function are differentiated by `functions` within the lower and upper bounds (v,).
     """
-    kernel = scores.kernel(nodes)
-    combined, row = _combinations(kernel)
-    alone = [_of_functions(scores, c) for c in range(len(kernel.cases))]
-    each = zip(kernel.cases, combined, alone, strict=True)
-    pairs = [with_slopes(case, _with_rows(wanted, own), designs) for case, wanted, own in each]
+    kernel, (wanted, row, alone) = scores.kernel(nodes), _plan(scores, nodes)
+    pairs = [with_slopes(case, each, designs) for case, each in zip(kernel.cases, wanted, strict=True)]
     squares = [reached(found, designs) for found, _ in pairs]
     values = kernel.scores(squares)
     root = (values - kernel.offset) / kernel.scale
@@ -31,9 +29,16 @@ def with_jacobian(scores: Scores, designs: Real, nodes: int, bounds: tuple[Real,
         tangents = [np.zeros((*found.shape, designs.shape[1])) for found in squares]
         for tangent, own, (_, slopes) in zip(tangents, alone, pairs, strict=True):
             tangent[:, own] = slopes[:, slopes.shape[1] - len(own) :]
-        scores.fill_functions(values, designs, nodes, squares)
-        fill_slopes(scores, jacobian, designs, nodes, squares, tangents, values, bounds)
+        functions.fill(scores, values, jacobian, designs, nodes, squares, tangents, bounds)
     return values, jacobian
+
+
+@lru_cache(maxsize=32)
+def _plan(scores: Scores, nodes: int) -> tuple[list[Wanted], Integer, list[list[int]]]:
+    """Return what is wanted in each case, the row (s,) of each score, and mean squares alone, in the last rows."""
+    combined, row = _combinations(scores.kernel(nodes))
+    alone = [_of_functions(scores, c) for c in range(len(scores.cases))]
+    return [_with_rows(*each) for each in zip(combined, alone, strict=True)], row, alone
 
 
 def _combinations(kernel: Kernel) -> tuple[list[Wanted], Integer]:

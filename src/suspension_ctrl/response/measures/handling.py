@@ -5,7 +5,7 @@ from collections.abc import Callable
 from ... import checks
 from ...quantities import Real
 from ...vehicles.handling import Mechanics, RollGeometry, check_cornering, check_roll
-from ...vehicles.lean_slopes import front_load_transfer_slopes, roll_gradient_slopes
+from ...vehicles.lean_slopes import with_roll_slopes, with_transfer_slopes
 from ...vehicles.varied import Varied
 from ...vehicles.vehicle import Vehicle, assembled
 from ..load_case import LoadCase
@@ -13,7 +13,8 @@ from ..weightings import Weighting
 from .measure import Measure
 from .terms import CaseMeasure, Designs
 
-_Function = Callable[[Mechanics, Real, RollGeometry], Real]
+_Values = Callable[[Mechanics, Real, RollGeometry], Real]
+_WithSlopes = Callable[[Mechanics, Real, RollGeometry], tuple[Real, Real]]
 
 
 class RollDamping(Measure, word="roll_damping", unit="-"):
@@ -53,7 +54,7 @@ class RollGradient(Measure, word="roll_gradient", unit="deg/g"):
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError without four wheels or roll geometry."""
         geometry = _cornering(self.word, case)
-        return _of_cornering(case.vehicle, geometry, Mechanics.roll_gradient, roll_gradient_slopes)
+        return _of_cornering(case.vehicle, geometry, Mechanics.roll_gradient, with_roll_slopes)
 
 
 class FrontLoadTransfer(Measure, word="front_load_transfer", unit="-"):
@@ -71,7 +72,7 @@ class FrontLoadTransfer(Measure, word="front_load_transfer", unit="-"):
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError without four wheels or roll geometry."""
         geometry = _cornering(self.word, case)
-        return _of_cornering(case.vehicle, geometry, Mechanics.front_load_transfer, front_load_transfer_slopes)
+        return _of_cornering(case.vehicle, geometry, Mechanics.front_load_transfer, with_transfer_slopes)
 
 
 def _of_statics(function: Callable[[Mechanics, Real], Real]) -> Callable[[Designs], Real]:
@@ -79,12 +80,16 @@ def _of_statics(function: Callable[[Mechanics, Real], Real]) -> Callable[[Design
     return lambda designs: designs.by_vehicle(lambda one, given: function(one.statics, given))
 
 
-def _of_cornering(vehicle: Vehicle, geometry: RollGeometry, values: _Function, slopes: _Function) -> CaseMeasure:
-    """Return a measure by a function of cornering; its derivatives by coefficients if nothing else varies."""
-    one, exact = assembled(vehicle), None
-    if not (isinstance(one, Varied) or one.networks):
-        exact = _of_statics(lambda statics, given: slopes(statics, given, geometry))
-    return CaseMeasure(values=_of_statics(lambda statics, given: values(statics, given, geometry)), slopes=exact)
+def _of_cornering(vehicle: Vehicle, geometry: RollGeometry, values: _Values, slopes: _WithSlopes) -> CaseMeasure:
+    """Return a measure by a function of cornering, with derivatives by coefficients if nothing else varies."""
+
+    def with_slopes(designs: Designs) -> tuple[Real, Real]:
+        return slopes(designs.vehicle.statics, designs.coefficients, geometry)
+
+    one = assembled(vehicle)
+    exact = None if isinstance(one, Varied) or one.networks else with_slopes
+    of_designs = _of_statics(lambda statics, given: values(statics, given, geometry))
+    return CaseMeasure(values=of_designs, with_slopes=exact)
 
 
 def _cornering(word: str, case: LoadCase) -> RollGeometry:

@@ -99,20 +99,26 @@ class Designs(NamedTuple):
         """Return a function of a vehicle and coefficients over all designs (p, ...); ValueError without masses."""
         return np.concatenate([function(assembled(vehicle), given) for vehicle, given in self.vehicles()])
 
+    @property
+    def vehicle(self) -> AssembledVehicle:
+        """The vehicle of all designs, where no parameter varies."""
+        ((vehicle, _),) = self.vehicles()
+        return assembled(vehicle)
+
 
 class CaseMeasure(NamedTuple):
     """A measure in a load case: the root of the sum of its mean squares or of the largest, or a function.
 
     A function of designs may ask them for the mean squares of the terms; its mean over load cases is that of a
-    power of it, and its `slopes` are its exact derivatives (p, c) by coefficients. Beside it stands a function of
-    a trip and the coefficients (c,), or of a vehicle in an event with its setting, without or with tyres that lift
-    off. A measure that depends on neither has none.
+    power of it, and `with_slopes` has its exact derivatives (p, c) by coefficients beside. Further functions are
+    of a trip and the coefficients (c,), and of a vehicle in an event with its setting, without or with tyres that
+    lift off. A measure that depends on neither has none.
     """
 
     terms: tuple[Term, ...] = ()
     largest: bool = False
     values: Callable[[Designs], Real] | None = None
-    slopes: Callable[[Designs], Real] | None = None
+    with_slopes: Callable[[Designs], tuple[Real, Real]] | None = None
     power: float = 1.0
     in_trip: "Callable[[Trip, Real], float] | None" = None
     in_event: Callable[[Vehicle, Mapping[str, float], bool], float] | None = None
