@@ -5,11 +5,12 @@ import { gamma, normal } from "../../../src/suspension_ctrl/desk/explorer/numeri
 import { curvesOf, preparedPorts } from "../../../src/suspension_ctrl/desk/explorer/numerics/frequency_responses.js";
 import { forceAt } from "../../../src/suspension_ctrl/desk/explorer/numerics/law_curves.js";
 import { curvesAt, networksOf } from "../../../src/suspension_ctrl/desk/explorer/numerics/network_rows.js";
+import { modesOf } from "../../../src/suspension_ctrl/desk/explorer/numerics/modes.js";
 import { unpacked } from "../../../src/suspension_ctrl/desk/explorer/numerics/packed.js";
 import { evaluated, prepared } from "../../../src/suspension_ctrl/desk/explorer/numerics/scores.js";
 
 /** @param {any} record @returns {any} scores, milliseconds and positions of all designs, curves of the first */
-function answer({ kernel, ports, designs }) {
+function answer({ kernel, ports, matrices, designs }) {
   const ready = prepared(unpacked(kernel));
   designs.forEach((/** @type {number[]} */ design) => evaluated(ready, design)); // compiles
   const found = designs.map((/** @type {number[]} */ design) => {
@@ -18,7 +19,9 @@ function answer({ kernel, ports, designs }) {
   });
   const { coefficients, point } = found[0].cases[0];
   const curves = curvesOf(preparedPorts(unpacked(ports)), coefficients, point).map(Object.entries);
+  const plant = unpacked(matrices), inner = ready.cases[0].case ?? ready.cases[0];
   return {
+    modes: modesOf(plant, coefficients, inner.networks ?? null, point),
     scores: found.map((/** @type {any} */ one) => [...one.scores]),
     milliseconds: found.map((/** @type {any} */ one) => one.milliseconds),
     positions: found.map((/** @type {any} */ one) => one.cases[0].point && [...one.cases[0].point.positions]),

@@ -1,6 +1,7 @@
 // Mean positions of struts: static equilibrium with the mean forces of force laws, see response/mean_position.py.
 
 import { ofLines, ofPower } from "./gaussian.js";
+import { solved } from "./linear_equations.js";
 import { INERTER, LAW, MEASURED, PARALLEL, RUBBER, SPRING } from "./network_rows.js";
 
 /** @typedef {import("./network_rows.js").Networks} Networks */
@@ -159,19 +160,5 @@ function positionsOf(networks, values, statics) {
       for (let k = 0; k < q; k++) matrix[i][k] -= compliance[i][j] * change[j][k];
     }
   }
-  return solved(matrix, found);
-}
-
-/** @param {Float64Array[]} matrix @param {Float64Array} right @returns {Float64Array} by Gauss and Jordan */
-function solved(matrix, right) {
-  const q = right.length;
-  for (let p = 0; p < q; p++) {
-    for (let i = 0; i < q; i++) {
-      if (i === p) continue;
-      const factor = matrix[i][p] / matrix[p][p];
-      right[i] -= factor * right[p];
-      for (let j = p; j < q; j++) matrix[i][j] -= factor * matrix[p][j];
-    }
-  }
-  return right.map((value, p) => value / matrix[p][p]);
+  return Float64Array.from(solved(matrix, Array.from(found, (x) => [x])), ([x]) => x);
 }
