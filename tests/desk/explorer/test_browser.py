@@ -28,6 +28,10 @@ from suspension_ctrl.desk.candidate_texts import parts_of
 from suspension_ctrl.desk.decision import Decision
 from suspension_ctrl.desk.explorer.page_file import page_of
 from suspension_ctrl.desk.explorer.record import Column, columns_of
+from suspension_ctrl.response.curves import setting_of
+from suspension_ctrl.response.linearisation import linear_at
+from suspension_ctrl.response.responses import response_psds
+from suspension_ctrl.vehicles.assembly import label
 
 CHROMIUM = shutil.which("chromium")
 FLAGS = ["--headless", "--no-sandbox", "--disable-background-networking", "--enable-unsafe-swiftshader"]
@@ -172,6 +176,65 @@ def test_sliders_give_the_measures_of_python(name, session):
     wanted[:, [not one.computed for one in rows]] = np.nan
     np.testing.assert_allclose(shown, wanted, rtol=1e-8)
     assert np.median([one["each"] for one in found]) < 50.0
+
+
+def rest(page, case: int = 0) -> np.ndarray:
+    """Return the design at hand once modes and sensitivities in a load case are its own."""
+    shown = ",".join([str(case), *values(page, ".slider output")])
+    page.wait_for_selector(f'#sensitivities[data-shown="{shown}"]', state="attached")
+    return designs_of(page)
+
+
+def changes_at(problem: RideProblem, design: np.ndarray) -> np.ndarray:
+    """Return by variable the changes of measures by 1 % more of it [%]: exact, with force laws by differences."""
+    if not problem.cases[0].vehicle.networks:
+        found, jacobian = problem.with_jacobian(design[None])
+        return (jacobian[0] * design / np.abs(found[0][:, None])).T
+    steps = 3e-4 * np.diag(design)
+    above, below, here = (problem.evaluate(each) for each in (design + steps, design - steps, design[None]))
+    return (above - below) / (6e-4 * np.abs(here))
+
+
+@pytest.mark.parametrize("name", ["quarter", "damper"])
+def test_modes_and_sensitivities_are_those_of_python(name, session):
+    """Central differences have an error of 1e-4 by the rounding of working points, less without force laws."""
+    study, page = session(name).study, session(name).page
+    problem, design = study.problem, rest(page)
+    vehicle, setting = linear_at(problem.cases[0], setting_of(problem, design.tolist()), problem.band)
+    modes = vehicle.modes(setting)
+    found = np.array([one.split(",") for one in values(page, "#modes tr[data-value]")], dtype=float)
+    np.testing.assert_allclose(
+        found, modes[["frequency [Hz]", "damped frequency [Hz]", "damping ratio [-]"]], rtol=1e-5
+    )
+    exact = pd.DataFrame(changes_at(problem, design), index=list(problem.variables))
+    names = page.locator("#sensitivities td:first-child").all_inner_texts()
+    assert sorted(names) == sorted(problem.variables)
+    rows = [one.split(",") for one in values(page, "#sensitivities tr[data-value]")]
+    shown = np.array([[float(one or "nan") for one in row] for row in rows])[:, : len(problem.objectives)]
+    known = np.isfinite(shown)
+    assert known.any()
+    np.testing.assert_allclose(shown[known], exact.loc[names].to_numpy()[:, : shown.shape[1]][known], atol=1e-4)
+
+
+def test_each_load_case_has_modes_and_curves(session):
+    study, page = session("damper").study, session("damper").page
+    problem = study.problem
+    choice = page.locator("#cases select")
+    assert choice.locator("option").count() == len(problem.cases)
+    last = len(problem.cases) - 1
+    choice.select_option(str(last))
+    design, case = rest(page, last), problem.cases[last]
+    vehicle, setting = linear_at(case, setting_of(problem, design.tolist()), problem.band)
+    ratios = [float(one.split(",")[2]) for one in values(page, "#modes tr[data-value]")]
+    np.testing.assert_allclose(ratios, vehicle.modes(setting)["damping ratio [-]"], rtol=1e-5)
+    responses = list(dict.fromkeys(term.response for term in problem.scores.terms[last]))
+    closed = vehicle.closed(setting, responses=responses[:1])
+    x, y = page.evaluate(
+        "(({x, y}) => [x, y])(document.querySelector('#curves').data.find(one => one.yaxis === 'y3'))"
+    )
+    density = response_psds(closed, np.array(x), case.cross_spectrum(np.array(x)))[label(responses[0])]
+    np.testing.assert_allclose(y, density, rtol=1e-5)
+    choice.select_option("0")
 
 
 def test_a_knee_of_a_damper_can_be_dragged(session):

@@ -127,7 +127,7 @@ def answers(problems, designs, tmp_path_factory):
     records = {}
     for name, problem in problems.items():
         kernel = problem.scores.kernel(problem.nodes)
-        ports = plant_ports(problem.scores, kernel.cases[0], 40)
+        ports = plant_ports(problem.scores, 0, kernel.cases[0], 40)
         scores = problem.scores
         matrices = plant_matrices(scores.cases[0].vehicle, scores.settings[0], scores.variables)
         records[name] = {

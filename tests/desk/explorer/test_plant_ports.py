@@ -12,7 +12,7 @@ BOUNDS = {"spring": (15e3, 30e3), "damper": (1e3, 3e3)}
 
 def test_ports_closed_around_a_strut_are_the_vehicle():
     problem = RideProblem(QUARTER, ROAD, speed=20.0, bounds=BOUNDS)
-    ports = plant_ports(problem.scores, problem.scores.kernel(problem.nodes).cases[0], 30)
+    ports = plant_ports(problem.scores, 0, problem.scores.kernel(problem.nodes).cases[0], 30)
     added = np.array([18e3, 2500.0]) - ports.origin
     gains = np.zeros((3, 1, 1))
     for gain, order, value in zip(ports.gain, ports.order, added, strict=True):

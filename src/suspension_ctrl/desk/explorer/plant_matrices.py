@@ -41,7 +41,9 @@ class PlantMatrices(NamedTuple):
     motions: Real  # (k, m)
 
     @classmethod
-    def of(cls, vehicle: AssembledVehicle, setting: Mapping[str, float], variables: Sequence[str]) -> "PlantMatrices":
+    def of(
+        cls, vehicle: AssembledVehicle, setting: Mapping[str, float], variables: Sequence[str]
+    ) -> "PlantMatrices":
         """Return the matrices of a vehicle with all coefficients (c,), in a load case with these variables."""
         assembly, names = vehicle.assembly, list(setting)
         coefficients = {one.name: one for one in assembly.strut_coefficients}
@@ -70,7 +72,9 @@ class PlantMatrices(NamedTuple):
         )
 
 
-def plant_matrices(vehicle: Vehicle, setting: Mapping[str, float], variables: Sequence[str]) -> PlantMatrices | None:
+def plant_matrices(
+    vehicle: Vehicle, setting: Mapping[str, float], variables: Sequence[str]
+) -> PlantMatrices | None:
     """Return the matrices of a vehicle of masses and links, None of a plant."""
     return PlantMatrices.of(vehicle, setting, variables) if isinstance(vehicle, AssembledVehicle) else None
 

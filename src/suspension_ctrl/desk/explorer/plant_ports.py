@@ -1,6 +1,6 @@
 """Responses of a vehicle's plant at its strut ports over frequency, around which a page closes struts."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -49,14 +49,14 @@ class PlantPorts(NamedTuple):
     nominal: Real  # (t, 2), stiffness and damping in place of each network in h
 
 
-def plant_ports(scores: Scores, case: Case, points: int = POINTS) -> PlantPorts:
-    """Return the ports of the first load case of scores, with its mean squares, for the responses of its terms."""
-    load_case, setting = scores.cases[0], scores.settings[0]
+def plant_ports(scores: Scores, number: int, case: Case, points: int = POINTS) -> PlantPorts:
+    """Return the ports of a load case of scores, with its mean squares, for the responses of its terms."""
+    load_case, setting = scores.cases[number], scores.settings[number]
     vehicle, names = load_case.vehicle, varying(load_case.vehicle, scores.variables)
-    weighted = _weightings(scores.terms[0])
+    weighted = _weightings(scores.terms[number])
     f, responses = frequencies(scores.band, points), list(weighted)
     inner = case.case if isinstance(case, Mapped) else case
-    networks, nominal = _networks(scores, inner, f)
+    networks, nominal = _networks(vehicle, setting, names, inner, f)
     gains = None
     if networks is not None:
         gains = np.array([np.diag(one @ networks.ports) for one in (*nominal.T, np.zeros(len(nominal)))])
@@ -94,13 +94,13 @@ def _weightings(terms: Sequence[Term]) -> dict[ResponseName, Any]:
     return found
 
 
-def _networks(scores: Scores, case: Case, f: Real) -> tuple[Networks | None, Real]:
+def _networks(
+    vehicle: Vehicle, setting: Mapping[str, float], names: Sequence[str], case: Case, f: Real
+) -> tuple[Networks | None, Real]:
     """Return networks at frequencies (n,), whose laws are those of the case, and what stands for them."""
     if not isinstance(case, AnyCase):
         return None, np.zeros((0, 2))
-    vehicle = scores.cases[0].vehicle
-    names = varying(vehicle, scores.variables)
-    networks = networks_of(vehicle, scores.settings[0], names, f, _partners(case.networks))
+    networks = networks_of(vehicle, setting, names, f, _partners(case.networks))
     return networks, case.nominal if isinstance(case, AnyStruts) else np.zeros((len(networks.root), 2))
 
 

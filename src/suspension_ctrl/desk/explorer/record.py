@@ -10,8 +10,9 @@ import numpy as np
 import tomlkit
 
 from ... import escaping
-from ...quantities import Integer, Real, column_headers
+from ...quantities import Complex, Integer, Real, column_headers
 from ...response.problem import RideProblem
+from ...response.scores import Kernel
 from ...search.problem import headers_of
 from ...tables.headers import shown_unit
 from ...vehicles.files import coefficient_table
@@ -20,6 +21,7 @@ from ..choosing import Front, front_of
 from ..decision import Decision
 from ..study_files import StudyFile, save_study
 from .packing import packed
+from .plant_matrices import plant_matrices
 from .plant_ports import plant_ports
 
 if TYPE_CHECKING:
@@ -74,8 +76,7 @@ class OtherFront(NamedTuple):
 def record_of(study: StudyFile, decision: Decision, others: "Mapping[str, pd.DataFrame]") -> dict[str, Any]:
     """Return the record of a study and its decision for JSON, beside other fronts with columns of objectives."""
     problem = decision.problem
-    scores = problem.scores
-    kernel = scores.kernel(problem.nodes)
+    kernel = problem.scores.kernel(problem.nodes)
     headers = column_headers(problem.objectives, problem.units)
     candidates = decision.table[decision.table.name != PRESENT]
     return packed(
@@ -87,10 +88,24 @@ def record_of(study: StudyFile, decision: Decision, others: "Mapping[str, pd.Dat
             "others": [_other(name, table[headers].to_numpy(dtype=float)) for name, table in others.items()],
             "present": _present(problem, study.present),
             "kernel": kernel,
-            "ports": plant_ports(scores, kernel.cases[0]),
+            **_cases(problem, kernel),
             "study": _text_of(study),
         }
     )
+
+
+def _cases(problem: RideProblem, kernel: Kernel) -> dict[str, Any]:
+    """Return load cases by name with their ports and matrices, and the distinct responses of their plants."""
+    scores, plants, cases = problem.scores, list[Complex](), list[dict[str, Any]]()
+    for number, (case, squares) in enumerate(zip(scores.cases, kernel.cases, strict=True)):
+        ports = plant_ports(scores, number, squares)
+        alike = (k for k, one in enumerate(plants) if np.array_equal(one, ports.h))
+        if (place := next(alike, len(plants))) == len(plants):
+            plants.append(ports.h)
+        matrices = plant_matrices(case.vehicle, scores.settings[number], scores.variables)
+        name = f"{number + 1}: {escaping.terminal(case.describe())}"
+        cases.append({"name": name, "ports": {**ports._asdict(), "h": place}, "matrices": matrices})
+    return {"cases": cases, "plants": plants}
 
 
 def columns_of(problem: RideProblem) -> Iterator[Column]:

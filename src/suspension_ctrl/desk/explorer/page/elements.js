@@ -1,5 +1,7 @@
 // Elements of the page: made with text alone, never with markup.
 
+const REST = 250; // ms
+
 /**
  * Return an element with properties and children; texts become text nodes.
  * @template {keyof HTMLElementTagNameMap} T
@@ -77,4 +79,27 @@ export function svg(tag, attributes) {
   const made = /** @type {SVGElement} */ (document.createElementNS("http://www.w3.org/2000/svg", tag));
   Object.entries(attributes).forEach(([name, value]) => made.setAttribute(name, String(value)));
   return made;
+}
+
+/**
+ * Return a row of a table.
+ * @param {"th" | "td"} tag
+ * @param {string[]} cells
+ * @returns {HTMLTableRowElement}
+ */
+export function tableRow(tag, cells) {
+  return element("tr", {}, ...cells.map((cell) => element(tag, {}, cell)));
+}
+
+/**
+ * Return a function that calls another once it has not been called itself for a moment.
+ * @param {() => void} view
+ * @returns {() => void}
+ */
+export function rested(view) {
+  let waiting = 0;
+  return () => {
+    clearTimeout(waiting);
+    waiting = setTimeout(view, REST);
+  };
 }

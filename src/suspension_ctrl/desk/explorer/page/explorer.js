@@ -2,7 +2,9 @@
 
 import { evaluated, prepared } from "../numerics/scores.js";
 import { curvesOf, preparedPorts } from "../numerics/frequency_responses.js";
+import { modesOf } from "../numerics/modes.js";
 import { rowsIn } from "../numerics/packed.js";
+import { changesOf } from "../numerics/sensitivities.js";
 
 /**
  * @typedef {{name: string, csv: string, unit: string, factor: number, kind: string, place: number, scale: number,
@@ -11,8 +13,13 @@ import { rowsIn } from "../numerics/packed.js";
  *   values: number[]}} Variable
  * @typedef {{group: "front" | "candidate" | "present" | "kept", name: string, design: ArrayLike<number>,
  *   scores: ArrayLike<number>}} Point
- * @typedef {"design" | "shown"} Change of the design at hand, or of which designs are shown and marked
+ * @typedef {{name: string, ports: any, matrices: any}} LoadCase
+ * @typedef {"design" | "shown" | "case"} Change of the design at hand, of which designs are shown and marked, or of
+ *   the load case
  */
+
+/** @typedef {import("../numerics/modes.js").Mode} Mode */
+/** @typedef {import("../numerics/scores.js").Evaluation} Evaluation */
 
 const NEAR = 1e-6; // relative difference up to which a computed measure is that of Python
 
@@ -24,7 +31,11 @@ export class Explorer {
     /** @type {Variable[]} */
     this.variables = record.variables;
     this.kernel = prepared(record.kernel);
-    this.ports = preparedPorts(record.ports);
+    /** @type {LoadCase[]} */
+    this.cases = record.cases.map((/** @type {LoadCase} */ one) => ({
+      ...one, ports: preparedPorts({ ...one.ports, h: record.plants[one.ports.h] }),
+    }));
+    this.number = 0; // of the load case that is shown
     this.points = [
       ...pointsOf(record.candidates, "candidate"),
       ...pointsOf(record.present, "present"),
@@ -40,7 +51,7 @@ export class Explorer {
     /** @type {Set<Point> | null} */
     this.brushed = null;
     /** @type {Map<Change, (() => void)[]>} */
-    this.views = new Map([["design", []], ["shown", []]]);
+    this.views = new Map([["case", []], ["design", []], ["shown", []]]);
     this.check();
     const first = this.points.find((point) => point.name.includes("knee")) ?? this.points[0];
     this.design = Float64Array.from(first.design);
@@ -130,17 +141,63 @@ export class Explorer {
     this.tell("design");
   }
 
-  /** Return the curves of the design at hand in the first load case, by response. */
+  /** @param {number} number show another load case */
+  inCase(number) {
+    this.number = number;
+    this.tell("case");
+    this.tell("design");
+  }
+
+  /** Return the ports of the load case that is shown. */
+  get ports() {
+    return this.cases[this.number].ports;
+  }
+
+  /** Return the coefficients and the working point of the design at hand in the load case that is shown. */
+  get state() {
+    return this.evaluation.cases[this.number];
+  }
+
+  /** Return the curves of the design at hand, by response. */
   curves() {
-    const { coefficients, point } = this.evaluation.cases[0];
-    return curvesOf(this.ports, coefficients, point);
+    return curvesOf(this.ports, this.state.coefficients, this.state.point);
   }
 
   /** Return the curves of the present design, null where it is unknown. */
   presentCurves() {
     if (!this.present) return null;
-    const { coefficients, point } = evaluated(this.kernel, this.present.design).cases[0];
+    const { coefficients, point } = evaluated(this.kernel, this.present.design).cases[this.number];
     return curvesOf(this.ports, coefficients, point);
+  }
+
+  /** @returns {Mode[] | null} modes of the design at hand, null where they are not known */
+  modes() {
+    return this.modesAt(this.state);
+  }
+
+  /** @returns {Mode[] | null} modes of the present design, null where it or they are not known */
+  presentModes() {
+    return this.present && this.modesAt(evaluated(this.kernel, this.present.design).cases[this.number]);
+  }
+
+  /** @param {Evaluation["cases"][number]} state @returns {Mode[] | null} */
+  modesAt({ coefficients, point }) {
+    const { matrices, ports } = this.cases[this.number];
+    return matrices && modesOf(matrices, coefficients, ports.networks, point);
+  }
+
+  /**
+   * Return by variable the changes of all measures by 1 % more of it [%]; null of a measure that is not computed.
+   * @returns {(number | null)[][]}
+   */
+  sensitivities() {
+    const scoresOf = (/** @type {Float64Array} */ design) => evaluated(this.kernel, design).scores;
+    const measures = this.columns.filter(({ kind }) => kind !== "variable"), { scores } = this.evaluation;
+    return changesOf(scoresOf, this.design, this.variables).map((changes) =>
+      measures.map(({ computed, place, offset }) => {
+        const change = (100 * changes[place]) / Math.abs(scores[place] - offset);
+        return computed && Number.isFinite(change) ? change : null;
+      }));
   }
 }
 

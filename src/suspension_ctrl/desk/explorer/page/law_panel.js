@@ -15,16 +15,18 @@ const LINES = 201;
 /** @type {Record<string, [number, number]>} */
 const ARROWS = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
-/** @param {Explorer} explorer put the curves of all force laws of the first load case into the page */
+/** @param {Explorer} explorer put the curves of all force laws of a load case into the page */
 export function drawLaws(explorer) {
-  const { point } = explorer.evaluation.cases[0];
-  if (!point || !explorer.ports.laws.length) return;
-  byId("laws").append(...explorer.ports.laws.map((/** @type {string} */ name, /** @type {number} */ i) =>
-    lawChart(explorer, name, i)));
-  const height = element("p", { className: "note" });
+  const charts = /** @type {Map<number, HTMLElement[]>} */ (new Map()), height = element("p", { className: "note" });
   byId("laws").before(height);
+  explorer.show("case", () => {
+    const names = explorer.state.point ? /** @type {string[]} */ (explorer.ports.laws) : [];
+    const own = charts.get(explorer.number) ?? names.map((name, i) => lawChart(explorer, name, i));
+    charts.set(explorer.number, own);
+    byId("laws").replaceChildren(...own);
+  });
   explorer.show("design", () => {
-    const positions = explorer.evaluation.cases[0].point?.positions ?? [];
+    const positions = explorer.state.point?.positions ?? [];
     const texts = explorer.ports.struts.map((/** @type {string} */ strut, /** @type {number} */ q) =>
       `${strut || "strut"} ${digits(1e3 * positions[q])} mm`);
     height.textContent = `Ride height, change of the mean deflection by force laws: ${texts.join(", ")}.`;
@@ -32,14 +34,14 @@ export function drawLaws(explorer) {
 }
 
 /**
- * Return the networks of the first load case and their coefficients at a design.
+ * Return the networks of the load case and their coefficients at a design.
  * @param {Explorer} explorer
  * @param {ArrayLike<number>} design
  * @returns {{networks: Networks, values: Float64Array}}
  */
 function settingAt(explorer, design) {
-  const [first] = explorer.kernel.cases, inner = first.class === "Mapped" ? first.case : first;
-  const coefficients = first.class === "Mapped" ? coefficientsOf(first.formulas, design) : design;
+  const own = explorer.kernel.cases[explorer.number], inner = own.class === "Mapped" ? own.case : own;
+  const coefficients = own.class === "Mapped" ? coefficientsOf(own.formulas, design) : design;
   return { networks: inner.networks, values: valuesOf(inner.networks, coefficients) };
 }
 
@@ -62,11 +64,13 @@ function lawChart(explorer, name, law) {
   const chart = svg("svg", { viewBox: `0 0 ${WIDTH} ${CURVE + BELL}`, width: WIDTH });
   const caption = element("figcaption"), drawn = svg("g", {}), handles = svg("g", {});
   chart.append(drawn, handles);
+  const { number } = explorer;
   let size = sizeOf(explorer, law), held = -1;
   const draw = () => {
+    if (explorer.number !== number) return;
     if (held < 0) size = sizeOf(explorer, law);
     const { ofRate, force } = curveAt(explorer, explorer.design, law);
-    const state = explorer.evaluation.cases[0].point?.states[law];
+    const state = explorer.state.point?.states[law];
     if (!state) return;
     drawn.replaceChildren(...curveLines(force, size), ...bell(state, size));
     const unit = ofRate ? "m/s" : "mm", factor = ofRate ? 1 : 1e3;
@@ -103,7 +107,7 @@ function lawChart(explorer, name, law) {
 /** @param {Explorer} explorer @param {number} law @returns {Size} that shows all knots and three deviations */
 function sizeOf(explorer, law) {
   const { knots, force } = curveAt(explorer, explorer.design, law);
-  const deviation = explorer.evaluation.cases[0].point?.states[law].deviation ?? 0;
+  const deviation = explorer.state.point?.states[law].deviation ?? 0;
   const x = 1.2 * Math.max(3 * deviation, ...knots.map(Math.abs));
   return { x, y: 1.2 * Math.max(Math.abs(force(x)), Math.abs(force(-x)), 1) };
 }

@@ -1,7 +1,9 @@
 // The page: unpacks the plotting library and its record, and draws its parts.
 
 import { unpacked } from "../numerics/packed.js";
+import { drawCurves } from "./curve_panel.js";
 import { drawDesign } from "./design_panel.js";
+import { drawDetails } from "./details_panel.js";
 import { drawDownloads } from "./downloads.js";
 import { byId, element } from "./elements.js";
 import { Explorer } from "./explorer.js";
@@ -27,6 +29,8 @@ async function draw() {
   drawFilters(explorer);
   drawDesign(explorer);
   drawLaws(explorer);
+  drawCurves(explorer);
+  drawDetails(explorer);
   drawDownloads(explorer, record.study);
   document.body.classList.add("drawn");
 }

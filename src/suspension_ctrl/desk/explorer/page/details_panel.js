@@ -1,0 +1,49 @@
+// Details of the design at hand, once it rests: its modes, and what changes its measures most.
+
+import { byId, digits, rested, tableRow } from "./elements.js";
+
+/** @typedef {import("./explorer.js").Explorer} Explorer */
+/** @typedef {import("../numerics/modes.js").Mode} Mode */
+
+/** @param {Explorer} explorer put tables of modes and sensitivities into the page */
+export function drawDetails(explorer) {
+  let present = explorer.presentModes();
+  explorer.show("case", () => (present = explorer.presentModes()));
+  explorer.show("design", rested(() => {
+    byId("modes").replaceChildren(...modeRows(explorer.modes(), present));
+    byId("sensitivities").replaceChildren(...sensitivityRows(explorer));
+    byId("sensitivities").dataset.shown = [explorer.number, ...explorer.design].join();
+  }));
+}
+
+/**
+ * Return the rows of the modes of a design, beside those of the present design by name.
+ * @param {Mode[] | null} modes
+ * @param {Mode[] | null} present
+ */
+function modeRows(modes, present) {
+  if (!modes) return [tableRow("td", ["Not known: modes need masses, springs and dampers by their values."])];
+  const header = ["mode", "undamped [Hz]", "damped [Hz]", "damping ratio", "present: undamped [Hz]", "damping ratio"];
+  return [tableRow("th", header), ...modes.map(({ name, frequency, damped, ratio }) => {
+    const own = present?.find((one) => one.name === name);
+    const cells = [frequency, damped, ratio, own?.frequency ?? null, own?.ratio ?? null].map(digits);
+    const row = tableRow("td", [name, ...cells]);
+    row.dataset.value = [frequency, damped, ratio].join();
+    return row;
+  })];
+}
+
+/** @param {Explorer} explorer @returns {HTMLElement[]} a row for each variable, the largest change first */
+function sensitivityRows(explorer) {
+  const measures = explorer.columns.filter((column) => column.kind !== "variable");
+  const found = explorer.sensitivities().map((changes, v) => ({ name: explorer.variables[v].name, changes }));
+  const largest = (/** @type {(number | null)[]} */ changes) =>
+    Math.max(...changes.map((change) => Math.abs(change ?? 0)));
+  found.sort((one, other) => largest(other.changes) - largest(one.changes));
+  return [tableRow("th", ["1 % more of", ...measures.map(({ name }) => `${name} [%]`)]), ...found.map(({ name, changes }) => {
+    const cells = changes.map((change) => (change === null ? "–" : `${change > 0 ? "+" : ""}${change.toFixed(2)}`));
+    const row = tableRow("td", [name, ...cells]);
+    row.dataset.value = changes.join();
+    return row;
+  })];
+}
