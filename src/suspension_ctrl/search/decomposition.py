@@ -11,8 +11,7 @@ import numpy as np
 
 from ..compiled import compilable, compiled
 from ..quantities import Integer, Real, frozen_array
-from .constraints import violation_of, violations
-from .operators import draw_below
+from .constraints import violations
 
 ZERO_WEIGHT = 1e-4
 """Replaces a weight of zero, so that every subproblem depends on every objective."""
@@ -132,67 +131,6 @@ class MatingRange(NamedTuple):
         if rng.random() < self.probability:
             return neighbours[i]
         return self.everyone
-
-
-class ReplaceWorse(NamedTuple):
-    """Replacement of at most `limit` partners of larger violation or, if both are feasible, larger g(F | lambda).
-
-    The rule for constraints is from H. Jain, K. Deb, "An evolutionary many-objective optimization algorithm
-    using reference-point based nondominated sorting approach, part II", IEEE Trans. Evol. Comput. 18(4), 2014.
-    """
-
-    limit: int
-
-    @compilable()
-    def __call__(
-        self,
-        rng: np.random.Generator,
-        child: Real,
-        child_values: Real,
-        partners: Integer,
-        designs: Real,
-        values: Real,
-        weights: Real,
-        ideal: Real,
-    ) -> None:
-        """Update the ideal point (m,), then replace partners by a child (d,) of values (m + c,), in place."""
-        # Drawing `limit` of the worse partners equals taking the first ones in a random order of all partners.
-        violation = violation_of(child_values, ideal.size)
-        lower_ideal(ideal, child_values, violation == 0.0, values)
-        worse = np.empty_like(partners)
-        count = 0
-        constrained = child_values.size > ideal.size
-        for p in partners:
-            new, old = violation, violation_of(values[p], ideal.size) if constrained else 0.0
-            if new == 0.0 and old == 0.0:
-                for j in range(ideal.size):  # `tchebycheff` of both
-                    g = weights[p, j] * abs(child_values[j] - ideal[j])
-                    new = g if g > new else new
-                    g = weights[p, j] * abs(values[p, j] - ideal[j])
-                    old = g if g > old else old
-            worse[count] = p
-            count += new < old
-        fewest = count - self.limit if count > self.limit else 0
-        for left in range(count, fewest, -1):
-            drawn = draw_below(rng, left)
-            p = worse[drawn]
-            worse[drawn] = worse[left - 1]
-            for v in range(child.size):
-                designs[p, v] = child[v]
-            for j in range(child_values.size):
-                values[p, j] = child_values[j]
-
-
-@compiled(inline="always")
-def lower_ideal(ideal: Real, child: Real, feasible: bool, values: Real) -> None:
-    """Update the ideal point (m,) by a child's values (m + c,), in place, as `ideal_with` does."""
-    has_feasible, i = False, 0
-    while not has_feasible and i < values.shape[0]:
-        has_feasible = violation_of(values[i], ideal.size) == 0.0
-        i += 1
-    for j in range(ideal.size):
-        if (feasible and not has_feasible) or (feasible == has_feasible and child[j] < ideal[j]):
-            ideal[j] = child[j]
 
 
 def updated_utility(

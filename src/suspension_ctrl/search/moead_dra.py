@@ -16,6 +16,7 @@ from .evaluation import SearchProblem
 from .kinds import box
 from .population import Settings, State
 from .problem import Minimisable
+from .replacement import ReplaceWorse
 from .selection import select_survivors
 from .sweep import Decomposed, sweep_batch, sweep_sequential
 
@@ -139,7 +140,7 @@ class MoeadDra(Settings):
         toolbox.register("repair", call_compiled, operators.RedrawOutside(lower, upper, float(self.repair_reach)))
         eta, p = float(self.mutation_eta), float(probability)
         toolbox.register("mutate", call_compiled, operators.MutateDesign(lower, upper, eta, p))
-        toolbox.register("update", call_compiled, decomposition.ReplaceWorse(self.replacements))
+        toolbox.register("update", call_compiled, ReplaceWorse(self.replacements))
         toolbox.register("sweep", _SWEEPS[self.update])
         toolbox.register("update_utility", decomposition.updated_utility, threshold=float(self.utility_threshold))
         return toolbox

@@ -15,6 +15,7 @@ from ..quantities import Integer, Real
 from .clock import untimed
 from .constraints import feasible_objectives
 from .evaluation import WORST, SearchProblem
+from .replacement import ReplaceInSweep, ReplaceWorse
 
 
 class Decomposed(NamedTuple):
@@ -49,7 +50,9 @@ def sweep_sequential(
     box = np.array([problem.lower, problem.upper])
     children, born = np.empty((chosen.size, box.shape[1])), np.empty((chosen.size, population.values.shape[1]))
     try:
-        problem.sweep = function, ours, verbs = problem.sweep or swept_by(toolbox, problem)
+        problem.sweep = function, ours, verbs = problem.sweep or swept_by(toolbox, problem, population)
+        if isinstance(verbs[UPDATE], ReplaceInSweep):
+            verbs[UPDATE].start()
         made = function(rng, chosen, population, None if ours else box, problem.strict, children, born, *verbs)
     except NumbaError as error:
         raise ValueError(f"verbs must compile together, got {str(error).splitlines()[0]}") from None
@@ -59,11 +62,15 @@ def sweep_sequential(
         problem.take(children[:made], born[:made])
 
 
-def swept_by(toolbox: Toolbox, problem: SearchProblem) -> tuple[Callable[..., int], bool, list[Any]]:
+def swept_by(
+    toolbox: Toolbox, problem: SearchProblem, population: Decomposed
+) -> tuple[Callable[..., int], bool, list[Any]]:
     """Return the function of a search's sweeps, whether all its verbs are of this package, and these verbs."""
     verbs = [compiled_verb(untimed(getattr(toolbox, name))) for name in VERBS]
     verbs.append(compiled_evaluation(toolbox, problem))
     if None not in verbs:
+        if isinstance(verbs[UPDATE], ReplaceWorse):
+            verbs[UPDATE] = ReplaceInSweep.of(verbs[UPDATE], *population.weights.shape)
         ours = all(map(storable, verbs))
         return (_STORED if ours else _FRESH), ours, [*verbs[:-1], linked(verbs[-1])]
     verbs = [getattr(toolbox, name) for name in VERBS]
@@ -88,6 +95,8 @@ def sweep_batch(
 
 VERBS = ("mating_range", "reproduce", "repair", "mutate", "update")
 """The verbs inside a sweep, in the order of `work_on`."""
+
+UPDATE = VERBS.index("update")
 
 
 _FAULTS = {

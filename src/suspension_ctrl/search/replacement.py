@@ -1,0 +1,155 @@
+"""Replacement of partners by a child in MOEA/D-DRA, after each child and over a whole sweep."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..compiled import compilable, compiled, uncounted
+from ..quantities import Integer, Real
+from .constraints import violation_of
+from .operators import draw_below
+
+
+class ReplaceWorse(NamedTuple):
+    """Replacement of at most `limit` partners of larger violation or, if both are feasible, larger g(F | lambda).
+
+    The rule for constraints is from H. Jain, K. Deb, "An evolutionary many-objective optimization algorithm
+    using reference-point based nondominated sorting approach, part II", IEEE Trans. Evol. Comput. 18(4), 2014.
+    """
+
+    limit: int
+
+    @compilable()
+    def __call__(
+        self,
+        rng: np.random.Generator,
+        child: Real,
+        child_values: Real,
+        partners: Integer,
+        designs: Real,
+        values: Real,
+        weights: Real,
+        ideal: Real,
+    ) -> None:
+        """Update the ideal point (m,), then replace partners by a child (d,) of values (m + c,), in place."""
+        n, m = weights.shape
+        kept = Kept(np.empty(n), np.full(m, np.nan), partners, np.empty(m), np.empty_like(partners))
+        replace(rng, child, child_values, partners, designs, values, weights, ideal, self.limit, kept)
+
+
+class Kept(NamedTuple):
+    """Costs that hold from one replacement to the next if nothing else changes the population, and work space."""
+
+    costs: Real  # (N,) `cost_of` individuals at the ideal point `known`
+    known: Real  # (m,) NaN: none
+    whose: Integer  # (k,) all whose costs are needed
+    gaps: Real  # (m,) work space, |F - z| of the child
+    worse: Integer  # (k,) work space, indices of those that the child betters
+
+
+class ReplaceInSweep(NamedTuple):
+    """`ReplaceWorse` in a sweep, within which nothing else changes the population."""
+
+    limit: int
+    kept: Kept
+
+    @classmethod
+    def of(cls, verb: ReplaceWorse, size: int, objectives: int) -> "ReplaceInSweep":
+        """Return the verb for populations of a size."""
+        everyone, gaps = np.arange(size), np.empty(objectives)
+        return cls(verb.limit, Kept(np.empty(size), np.empty(objectives), everyone, gaps, everyone.copy()))
+
+    def start(self) -> None:
+        """Begin a sweep: weights and population may have changed."""
+        self.kept.known.fill(np.nan)
+
+    @uncounted()
+    def __call__(
+        self,
+        rng: np.random.Generator,
+        child: Real,
+        child_values: Real,
+        partners: Integer,
+        designs: Real,
+        values: Real,
+        weights: Real,
+        ideal: Real,
+    ) -> None:
+        """Do what `ReplaceWorse` does."""
+        replace(rng, child, child_values, partners, designs, values, weights, ideal, self.limit, self.kept)
+
+
+@uncounted()
+def replace(
+    rng: np.random.Generator,
+    child: Real,
+    child_values: Real,
+    partners: Integer,
+    designs: Real,
+    values: Real,
+    weights: Real,
+    ideal: Real,
+    limit: int,
+    kept: Kept,
+) -> None:
+    """Update ideal point, population and what is kept by a child (d,) with values (m + c,), in place."""
+    m, costs, worse, gaps = ideal.size, kept.costs, kept.worse, kept.gaps
+    violation = violation_of(child_values, m)
+    lower_ideal(ideal, child_values, violation == 0.0, values)
+    moved = False
+    for j in range(m):
+        moved |= kept.known[j] != ideal[j]
+        kept.known[j], gaps[j] = ideal[j], abs(child_values[j] - ideal[j])
+    if moved:
+        for i in kept.whose:
+            costs[i] = cost_of(values[i], weights[i], ideal)
+    # Two or three objectives without a loop, and indices without a sign, which numba would test.
+    count, first, second, last = 0, gaps[0], gaps[1], gaps[m - 1]
+    for k in range(partners.size):
+        i = np.uint64(partners[k])
+        cost = costs[i]
+        better = (
+            (weights[i, 0] * first < cost) & (weights[i, 1] * second < cost) & (weights[i, m - 1] * last < cost)
+        )
+        for j in range(2, m - 1):
+            better &= weights[i, j] * gaps[j] < cost
+        if violation > 0.0:
+            better = violation < violation_of(values[i], m)
+        if better:
+            worse[count] = i
+            count += 1
+    # Drawing `limit` of the worse partners equals taking the first ones in a random order of all partners.
+    fewest = count - limit if count > limit else 0
+    for left in range(count, fewest, -1):
+        drawn = draw_below(rng, left)
+        i = worse[drawn]
+        worse[drawn] = worse[left - 1]
+        for v in range(child.size):
+            designs[i, v] = child[v]
+        for j in range(child_values.size):
+            values[i, j] = child_values[j]
+        costs[i] = cost_of(child_values, weights[i], ideal)
+
+
+@compiled(inline="always")
+def lower_ideal(ideal: Real, child: Real, feasible: bool, values: Real) -> None:
+    """Update the ideal point (m,) by a child's values (m + c,), in place, as `ideal_with` does."""
+    has_feasible, i = False, 0
+    while not has_feasible and i < values.shape[0]:
+        has_feasible = violation_of(values[i], ideal.size) == 0.0
+        i += 1
+    for j in range(ideal.size):
+        if (feasible and not has_feasible) or (feasible == has_feasible and child[j] < ideal[j]):
+            ideal[j] = child[j]
+
+
+@compiled(inline="always")
+def cost_of(value: Real, weight: Real, ideal: Real) -> float:
+    """Return g(F | lambda) of values (m + c,) by a weight (m,), as `tchebycheff` does; infinite if infeasible."""
+    if violation_of(value, ideal.size) > 0.0:
+        return np.inf
+    cost = 0.0
+    for j in range(ideal.size):
+        g = weight[j] * abs(value[j] - ideal[j])
+        cost = g if g > cost else cost
+    return cost
