@@ -4,7 +4,7 @@ from dataclasses import replace
 from functools import partial
 
 from suspension_ctrl import MoeadDra, Nsga2, Problem, Run, minimise
-from suspension_ctrl.search.decomposition import neighbourhoods
+from suspension_ctrl.search.neighbours import neighbourhoods
 
 from . import OURS, Job, Task
 

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from suspension_ctrl.compiled import call_compiled
 from suspension_ctrl.search import decomposition
+from suspension_ctrl.search.neighbours import neighbourhoods
 
 
 @pytest.mark.parametrize("m", [2, 3, 4])
@@ -46,25 +47,6 @@ def test_equal_sizes_give_equal_weights_that_cannot_be_changed():
     np.testing.assert_array_equal(decomposition.weight_vectors(30, 3), weights)
     with pytest.raises(ValueError, match="read-only"):
         decomposition.weight_vectors(30, 3)[0, 0] = 2.0
-
-
-def test_neighbourhoods_hold_the_nearest_and_begin_with_oneself():
-    weights, near = decomposition.weight_vectors(60, 3), decomposition.neighbourhoods(60, 3, 6)
-    np.testing.assert_array_equal(near[:, 0], np.arange(60))
-    distance = np.linalg.norm(weights[:, None] - weights[None], axis=2)
-    np.testing.assert_allclose(
-        np.take_along_axis(distance, near, axis=1), np.sort(distance, axis=1)[:, :6], rtol=1e-12, atol=1e-15
-    )
-
-
-@pytest.mark.parametrize("order", ["random", "ascending"])
-@pytest.mark.parametrize(("n", "count"), [(40, 7), (700, 1), (1000, 100), (1000, 990), (1234, 60)])
-def test_least_keys_are_those_of_a_whole_sort(n, count, order):
-    """Ascending keys all lie in the first part of a row."""
-    keys = np.random.default_rng(n).permuted(np.tile(np.arange(n), (5, 1)), axis=1)
-    if order == "ascending":
-        keys[::2].sort(axis=1)
-    np.testing.assert_array_equal(decomposition.least(keys, count), np.sort(keys, axis=1)[:, :count])
 
 
 vectors = st.lists(st.floats(0, 100), min_size=3, max_size=3).map(np.array)
@@ -108,7 +90,7 @@ def test_everyone_can_be_chosen():
 
 
 def test_mating_range_is_the_neighbourhood_with_its_probability():
-    near = decomposition.neighbourhoods(50, 3, 5)
+    near = neighbourhoods(50, 3, 5)
     rng = np.random.default_rng(1)
     mating_range = decomposition.MatingRange(0.9, np.arange(50))
     sizes = np.array([call_compiled(mating_range, rng, 7, near).size for _ in range(4000)])

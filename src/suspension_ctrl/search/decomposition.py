@@ -16,8 +16,6 @@ from .constraints import violations
 ZERO_WEIGHT = 1e-4
 """Replaces a weight of zero, so that every subproblem depends on every objective."""
 
-_ROWS = 32  # of the distance matrix at a time: they stay in the processor's cache
-_NETWORK = 256  # most integers that numpy sorts by a network
 _SAMPLE_SEED = 2009  # fixed: the weights depend on the size alone
 
 
@@ -44,47 +42,6 @@ def farthest_first(points: Real, start: Integer, size: int) -> Integer:
         np.minimum(nearest, squares.sum(axis=0), out=nearest)
         nearest[chosen[i]] = -1.0  # not chosen again, even if only copies are left
     return chosen
-
-
-@lru_cache
-def neighbourhoods(size: int, objectives: int, neighbours: int) -> Integer:
-    """Return the indices (N, T), read-only, of the T nearest `weight_vectors` of each, itself first."""
-    weights = weight_vectors(size, objectives)
-    # Sort keys: 1 + |a - b|^2 as a matrix product. Positive floats order like their bits, and the last bits, which
-    # are below the accuracy needed, are replaced by the index: one selection of integers gives the neighbours.
-    low = (1 << (size - 1).bit_length()) - 1
-    squares, ones, indices = (weights**2).sum(axis=1), np.ones(size), np.arange(size)
-    left = np.column_stack([-2 * weights, ones, 1 + squares])
-    right = np.stack([*weights.T, squares, ones])
-    nearest = np.empty((size, neighbours), dtype=np.int64)
-    for rows in range(0, size, _ROWS):
-        key = (left[rows : rows + _ROWS] @ right).view(np.int64)
-        key &= ~low
-        key |= indices
-        nearest[rows : rows + _ROWS] = least(key, neighbours)
-    return frozen_array(nearest & low, dtype=np.int64)
-
-
-def least(keys: Integer, count: int) -> Integer:
-    """Return the `count` least keys of each row (k, n), ascending.
-
-    Numpy sorts up to 256 integers by a network of instructions without branches, and is several times slower with
-    more: parts of a row are sorted, and the first of each sorted again. That is checked, as keys may lie unevenly.
-    """
-    rows, n = keys.shape
-    parts = -(-n // _NETWORK)
-    width, share = -(-n // parts), count / parts
-    first = int(share + 4 * np.sqrt(share)) + 2
-    if first > width // 2:
-        return np.sort(np.partition(keys, count - 1, axis=1)[:, :count], axis=1)
-    ordered = np.full((rows, parts * width), np.iinfo(np.int64).max)
-    ordered[:, :n] = keys
-    ordered = np.sort(ordered.reshape(rows, parts, width), axis=2)
-    few = ordered[:, :, :first].reshape(rows, parts * first)
-    found = np.sort(np.partition(few, count - 1, axis=1)[:, :count], axis=1)
-    short = ordered[:, :, first].min(axis=1) < found[:, -1]
-    found[short] = np.sort(keys[short], axis=1)[:, :count]
-    return found
 
 
 def tchebycheff(values: Real, weights: Real, ideal: Real) -> Real:

@@ -14,6 +14,7 @@ from . import decomposition, operators
 from .constraints import constrained, ideal_with
 from .evaluation import SearchProblem
 from .kinds import box
+from .neighbours import neighbourhoods
 from .population import Settings, State
 from .problem import Minimisable
 from .replacement import ReplaceWorse
@@ -153,7 +154,7 @@ class MoeadDra(Settings):
         vectors = decomposition.weight_vectors(size, m)
         corners = vectors.argmax(axis=0)  # the unit vectors, wherever they stand
         weights = np.where(vectors == 0, decomposition.ZERO_WEIGHT, vectors) / self._scales(m)
-        neighbours = decomposition.neighbourhoods(size, m, self.neighbours)
+        neighbours = neighbourhoods(size, m, self.neighbours)
         if state is None:
             designs = np.array(toolbox.sample(rng, size), dtype=float)
             values = problem.values(toolbox.evaluate, designs)
