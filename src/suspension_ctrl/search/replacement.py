@@ -93,16 +93,33 @@ def replace(
     kept: Kept,
 ) -> None:
     """Update ideal point, population and what is kept by a child (d,) with values (m + c,), in place."""
-    m, costs, worse, gaps = ideal.size, kept.costs, kept.worse, kept.gaps
-    violation = violation_of(child_values, m)
+    violation = violation_of(child_values, ideal.size)
     lower_ideal(ideal, child_values, violation == 0.0, values)
     moved = False
-    for j in range(m):
+    for j in range(ideal.size):
         moved |= kept.known[j] != ideal[j]
-        kept.known[j], gaps[j] = ideal[j], abs(child_values[j] - ideal[j])
+        kept.known[j], kept.gaps[j] = ideal[j], abs(child_values[j] - ideal[j])
     if moved:
         for i in kept.whose:
-            costs[i] = cost_of(values[i], weights[i], ideal)
+            kept.costs[i] = cost_of(values[i], weights[i], ideal)
+    count = find_worse(violation, partners, values, weights, kept)
+    # Drawing `limit` of the worse partners equals taking the first ones in a random order of all partners.
+    fewest = count - limit if count > limit else 0
+    for left in range(count, fewest, -1):
+        drawn = draw_below(rng, left)
+        i = kept.worse[drawn]
+        kept.worse[drawn] = kept.worse[left - 1]
+        for v in range(child.size):
+            designs[i, v] = child[v]
+        for j in range(child_values.size):
+            values[i, j] = child_values[j]
+        kept.costs[i] = cost_of(child_values, weights[i], ideal)
+
+
+@uncounted()
+def find_worse(violation: float, partners: Integer, values: Real, weights: Real, kept: Kept) -> int:
+    """Put partners that a child of this violation and these gaps betters into `kept.worse`; return their count."""
+    m, costs, worse, gaps = weights.shape[1], kept.costs, kept.worse, kept.gaps
     # Two or three objectives without a loop, and indices without a sign, which numba would test.
     count, first, second, last = 0, gaps[0], gaps[1], gaps[m - 1]
     for k in range(partners.size):
@@ -118,17 +135,7 @@ def replace(
         if better:
             worse[count] = i
             count += 1
-    # Drawing `limit` of the worse partners equals taking the first ones in a random order of all partners.
-    fewest = count - limit if count > limit else 0
-    for left in range(count, fewest, -1):
-        drawn = draw_below(rng, left)
-        i = worse[drawn]
-        worse[drawn] = worse[left - 1]
-        for v in range(child.size):
-            designs[i, v] = child[v]
-        for j in range(child_values.size):
-            values[i, j] = child_values[j]
-        costs[i] = cost_of(child_values, weights[i], ideal)
+    return count
 
 
 @compiled(inline="always")
