@@ -7,11 +7,11 @@ import { forceAt } from "../../../src/suspension_ctrl/desk/explorer/numerics/law
 import { curvesAt, networksOf } from "../../../src/suspension_ctrl/desk/explorer/numerics/network_rows.js";
 import { modesOf } from "../../../src/suspension_ctrl/desk/explorer/numerics/modes.js";
 import { unpacked } from "../../../src/suspension_ctrl/desk/explorer/numerics/packed.js";
-import { evaluated, prepared } from "../../../src/suspension_ctrl/desk/explorer/numerics/scores.js";
+import { evaluated, innerOf, prepared } from "../../../src/suspension_ctrl/desk/explorer/numerics/scores.js";
 
 /** @param {any} record @returns {any} scores, milliseconds and positions of all designs, curves of the first */
-function answer({ kernel, ports, matrices, designs }) {
-  const ready = prepared(unpacked(kernel));
+function answer({ kernel, ports, matrices, functions, designs }) {
+  const plants = unpacked(matrices), ready = prepared(unpacked(kernel), unpacked(functions), plants);
   designs.forEach((/** @type {number[]} */ design) => evaluated(ready, design)); // compiles
   const found = designs.map((/** @type {number[]} */ design) => {
     const start = performance.now(), evaluation = evaluated(ready, design);
@@ -19,9 +19,8 @@ function answer({ kernel, ports, matrices, designs }) {
   });
   const { coefficients, point } = found[0].cases[0];
   const curves = curvesOf(preparedPorts(unpacked(ports)), coefficients, point).map(Object.entries);
-  const plant = unpacked(matrices), inner = ready.cases[0].case ?? ready.cases[0];
   return {
-    modes: modesOf(plant, coefficients, inner.networks ?? null, point),
+    modes: modesOf(plants[0], coefficients, innerOf(ready.cases[0]).networks ?? null, point),
     scores: found.map((/** @type {any} */ one) => [...one.scores]),
     milliseconds: found.map((/** @type {any} */ one) => one.milliseconds),
     positions: found.map((/** @type {any} */ one) => one.cases[0].point && [...one.cases[0].point.positions]),

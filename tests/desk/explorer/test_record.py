@@ -33,7 +33,7 @@ def test_columns_are_measures_limits_and_variables(study):
     assert columns["SWS"].limits == (None, 0.012)
     assert (columns["SWS"].unit, columns["SWS"].factor, columns["SWS"].csv) == ("mm", 1e3, "SWS [mm]")
     damping = columns["roll_damping"]
-    assert (damping.kind, damping.limits, damping.computed, damping.unit) == ("limit", (0.1, None), False, "")
+    assert (damping.kind, damping.limits, damping.computed, damping.unit) == ("limit", (0.1, None), True, "")
     assert damping.scale * 0.1 + damping.offset == pytest.approx(0.0)  # at the limit
     assert (columns["front.spring"].unit, columns["front.spring"].place) == ("kN/m", 0)
 
@@ -41,6 +41,8 @@ def test_columns_are_measures_limits_and_variables(study):
 def test_the_record_holds_the_front_the_candidates_and_the_present_design(study, record):
     d, s = len(study.problem.variables), len(study.problem.measures) + len(study.problem.constraints)
     assert record["present"]["names"] == ["present design"]
+    titles = [title for title, _ in record["candidates"]["known"][0]]
+    assert {"residual", "largest travel in 1 km [mm]"} <= set(titles)
     assert record["candidates"]["designs"]["shape"][1] == d
     assert record["candidates"]["scores"]["shape"] == [len(record["candidates"]["names"]), s]
     assert record["front"]["scores"]["shape"][1] == s

@@ -35,8 +35,10 @@ class PlantMatrices(NamedTuple):
     inertia_by: Real  # (c, m)
     weights: Real  # (n,), mass that loads each coordinate by gravity [kg, kg m]
     weights_by: Real  # (c, n)
-    loads: Real  # (t, n), tension of each tyre by coordinate [N/m]
+    loads: Real  # (t, n), tension on each road by coordinate [N/m]
     loads_by: Real  # (c, t, n)
+    sprung: Real  # (1,), mass on the wheels [kg]
+    sprung_by: Real  # (c, 1)
     names: tuple[str, ...]  # (k,), of motions
     motions: Real  # (k, m)
 
@@ -49,7 +51,7 @@ class PlantMatrices(NamedTuple):
         coefficients = {one.name: one for one in assembly.strut_coefficients}
         mechanics = vehicle.statics
         ends, _ = assembly.elongations(assembly.struts)
-        inertia, weights, loads = _by_parameters(vehicle, names)
+        inertia, weights, loads, sprung = _by_parameters(vehicle, names)
         motions = motions_of(assembly)
         return cls(
             setting=np.array(list(setting.values()), dtype=float),
@@ -67,6 +69,8 @@ class PlantMatrices(NamedTuple):
             weights_by=weights,
             loads=mechanics.tyre_loads,
             loads_by=loads,
+            sprung=np.array([assembly.sprung_mass]),
+            sprung_by=sprung,
             names=tuple(motions),
             motions=np.array(list(motions.values())),
         )
@@ -79,10 +83,10 @@ def plant_matrices(
     return PlantMatrices.of(vehicle, setting, variables) if isinstance(vehicle, AssembledVehicle) else None
 
 
-def _by_parameters(vehicle: AssembledVehicle, names: Sequence[str]) -> tuple[Real, Real, Real]:
-    """Return what each coefficient (c,) at 1 adds to inertia (c, m), weights (c, n) and tyre loads (c, t, n).
+def _by_parameters(vehicle: AssembledVehicle, names: Sequence[str]) -> list[Real]:
+    """Return what coefficients (c,) at 1 add to inertia (c, m), weights (c, n), tyre loads (c, t, n), mass (c, 1).
 
-    These are linear in masses and tyres that vary.
+    These are linear in masses and tyres that vary; the mass is that on the wheels.
     """
     base = vehicle.vehicle.assembly if isinstance(vehicle, Varied) else vehicle.assembly
     before = _numbers(base)
@@ -92,9 +96,13 @@ def _by_parameters(vehicle: AssembledVehicle, names: Sequence[str]) -> tuple[Rea
             after = _numbers(one.changed(base, one.default + 1.0))
             for total, new, old in zip(by, after, before, strict=True):
                 total[names.index(added(name))] = new - old
-    inertia, weights, loads = by
-    return inertia, weights, loads
+    ends, _ = base.elongations(base.struts)
+    for coefficient in base.strut_coefficients:  # of struts that stand on a road
+        gain = coefficient.gain * (coefficient.order == 0)
+        by[2][names.index(coefficient.name)] += base.standing @ gain @ ends
+    return by
 
 
-def _numbers(assembly: Assembly) -> tuple[Real, Real, Real]:
-    return np.asarray(assembly.inertia), np.asarray(assembly.weights), Mechanics.of(assembly).tyre_loads
+def _numbers(assembly: Assembly) -> list[Real]:
+    loads, sprung = Mechanics.of(assembly).tyre_loads, np.array([assembly.sprung_mass])
+    return [np.asarray(assembly.inertia), np.asarray(assembly.weights), loads, sprung]

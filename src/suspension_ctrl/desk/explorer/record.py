@@ -1,6 +1,6 @@
 """The record of a study for a page: all that it shows, and all from which it computes other designs."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -14,12 +14,15 @@ from ...quantities import Complex, Integer, Real, column_headers
 from ...response.problem import RideProblem
 from ...response.scores import Kernel
 from ...search.problem import headers_of
-from ...tables.headers import shown_unit
+from ...tables.headers import readable, shown_unit
+from ...tables.rounding import rounded
 from ...vehicles.files import coefficient_table
 from ..candidate_table import PRESENT, reaching
 from ..choosing import Front, front_of
 from ..decision import Decision
+from ..proofs import PRICE, RESIDUAL
 from ..study_files import StudyFile, save_study
+from .functions import functions_of, why_not
 from .packing import packed
 from .plant_matrices import plant_matrices
 from .plant_ports import plant_ports
@@ -43,6 +46,7 @@ class Column(NamedTuple):
     scale: float  # the score is scale times the measure plus offset
     offset: float
     computed: bool  # whether a page can compute it
+    why_not: str  # if it cannot
     limits: tuple[float | None, float | None]  # least and largest value that is allowed, in SI units
 
 
@@ -59,11 +63,12 @@ class Variable(NamedTuple):
 
 
 class Designs(NamedTuple):
-    """Designs (k, d) with their scores (k, m + c), and their names."""
+    """Designs (k, d) with their scores (k, m + c), their names, and what else is known: titles with texts."""
 
     designs: Real
     scores: Real
-    names: tuple[str, ...]
+    names: tuple[str, ...] = ()
+    known: tuple[Sequence[tuple[str, str]], ...] = ()
 
 
 class OtherFront(NamedTuple):
@@ -76,7 +81,7 @@ class OtherFront(NamedTuple):
 def record_of(study: StudyFile, decision: Decision, others: "Mapping[str, pd.DataFrame]") -> dict[str, Any]:
     """Return the record of a study and its decision for JSON, beside other fronts with columns of objectives."""
     problem = decision.problem
-    kernel = problem.scores.kernel(problem.nodes)
+    kernel, functions = problem.scores.kernel(problem.nodes), functions_of(problem)
     headers = column_headers(problem.objectives, problem.units)
     candidates = decision.table[decision.table.name != PRESENT]
     return packed(
@@ -88,6 +93,7 @@ def record_of(study: StudyFile, decision: Decision, others: "Mapping[str, pd.Dat
             "others": [_other(name, table[headers].to_numpy(dtype=float)) for name, table in others.items()],
             "present": _present(problem, study.present),
             "kernel": kernel,
+            "functions": functions,
             **_cases(problem, kernel),
             "study": _text_of(study),
         }
@@ -110,18 +116,22 @@ def _cases(problem: RideProblem, kernel: Kernel) -> dict[str, Any]:
 
 def columns_of(problem: RideProblem) -> Iterator[Column]:
     """Yield the columns of a problem's designs: objectives, measures of limits, variables."""
-    flags = [not score.by_function for score in problem.scores.scores]
+    functions = zip(problem.scores.scores, functions_of(problem), strict=True)
+    flags = [not score.by_function or function is not None for score, function in functions]
     limits = {one.measure: one for one in problem.constraints}
     for i, measure in enumerate(problem.measures):
         limit = limits.pop(measure, None)
         allowed = (limit.minimum, limit.maximum) if limit else (None, None)
-        yield Column(*_headed(measure.label, measure.unit), "objective", i, 1.0, 0.0, flags[i], allowed)
+        yield Column(
+            *_headed(measure.label, measure.unit), "objective", i, 1.0, 0.0, flags[i], why_not(measure), allowed
+        )
     for i, limit in enumerate(problem.constraints, start=len(problem.measures)):
         if limit.measure in limits:
             headed, allowed = _headed(limit.measure.label, limit.measure.unit), (limit.minimum, limit.maximum)
-            yield Column(*headed, "limit", i, limit.scale, limit.offset, flags[i], allowed)
+            why = why_not(limit.measure)
+            yield Column(*headed, "limit", i, limit.scale, limit.offset, flags[i], why, allowed)
     for i, name in enumerate(problem.variables):
-        yield Column(*_headed(name, problem.units[name]), "variable", i, 1.0, 0.0, True, (None, None))
+        yield Column(*_headed(name, problem.units[name]), "variable", i, 1.0, 0.0, True, "", (None, None))
 
 
 def _headed(name: str, unit: str) -> tuple[str, str, str, float]:
@@ -144,7 +154,7 @@ def _variables(problem: RideProblem) -> Iterator[Variable]:
 def _evenly(front: Front) -> Designs:
     """Return a front, of more than `MOST` designs every so many along the first objective."""
     rows = _spread(front.objectives)
-    return Designs(front.designs[rows], np.hstack([front.objectives, front.constraints])[rows], ())
+    return Designs(front.designs[rows], np.hstack([front.objectives, front.constraints])[rows])
 
 
 def _other(name: str, objectives: Real) -> OtherFront:
@@ -162,7 +172,18 @@ def _designs(problem: RideProblem, table: "pd.DataFrame") -> Designs:
     headers = list(headers_of(problem))[: len(problem.variables)]
     designs = table[headers].to_numpy(dtype=float)
     names = tuple(f"{number} {name}" for number, name in zip(table.index, table.name, strict=True))
-    return Designs(designs, problem.evaluate(designs), names)
+    return Designs(designs, problem.evaluate(designs), names, _known(table))
+
+
+def _known(table: "pd.DataFrame") -> tuple[Sequence[tuple[str, str]], ...]:
+    """Return of each row of candidates the active bounds, largest travel, residual and prices, by titles."""
+    given = [str(one) for one in table]
+    columns = [
+        one for one in given if one in ("active", RESIDUAL) or one.startswith(PRICE) or " travel in " in one
+    ]
+    shown = readable(table[columns])
+    texts = {str(header): rounded(shown[header].tolist(), alike=False) for header in shown}
+    return tuple([(header, column[i]) for header, column in texts.items() if column[i]] for i in range(len(table)))
 
 
 def _present(problem: RideProblem, present: Mapping[str, float]) -> Designs | None:

@@ -54,7 +54,7 @@ class DamperPower(WheelMeasure, word="damper_power", unit="W"):
         """Return the measure in a load case; ValueError if the vehicle lacks the place, or for a lossy series."""
         vehicle, names = case.vehicle, self.responses(case.vehicle)
         struts = [vehicle.struts.index(str(vehicle.meanings[name].where)) for name in names]
-        terms, dampers = tuple(map(Term, names)), self._dampers(vehicle)[:, struts]
+        terms, dampers = tuple(map(Term, names)), self.dampers(vehicle)[:, struts]
         forces = [name.removesuffix("suspension_travel_rate") + "strut_force" for name in names]
 
         def values(designs: Designs) -> Real:
@@ -66,7 +66,7 @@ class DamperPower(WheelMeasure, word="damper_power", unit="W"):
 
         return CaseMeasure((*terms, *map(Term, forces)), values=values, in_trip=in_trip)
 
-    def _dampers(self, vehicle: Vehicle) -> Real:
+    def dampers(self, vehicle: Vehicle) -> Real:
         """Return the damping (c, q) of each strut by each coefficient."""
         every = vehicle.strut_coefficients
         found = np.array([np.diag(one.gain) if one.order == 1 else np.zeros(len(vehicle.struts)) for one in every])

@@ -103,7 +103,7 @@ function divide(whole, ratio, one, other) {
  * @param {State[]} states
  * @returns {Static[]}
  */
-function staticsOf({ nodes, laws, measured }, values, states) {
+export function staticsOf({ nodes, laws, measured }, values, states) {
   /** @type {Static[]} */
   const statics = [];
   for (const { kind, parts, coefficient, law, ratio } of nodes) {

@@ -4,7 +4,7 @@ import { assigned } from "./assignment.js";
 import { eigenOf } from "./eigenvalues.js";
 import { haveFractions } from "./fractions.js";
 import { rowsIn } from "./packed.js";
-import { matricesAt, settingAt, stateMatrix } from "./state_matrix.js";
+import { matricesAt, numbersAt, settingAt, stateMatrix } from "./state_matrix.js";
 
 /** @typedef {import("./eigenvalues.js").Eigen} Eigen */
 /** @typedef {{name: string, frequency: number, damped: number, ratio: number}} Mode undamped and damped [Hz] */
@@ -40,7 +40,7 @@ export function modesOf(plant, coefficients, networks, point) {
 }
 
 /** @param {import("./state_matrix.js").Matrices} matrices @returns {Found} */
-function polesOf(matrices) {
+export function polesOf(matrices) {
   const { matrix, frequency, scale } = stateMatrix(matrices), { values, vectors } = eigenOf(matrix);
   const poles = vectors.map((_, i) => /** @type {Complex} */ ([frequency * values[2 * i], frequency * values[2 * i + 1]]));
   const shapes = vectors.map((vector) => Float64Array.from({ length: 2 * scale.length }, (_, i) =>
@@ -115,33 +115,35 @@ function repaired(poles) {
  * @returns {string[]}
  */
 function namesOf(plant, values, shapes) {
-  const motions = rowsIn(plant.motions), displacements = rowsIn(plant.displacements), /** @type {string[]} */ names = [];
-  const inertia = Float64Array.from(plant.inertia.data);
-  rowsIn(plant.inertia_by).forEach((row, c) => row.forEach((x, i) => (inertia[i] += values[c] * x)));
+  const names = /** @type {string[]} */ ([]);
   const shares = shapes.map((shape) => {
-    const moved = displacements.map((row) => [0, 1].map((part) => dot(row, Array.from(row, (_, i) => shape[2 * i + part]))));
-    const energy = motions.map((motion) => energyAlong(motion, inertia, moved));
+    const energy = energiesOf(plant, values, shape);
     const total = energy.reduce((sum, own) => sum + own, 0);
     return energy.map((own) => own / total);
   });
-  if (shapes.length <= motions.length) {
+  if (shapes.length <= plant.names.length) {
     assigned(shares.map((row) => row.map((share) => -share))).forEach((k, i) => (names[i] = plant.names[k]));
   } else { // of an inerter in series
-    assigned(motions.map((_, k) => shares.map((row) => -row[k]))).forEach((i, k) => (names[i] = plant.names[k]));
+    assigned(plant.names.map((/** @type {string} */ _, /** @type {number} */ k) => shares.map((row) => -row[k]))).forEach((i, k) => (names[i] = plant.names[k]));
   }
   return shares.map((row, i) => names[i] ?? `${plant.names[row.indexOf(Math.max(...row))]} ${i + 1}`);
 }
 
 /**
- * Return twice the kinetic energy of movements (m, 2) in a motion (m,).
- * @param {ArrayLike<number>} motion
- * @param {Float64Array} inertia
- * @param {number[][]} moved
+ * Return twice the kinetic energy of a shape (n,) in each motion (k,).
+ * @param {any} plant
+ * @param {ArrayLike<number>} values
+ * @param {Float64Array} shape
+ * @returns {number[]}
  */
-function energyAlong(motion, inertia, moved) {
-  const momentum = inertia.map((own, i) => own * motion[i]);
-  const parts = [0, 1].map((part) => dot(momentum, moved.map((own) => own[part])));
-  return (parts[0] ** 2 + parts[1] ** 2) / dot(momentum, motion);
+export function energiesOf(plant, values, shape) {
+  const inertia = numbersAt(plant, "inertia", values), displacements = rowsIn(plant.displacements);
+  const [re, im] = [0, 1].map((part) => displacements.map((row) =>
+    dot(row, Array.from(row, (_, i) => shape[2 * i + part]))));
+  return rowsIn(plant.motions).map((motion) => {
+    const momentum = inertia.map((own, i) => own * motion[i]);
+    return (dot(momentum, re) ** 2 + dot(momentum, im) ** 2) / dot(momentum, motion);
+  });
 }
 
 /** @param {ArrayLike<number>} one @param {ArrayLike<number>} other @returns {number} */

@@ -1,11 +1,13 @@
 // Objectives and limits of a design from the mean squares of every load case, see response/scores.py.
 
 import { coefficientsOf } from "./formulas.js";
+import { valueOf } from "./functions.js";
 import { blocksOf, squaresOfManyStruts } from "./many_struts.js";
 import { networksOf } from "./network_rows.js";
 import { squaresOfAnyStruts, squaresOfOnePort } from "./networked.js";
 import { squaresOfOneStrut } from "./one_strut.js";
 import { rowsIn } from "./packed.js";
+import { settingAt } from "./state_matrix.js";
 
 /** @typedef {import("./networked.js").Point} Point */
 /**
@@ -16,10 +18,12 @@ import { rowsIn } from "./packed.js";
 /**
  * Return a packed kernel with blocks and networks ready for use.
  * @param {any} kernel
+ * @param {any[]} functions of scores, null where mean squares are the score
+ * @param {any[]} plants packed `PlantMatrices` of each load case, null where they are not known
  * @returns {any}
  */
-export function prepared(kernel) {
-  return { ...kernel, cases: kernel.cases.map(preparedCase) };
+export function prepared(kernel, functions, plants) {
+  return { ...kernel, functions, plants, cases: kernel.cases.map(preparedCase) };
 }
 
 /** @param {any} one @returns {any} a load case ready for use */
@@ -52,7 +56,7 @@ export function squaresIn(one, design) {
 }
 
 /**
- * Return the scores of a design (v,); those of measures by a function of designs have no meaning.
+ * Return the scores of a design (v,); those that only Python computes have no meaning.
  * @param {any} kernel prepared
  * @param {ArrayLike<number>} design
  * @returns {Evaluation}
@@ -60,11 +64,11 @@ export function squaresIn(one, design) {
 export function evaluated(kernel, design) {
   const count = kernel.scale.data.length, total = new Float64Array(count);
   const factors = rowsIn(kernel.squares), k = kernel.squares.shape[2];
-  const cases = kernel.cases.map((/** @type {any} */ one, /** @type {number} */ c) => {
-    const { squares, coefficients, point } = squaresIn(one, design);
+  const found = kernel.cases.map((/** @type {any} */ one) => squaresIn(one, design));
+  const cases = found.map((/** @type {any} */ { squares, coefficients, point }, /** @type {number} */ c) => {
     for (let s = 0; s < count; s++) {
       let value = 0;
-      squares.forEach((square, i) => {
+      squares.forEach((/** @type {number} */ square, /** @type {number} */ i) => {
         const term = factors[c][s * k + i] * square;
         value = kernel.worst_term.data[s] ? Math.max(value, term) : value + term;
       });
@@ -73,5 +77,32 @@ export function evaluated(kernel, design) {
     return { coefficients, point };
   });
   const scores = total.map((value, s) => kernel.scale.data[s] * Math.sqrt(value) + kernel.offset.data[s]);
+  kernel.functions.forEach((/** @type {any} */ one, /** @type {number} */ s) => {
+    if (one) scores[s] = kernel.scale.data[s] * ofFunction(kernel, one, s, found) + kernel.offset.data[s];
+  });
   return { scores, cases };
+}
+
+/**
+ * Return a measure by a function over load cases: the worst, or the mean of its power by their shares.
+ * @param {any} kernel
+ * @param {{word: string, power: number, cases: any[]}} measure
+ * @param {number} s
+ * @param {ReturnType<squaresIn>[]} found
+ * @returns {number}
+ */
+function ofFunction(kernel, { word, power, cases }, s, found) {
+  const values = cases.map((numbers, c) => {
+    const plant = kernel.plants[c], networks = innerOf(kernel.cases[c]).networks ?? null;
+    const setting = plant ? settingAt(plant, found[c].coefficients) : new Float64Array();
+    return valueOf(word, numbers, { ...found[c], plant, networks, values: setting });
+  });
+  const sign = Math.sign(kernel.scale.data[s]);
+  if (kernel.worst_case.data[s]) return sign * Math.max(...values.map((value) => sign * value));
+  return values.reduce((sum, value, c) => sum + kernel.shares.data[c] * value ** power, 0) ** (1 / power);
+}
+
+/** @param {any} one @returns {any} a load case without formulas */
+export function innerOf(one) {
+  return one.class === "Mapped" ? one.case : one;
 }

@@ -25,6 +25,19 @@ export function settingAt(plant, coefficients) {
 }
 
 /**
+ * Return numbers (...,) of a vehicle by their name, with what coefficients (c,) add to them.
+ * @param {any} plant packed `PlantMatrices`
+ * @param {"inertia" | "weights" | "loads" | "sprung"} name
+ * @param {ArrayLike<number>} values
+ * @returns {Float64Array}
+ */
+export function numbersAt(plant, name, values) {
+  const total = Float64Array.from(plant[name].data);
+  rowsIn(plant[`${name}_by`]).forEach((row, c) => row.forEach((x, i) => (total[i] += values[c] * x)));
+  return total;
+}
+
+/**
  * Return the matrices of a vehicle with coefficients (c,), its networks at a working point.
  * @param {any} plant packed `PlantMatrices`
  * @param {ArrayLike<number>} values

@@ -16,7 +16,10 @@ export function drawDesign(explorer) {
     ),
     ...explorer.variables.map((variable, v) => slider(explorer, variable, v)),
   );
-  explorer.show("design", () => byId("measures").replaceChildren(...measures(explorer)));
+  explorer.show("design", () => {
+    byId("measures").replaceChildren(...measures(explorer));
+    byId("known").replaceChildren(...(explorer.stored?.known ?? []).map((texts) => tableRow("td", texts)));
+  });
   const names = explorer.cases.map(({ name }) => name);
   if (names.length > 1) byId("cases").append(choice("load case", names, explorer.number, (i) => explorer.inCase(i)));
 }
@@ -25,6 +28,7 @@ export function drawDesign(explorer) {
 function slider(explorer, variable, v) {
   const last = variable.values.length ? variable.values.length - 1 : STEPS;
   const input = element("input", { type: "range", min: "0", max: String(last), step: "1" });
+  input.disabled = variable.low === variable.high;
   const output = element("output");
   input.addEventListener("input", () => {
     const design = Float64Array.from(explorer.design);
@@ -74,7 +78,8 @@ function measures(explorer) {
     const here = explorer.valueHere(column), own = present && explorer.valueAt(column, present);
     const change = here === null || !own ? null : (100 * (here - own)) / Math.abs(own);
     const others = kept.map((point) => digits(explorer.valueAt(column, point)));
-    const cells = [headed(column), digits(here), digits(own), change === null ? "–" : change.toFixed(1), ...others];
+    const shown = here === null ? `– (${column.why_not})` : digits(here);
+    const cells = [headed(column), shown, digits(own), change === null ? "–" : change.toFixed(1), ...others];
     const row = tableRow("td", cells);
     row.dataset.value = String(here);
     const [least, largest] = column.limits.map((limit) => limit && limit * column.factor);

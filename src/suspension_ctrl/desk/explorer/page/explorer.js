@@ -8,11 +8,11 @@ import { changesOf } from "../numerics/sensitivities.js";
 
 /**
  * @typedef {{name: string, csv: string, unit: string, factor: number, kind: string, place: number, scale: number,
- *   offset: number, computed: boolean, limits: (number | null)[]}} Column
+ *   offset: number, computed: boolean, why_not: string, limits: (number | null)[]}} Column
  * @typedef {{name: string, unit: string, factor: number, low: number, high: number, kind: string,
  *   values: number[]}} Variable
  * @typedef {{group: "front" | "candidate" | "present" | "kept", name: string, design: ArrayLike<number>,
- *   scores: ArrayLike<number>}} Point
+ *   scores: ArrayLike<number>, known: [string, string][]}} Point with titles and texts of what else is known
  * @typedef {{name: string, ports: any, matrices: any}} LoadCase
  * @typedef {"design" | "shown" | "case"} Change of the design at hand, of which designs are shown and marked, or of
  *   the load case
@@ -30,7 +30,8 @@ export class Explorer {
     this.columns = record.columns;
     /** @type {Variable[]} */
     this.variables = record.variables;
-    this.kernel = prepared(record.kernel);
+    const plants = record.cases.map((/** @type {LoadCase} */ { matrices }) => matrices);
+    this.kernel = prepared(record.kernel, record.functions, plants);
     /** @type {LoadCase[]} */
     this.cases = record.cases.map((/** @type {LoadCase} */ one) => ({
       ...one, ports: preparedPorts({ ...one.ports, h: record.plants[one.ports.h] }),
@@ -136,7 +137,7 @@ export class Explorer {
   keep() {
     const scores = this.evaluation.scores.slice(), count = this.points.filter(({ group }) => group === "kept").length;
     for (const column of this.columns) if (!column.computed) scores[column.place] = NaN;
-    this.points.push({ group: "kept", name: `kept ${count + 1}`, design: this.design, scores });
+    this.points.push({ group: "kept", name: `kept ${count + 1}`, design: this.design, scores, known: [] });
     this.tell("shown");
     this.tell("design");
   }
@@ -217,6 +218,6 @@ function pointsOf(designs, group) {
   if (!designs) return [];
   const scores = rowsIn(designs.scores);
   return rowsIn(designs.designs).map((design, i) => ({
-    group, name: designs.names[i] ?? "", design, scores: scores[i],
+    group, name: designs.names[i] ?? "", design, scores: scores[i], known: designs.known[i] ?? [],
   }));
 }

@@ -4,6 +4,7 @@
 import { coefficientsOf } from "../numerics/formulas.js";
 import { designThrough, forceAt } from "../numerics/law_curves.js";
 import { curvesAt, valuesOf } from "../numerics/network_rows.js";
+import { innerOf } from "../numerics/scores.js";
 import { byId, digits, element, later, svg } from "./elements.js";
 
 /** @typedef {import("./explorer.js").Explorer} Explorer */
@@ -40,7 +41,7 @@ export function drawLaws(explorer) {
  * @returns {{networks: Networks, values: Float64Array}}
  */
 function settingAt(explorer, design) {
-  const own = explorer.kernel.cases[explorer.number], inner = own.class === "Mapped" ? own.case : own;
+  const own = explorer.kernel.cases[explorer.number], inner = innerOf(own);
   const coefficients = own.class === "Mapped" ? coefficientsOf(own.formulas, design) : design;
   return { networks: inner.networks, values: valuesOf(inner.networks, coefficients) };
 }
