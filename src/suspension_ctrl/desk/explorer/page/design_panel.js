@@ -82,8 +82,8 @@ function measures(explorer) {
     const cells = [headed(column), shown, digits(own), change === null ? "–" : change.toFixed(1), ...others];
     const row = tableRow("td", cells);
     row.dataset.value = String(here);
-    const [least, largest] = column.limits.map((limit) => limit && limit * column.factor);
-    row.className = here !== null && ((largest && here > largest) || (least && here < least)) ? "beyond" : "";
+    const [least, largest] = column.limits.map((limit) => (limit === null ? NaN : limit * column.factor));
+    row.className = here !== null && (here > largest || here < least) ? "beyond" : "";
     return row;
   });
   return [tableRow("th", ["measure", "this design", "present", "change [%]", ...kept.map(({ name }) => name)]), ...rows];
