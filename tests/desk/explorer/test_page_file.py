@@ -1,6 +1,7 @@
 """The page as a file: its size, its policy, its parts."""
 
 import gzip
+import json
 import re
 from base64 import b64decode, b64encode
 from hashlib import sha256
@@ -37,9 +38,15 @@ def test_the_policy_allows_the_scripts_of_the_page_alone(page):
     assert "unsafe-eval" not in policy
     allowed = re.search(r"script-src ([^;]*);", policy)[1].split()
     scripts = re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
-    plotly = gzip.decompress(b64decode(re.search(r'data-gzip="([^"]*)"', page)[1]))
+    plotly = gzip.decompress(b64decode(re.search(r'id="plotly" hidden data-gzip="([^"]*)"', page)[1]))
     wanted = [*(one.encode() for one in scripts), plotly]
     assert allowed == [f"'sha256-{b64encode(sha256(one).digest()).decode()}'" for one in wanted]
+
+
+def test_the_record_is_compressed_json(page):
+    packed = re.search(r'id="record" hidden data-gzip="([^"]*)"', page)[1]
+    record = json.loads(gzip.decompress(b64decode(packed)))
+    assert [one["name"] for one in record["columns"]] == ["ACC", "SWS", "DTL", "spring", "damper"]
 
 
 def test_nothing_is_fetched_and_texts_are_escaped(page):

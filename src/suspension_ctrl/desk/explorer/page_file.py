@@ -51,7 +51,7 @@ def page_of(
         title=study.name,
         said=said,
         tables=[_table(title, part) for title, part in parts.items()],
-        record=json.dumps(record_of(study, decision, {**free, **(others or {})}), allow_nan=False),
+        record=_packed(record_of(study, decision, {**free, **(others or {})})),
         style=Markup(_text("page.css")),
         script=Markup(script),
         plotly=b64encode(plotly).decode("ascii"),
@@ -61,6 +61,12 @@ def page_of(
 
 def _text(name: str) -> str:
     return (_HERE / "page" / name).read_text(encoding="utf-8")
+
+
+def _packed(record: Mapping[str, Any]) -> str:
+    """Return a record as JSON, compressed, the same for the same record."""
+    text = json.dumps(record, allow_nan=False)
+    return b64encode(gzip.compress(text.encode(), mtime=0)).decode("ascii")
 
 
 def _hash(script: bytes) -> str:

@@ -12,17 +12,20 @@ import { drawFront } from "./front_plots.js";
 import { drawLaws } from "./law_panel.js";
 import { drawLines } from "./lines.js";
 
-/** Add the plotting library to the page, whose policy knows it by its hash. */
-async function addPlotly() {
-  const bytes = Uint8Array.from(atob(byId("plotly").dataset.gzip ?? ""), (letter) => letter.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  document.head.append(element("script", { textContent: await new Response(stream).text() }));
+/**
+ * Return the compressed text of an element of the page.
+ * @param {string} id
+ * @returns {Promise<string>}
+ */
+async function textOf(id) {
+  const bytes = Uint8Array.from(atob(byId(id).dataset.gzip ?? ""), (letter) => letter.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).text();
 }
 
 /** Draw all parts of the page. */
 async function draw() {
-  await addPlotly();
-  const record = unpacked(JSON.parse(byId("record").dataset.record ?? ""));
+  document.head.append(element("script", { textContent: await textOf("plotly") })); // which the policy knows by its hash
+  const record = unpacked(JSON.parse(await textOf("record")));
   const explorer = new Explorer(record);
   drawFront(explorer);
   drawLines(explorer);
