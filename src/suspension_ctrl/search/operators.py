@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compilable, compiled
+from ..compiled import compilable, compiled, uncounted
 from ..quantities import Bool, Integer, Real
 
 
@@ -148,9 +148,7 @@ class MutateDesign(NamedTuple):
     @compilable()
     def __call__(self, rng: np.random.Generator, design: Real) -> Real:
         """Return the design (d,), mutated in place."""
-        for v in range(design.size):
-            if rng.random() < self.probability:
-                design[v] = mutated_value(design[v], rng.random(), self.lower[v], self.upper[v], self.eta)
+        mutate_design(self, rng, design)
         return design
 
 
@@ -162,11 +160,8 @@ class DifferentialChild(NamedTuple):
     @compilable()
     def __call__(self, rng: np.random.Generator, designs: Real, i: int, partners: Integer) -> Real:
         """Return a child (d,) of individual i; r2 and r3 are different and drawn from `partners`."""
-        first, second = draw_below(rng, partners.size), draw_below(rng, partners.size - 1)
-        second += second >= first
         child = np.empty(designs.shape[1])
-        for v in range(child.size):
-            child[v] = designs[i, v] + self.scale * (designs[partners[first], v] - designs[partners[second], v])
+        differ(self, rng, designs, i, partners, child)
         return child
 
 
@@ -180,9 +175,35 @@ class RedrawOutside(NamedTuple):
     @compilable()
     def __call__(self, rng: np.random.Generator, child: Real, parent: Real) -> Real:
         """Return the child (d,) of a parent (d,), repaired in place."""
-        for v in range(child.size):
-            if child[v] < self.lower[v]:
-                child[v] = self.lower[v] + self.reach * rng.random() * (parent[v] - self.lower[v])
-            elif child[v] > self.upper[v]:
-                child[v] = self.upper[v] - self.reach * rng.random() * (self.upper[v] - parent[v])
+        redraw_outside(self, rng, child, parent)
         return child
+
+
+@uncounted()
+def mutate_design(verb: MutateDesign, rng: np.random.Generator, design: Real) -> None:
+    """Mutate a design (d,) in place."""
+    for v in range(design.size):
+        if rng.random() < verb.probability:
+            design[v] = mutated_value(design[v], rng.random(), verb.lower[v], verb.upper[v], verb.eta)
+
+
+@uncounted()
+def differ(
+    verb: DifferentialChild, rng: np.random.Generator, designs: Real, i: int, partners: Integer, child: Real
+) -> None:
+    """Put a child of individual i into `child` (d,)."""
+    first, second = draw_below(rng, partners.size), draw_below(rng, partners.size - 1)
+    second += second >= first
+    one, other = partners[first], partners[second]
+    for v in range(child.size):
+        child[v] = designs[i, v] + verb.scale * (designs[one, v] - designs[other, v])
+
+
+@uncounted()
+def redraw_outside(verb: RedrawOutside, rng: np.random.Generator, child: Real, parent: Real) -> None:
+    """Repair a child (d,) of a parent (d,) in place."""
+    for v in range(child.size):
+        if child[v] < verb.lower[v]:
+            child[v] = verb.lower[v] + verb.reach * rng.random() * (parent[v] - verb.lower[v])
+        elif child[v] > verb.upper[v]:
+            child[v] = verb.upper[v] - verb.reach * rng.random() * (verb.upper[v] - parent[v])

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,8 +31,7 @@ class Population(Record):
             **{name: frozen_array(getattr(self, name)) for name in ("designs", "objectives", "constraints")}
         )
         if not self.headers:
-            counted = (("x", self.designs.shape[1]), ("f", self.objectives.shape[1]))
-            self._keep(headers=tuple(f"{letter}{i + 1}" for letter, count in counted for i in range(count)))
+            self._keep(headers=numbered_headers(self.designs.shape[1], self.objectives.shape[1]))
 
     @cached_property
     def violation(self) -> Real:
@@ -75,6 +74,13 @@ class Population(Record):
             return "    no feasible design"
         named = zip(self.headers[self.designs.shape[1] :], kept.min(axis=0), strict=True)
         return "    least " + ", ".join(_with_unit(header, value) for header, value in named)
+
+
+@lru_cache
+def numbered_headers(variables: int, objectives: int) -> tuple[str, ...]:
+    """Return x1 .. xd, f1 .. fm."""
+    counted = (("x", variables), ("f", objectives))
+    return tuple(f"{letter}{i + 1}" for letter, count in counted for i in range(count))
 
 
 def _with_unit(header: str, value: float) -> str:

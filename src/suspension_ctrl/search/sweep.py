@@ -10,12 +10,14 @@ from numba import njit
 from numba.core.errors import NumbaError
 from numba.extending import is_jitted
 
-from ..compiled import call, call_compiled, compilable, compiled, linked, storable, verb_of
+from ..compiled import call, call_compiled, compilable, compiled, entry, linked, storable, verb_of
 from ..quantities import Integer, Real
 from .clock import untimed
 from .constraints import feasible_objectives
+from .decomposition import MatingRange
 from .evaluation import WORST, SearchProblem
 from .replacement import ReplaceInSweep, ReplaceWorse
+from .reproduction import OUTSIDE, WRONG_SIZE, ChildByVerbs, child_maker
 
 
 class Decomposed(NamedTuple):
@@ -47,35 +49,53 @@ def sweep_sequential(
     Runs compiled if every verb is compiled and the problem has a kernel, otherwise in Python with the same draws.
     A kernel is compared with `evaluate` after the first sweep.
     """
-    box = np.array([problem.lower, problem.upper])
-    children, born = np.empty((chosen.size, box.shape[1])), np.empty((chosen.size, population.values.shape[1]))
+    children, born = (np.empty((chosen.size, array.shape[1])) for array in population[:2])
+    sweep = problem.sweep or swept_by(toolbox, problem, population)
+    if isinstance(sweep.verbs[UPDATE], ReplaceInSweep):
+        sweep.verbs[UPDATE].start()
+    given = rng, np.ascontiguousarray(chosen), population, problem.strict, children, born, *sweep.verbs
     try:
-        problem.sweep = function, ours, verbs = problem.sweep or swept_by(toolbox, problem, population)
-        if isinstance(verbs[UPDATE], ReplaceInSweep):
-            verbs[UPDATE].start()
-        made = function(rng, chosen, population, None if ours else box, problem.strict, children, born, *verbs)
+        made = sweep.run(*given)
     except NumbaError as error:
         raise ValueError(f"verbs must compile together, got {str(error).splitlines()[0]}") from None
+    problem.sweep = problem.sweep or sweep._replace(run=entry(sweep.run, given))
     if made < 0:
         raise ValueError(_FAULTS[made])
-    if function is not work_on:
+    if sweep.compiled:
         problem.take(children[:made], born[:made])
 
 
-def swept_by(
-    toolbox: Toolbox, problem: SearchProblem, population: Decomposed
-) -> tuple[Callable[..., int], bool, list[Any]]:
-    """Return the function of a search's sweeps, whether all its verbs are of this package, and these verbs."""
-    verbs = [compiled_verb(untimed(getattr(toolbox, name))) for name in VERBS]
-    verbs.append(compiled_evaluation(toolbox, problem))
-    if None not in verbs:
-        if isinstance(verbs[UPDATE], ReplaceWorse):
-            verbs[UPDATE] = ReplaceInSweep.of(verbs[UPDATE], *population.weights.shape)
-        ours = all(map(storable, verbs))
-        return (_STORED if ours else _FRESH), ours, [*verbs[:-1], linked(verbs[-1])]
-    verbs = [getattr(toolbox, name) for name in VERBS]
-    verbs.append(lambda child: problem.values(toolbox.evaluate, child[np.newaxis])[0])
-    return work_on, False, verbs
+class Sweep(NamedTuple):
+    """The loop of a search's sweeps and its verbs, in the order of `work_on`."""
+
+    run: Callable[..., int]
+    verbs: tuple[Any, ...]
+    compiled: bool
+
+
+UPDATE = 2  # place of the replacement among the verbs of `work_on`
+
+
+def swept_by(toolbox: Toolbox, problem: SearchProblem, population: Decomposed) -> Sweep:
+    """Return what carries out the sweeps of a search."""
+    found = [compiled_verb(untimed(getattr(toolbox, name))) for name in VERBS]
+    found.append(compiled_evaluation(toolbox, problem))
+    if None in found:
+        mating_range, reproduce, repair, mutate, update = (getattr(toolbox, name) for name in VERBS)
+        make = ChildByVerbs(reproduce, repair, mutate, None)
+
+        def evaluate_one(design: Real) -> Real:
+            return problem.values(toolbox.evaluate, design[np.newaxis])[0]
+
+        return Sweep(work_on, (mating_range, make, update, evaluate_one), False)
+    mating_range, reproduce, repair, mutate, update, evaluate = found
+    make = child_maker(reproduce, repair, mutate, np.array([problem.lower, problem.upper]))
+    if not isinstance(mating_range, MatingRange):
+        mating_range = CheckedRange(mating_range)
+    if isinstance(update, ReplaceWorse):
+        update = ReplaceInSweep.of(update, *population.weights.shape)
+    run = _STORED if all(map(storable, found)) else _FRESH
+    return Sweep(run, (mating_range, make, update, linked(evaluate)), True)
 
 
 def sweep_batch(
@@ -94,16 +114,14 @@ def sweep_batch(
 
 
 VERBS = ("mating_range", "reproduce", "repair", "mutate", "update")
-"""The verbs inside a sweep, in the order of `work_on`."""
-
-UPDATE = VERBS.index("update")
+"""The verbs inside a sweep, in their order."""
 
 
 _FAULTS = {
     -1: "kernel must return a value for each objective and constraint, got another number",
     -2: "mating_range must return indices of individuals, got others",
-    -3: "reproduce, repair and mutate must return a value for each variable, got another number",
-    -4: "repair and mutate must return designs within the bounds, got one outside",
+    WRONG_SIZE: "reproduce, repair and mutate must return a value for each variable, got another number",
+    OUTSIDE: "repair and mutate must return designs within the bounds, got one outside",
 }
 """Errors of compiled verbs, by the mark of `work_on`."""
 
@@ -112,46 +130,50 @@ def work_on(
     rng: np.random.Generator,
     chosen: Integer,
     population: Decomposed,
-    box: Real | None,
     strict: bool,
     children: Real,
     born: Real,
     mating_range: Any,
-    reproduce: Any,
-    repair: Any,
-    mutate: Any,
+    make: Any,
     update: Any,
     evaluate: Any,
 ) -> int:
     """Make, evaluate and place one child for each chosen subproblem, in order, and return their number.
 
     Fills `children` (k, e) and their values `born` (k, m + c). If `strict` it ends at the first that cannot be
-    evaluated. Returns a mark of `_FAULTS` for a kernel, or verbs that leave the `box` (2, e), if there is one.
+    evaluated. Returns a mark of `_FAULTS` for wrong results.
     """
     designs, values, ideal, weights, neighbours = population
     for k in range(chosen.size):
-        i = chosen[k]
+        i, child, value = chosen[k], children[k], born[k]
         partners = call(mating_range, (rng, i, neighbours))
-        if box is not None and not all_below(partners, designs.shape[0]):  # numba leaves out what None rules out
+        if partners.size < 2:
             return -2
-        child = call(reproduce, (rng, designs, i, partners))
-        if child.size != designs.shape[1]:
-            return -3
-        child = call(repair, (rng, child, designs[i]))
-        if child.size != designs.shape[1]:
-            return -3
-        child = call(mutate, (rng, child))
-        if box is not None and place_of(child, box) < 0:
-            return place_of(child, box)
-        for v in range(child.size):
-            children[k, v] = child[v]
-        value = call(evaluate, (children[k],))
-        if value.size != born.shape[1]:
+        fault = call(make, (rng, designs, i, partners, child))
+        if fault < 0:
+            return int(fault)
+        found = call(evaluate, (child,))
+        if found.size != value.size:
             return -1
-        if not all_finite(value, born[k]) and strict:
+        if not all_finite(found, value) and strict:
             return k + 1
-        call(update, (rng, child, born[k], partners, designs, values, weights, ideal))
+        call(update, (rng, child, value, partners, designs, values, weights, ideal))
     return chosen.size
+
+
+class CheckedRange(NamedTuple):
+    """A user's mating range, empty in place of one with indices of nobody."""
+
+    mating_range: Any
+
+    @compilable()
+    def __call__(self, rng: np.random.Generator, i: int, neighbours: Integer) -> Integer:
+        """Return the partners (k,) of subproblem i."""
+        partners: Integer = call(self.mating_range, (rng, i, neighbours))
+        for p in partners:
+            if not 0 <= p < neighbours.shape[0]:
+                return partners[:0]
+        return partners
 
 
 @compiled(inline="always")
@@ -164,26 +186,6 @@ def all_finite(value: Real, born: Real) -> bool:
     for j in range(born.size):
         born[j] = born[j] if good else WORST
     return good
-
-
-@compilable()
-def all_below(indices: Integer, count: int) -> bool:
-    """Whether there are two or more indices, from 0 to count - 1."""
-    good = indices.size > 1
-    for i in indices:
-        good = good and 0 <= i < count
-    return good
-
-
-@compilable()
-def place_of(child: Real, box: Real) -> int:
-    """Return 0 for a child (d,) in the box (2, d), otherwise its mark of `_FAULTS`."""
-    if child.size != box.shape[1]:
-        return -3
-    for v in range(child.size):
-        if not box[0, v] <= child[v] <= box[1, v]:
-            return -4
-    return 0
 
 
 _STORED, _FRESH = compiled()(work_on), njit(work_on)
