@@ -6,6 +6,7 @@ import { curvesOf, preparedPorts } from "../../../src/suspension_ctrl/desk/explo
 import { forceAt } from "../../../src/suspension_ctrl/desk/explorer/numerics/law_curves.js";
 import { curvesAt, networksOf } from "../../../src/suspension_ctrl/desk/explorer/numerics/network_rows.js";
 import { modesOf } from "../../../src/suspension_ctrl/desk/explorer/numerics/modes.js";
+import { placeOf, valueAt } from "../../../src/suspension_ctrl/desk/explorer/page/design_panel.js";
 import { unpacked } from "../../../src/suspension_ctrl/desk/explorer/numerics/packed.js";
 import { evaluated, innerOf, prepared } from "../../../src/suspension_ctrl/desk/explorer/numerics/scores.js";
 
@@ -37,10 +38,20 @@ function forces({ networks, values, places }) {
   });
 }
 
+/** @param {any} variable @param {number} place @returns {number[]} value at a place of the slider, and its own place */
+function slid(variable, place) {
+  const whole = { kind: "", low: 0, high: 10, values: [], ...variable }, value = valueAt(whole, place);
+  return [value, placeOf(whole, value)];
+}
+
 const { records, laws, normals, gammas } = JSON.parse(readFileSync(process.argv[2], "utf-8"));
 console.log(JSON.stringify({
   records: Object.fromEntries(Object.entries(records).map(([name, record]) => [name, answer(record)])),
   laws: Object.fromEntries(Object.entries(laws).map(([name, record]) => [name, forces(record)])),
   normals: normals.map(normal),
   gammas: gammas.map(gamma),
+  sliders: [
+    slid({ kind: "integer" }, 640), slid({ kind: "log", low: 10, high: 40 }, 500),
+    slid({ kind: "catalogue", values: [10, 15, 40] }, 1), slid({}, 300),
+  ],
 }));

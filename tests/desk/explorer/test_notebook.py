@@ -1,5 +1,7 @@
 """The page of a run in a notebook."""
 
+import gzip
+import json
 import re
 from base64 import b64decode
 
@@ -30,3 +32,16 @@ def test_a_run_of_another_problem_is_refused(table1_problem, run):
         sc.explore(other, run)
     with pytest.raises(ValueError, match="problem must be a RideProblem"):
         sc.explore(None, run)
+    with pytest.raises(ValueError, match="each of certificates must be a Certificate, got 1"):
+        sc.explore(table1_problem, run, certificates=[1])
+
+
+def test_certified_designs_stand_with_their_simulated_values(table1_problem, run):
+    certificate = sc.certify(table1_problem, [22e3, 1500.0], length=400.0, seeds=range(2))
+    page = sc.explore(table1_problem, run, certificates=[certificate])
+    packed = re.search(r'id="record" hidden data-gzip="([^"]*)"', page.html)[1]
+    certified = json.loads(gzip.decompress(b64decode(packed)))["certified"]
+    assert certified["names"] == ["certified 1"]
+    known = dict(certified["known"][0])
+    value = certificate.to_frame().loc[("1", "SWS"), "simulated"]
+    assert known["SWS simulated"].startswith(f"{1e3 * value:.4g} mm (95 % ")

@@ -121,7 +121,10 @@ def studies() -> dict[str, RideProblem]:
         ),
         "static loads": RideProblem(
             DRIVER.on(FULL), ROAD, speed=20.0, band=(0.1, 20.0), measures=["ACC", "DLC", "lift front"],
-            bounds=CORNERS | {"body_mass": (1000.0, 1600.0), "front_tyre_stiffness": (150e3, 250e3)},
+            bounds=CORNERS | {
+                "body_mass": (1000.0, 1600.0), "front_tyre_stiffness": (150e3, 250e3), "driver.x": (-0.2, 0.4),
+                "rear.installation_ratio": (0.8, 1.0),
+            },
         ),
         "functions of stops": RideProblem(
             QuarterCar(**MASSES, strut=stops), Iso8608Road("D"), speed=20.0, band=(0.1, 20.0),
@@ -240,6 +243,11 @@ def test_shares_of_the_normal_distribution(answers):
     above, density = np.transpose(answers["normals"])
     np.testing.assert_allclose(above, norm.sf(NORMALS), rtol=1e-12, atol=2e-18)
     np.testing.assert_allclose(density, norm.pdf(NORMALS), rtol=1e-14, atol=2e-18)
+
+
+def test_places_of_a_slider_are_values_of_every_kind(answers):
+    """A whole number, a logarithmic variable, one of a catalogue; 500 is the middle of 1000 steps."""
+    assert answers["sliders"] == [[6, 600], [20.0, 500], [15.0, 1], [3.0, 300]]
 
 
 def test_gamma_function(answers):

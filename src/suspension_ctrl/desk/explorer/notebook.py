@@ -1,10 +1,12 @@
 """The page of a run in a notebook."""
 
 from base64 import b64encode
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ... import checks
+from ...response.certificates import Certificate
 from ...response.problem import RideProblem
 from ..candidate_table import Present, candidates, design_of
 from ..candidate_texts import parts_of
@@ -39,7 +41,14 @@ class Page:
         return f'<iframe src="data:text/html;base64,{content}" {style}></iframe>'
 
 
-def explore(problem: RideProblem, run: "Run", *, present: Present | None = None, title: str = "Designs") -> Page:
+def explore(
+    problem: RideProblem,
+    run: "Run",
+    *,
+    present: Present | None = None,
+    title: str = "Designs",
+    certificates: Sequence[Certificate] = (),
+) -> Page:
     """Return the page of a run: its front in linked plots, and sliders that move measures and curves.
 
     It is the page that `suspension-ctrl report` writes. A notebook shows it; elsewhere its ``html`` may be saved.
@@ -53,6 +62,8 @@ def explore(problem: RideProblem, run: "Run", *, present: Present | None = None,
         The present design, beside which others are shown.
     title : str
         Title of the page.
+    certificates : sequence of Certificate
+        Designs of the problem driven in time by `certify`: the page shows their simulated values.
 
     Returns
     -------
@@ -62,7 +73,7 @@ def explore(problem: RideProblem, run: "Run", *, present: Present | None = None,
     Raises
     ------
     ValueError
-        If the run is of another problem or has no feasible design, or about the present design.
+        If the run is of another problem or has no feasible design, or about the present design or a certificate.
 
     Examples
     --------
@@ -77,11 +88,15 @@ def explore(problem: RideProblem, run: "Run", *, present: Present | None = None,
     >>> _ = Path("report.html").write_text(page.html, encoding="utf-8")
     """
     checks.of_kind("problem", problem, RideProblem)
+    checks.listed("certificates", certificates)
+    for one in certificates:
+        checks.of_kind("each of certificates", one, Certificate)
+        design_of(problem, one.design, "design of a certificate")
     table = candidates(problem, run, present=present)
     own = (
         {} if present is None else dict(zip(problem.variables, design_of(problem, present).tolist(), strict=True))
     )
     study = StudyFile(problem=problem, name=title, present=own)
-    return Page(
-        title, page_of(study, Decision(problem, run, run, table), problem.describe(), parts_of(problem, table))
-    )
+    decision = Decision(problem, run, run, table)
+    html = page_of(study, decision, problem.describe(), parts_of(problem, table), certificates=certificates)
+    return Page(title, html)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ... import checks, escaping
+from ...response.certificates import Certificate
 from ...tables.headers import readable
 from ...tables.rounding import rounded
 from ..candidate_texts import decimals_of
@@ -30,11 +31,12 @@ def page_of(
     said: Sequence[str],
     parts: "Mapping[str, pd.DataFrame]",
     others: "Mapping[str, pd.DataFrame] | None" = None,
+    certificates: Sequence[Certificate] = (),
 ) -> str:
     """Return the page of a study and its decision as HTML, with sentences `said` and tables by title.
 
     Beside the front stands that without limits, if it was searched, and others by name, tables with a column for
-    each objective.
+    each objective. Designs with certificates are shown with their simulated values.
 
     The policy allows the scripts of the page alone, by their hashes: no request, no `eval`. The plotting library
     is compressed; the page itself makes it a script.
@@ -51,7 +53,7 @@ def page_of(
         title=study.name,
         said=said,
         tables=[_table(title, part) for title, part in parts.items()],
-        record=_packed(record_of(study, decision, {**free, **(others or {})})),
+        record=_packed(record_of(study, decision, {**free, **(others or {})}, certificates)),
         style=Markup(_text("page.css")),
         script=Markup(script),
         plotly=b64encode(plotly).decode("ascii"),

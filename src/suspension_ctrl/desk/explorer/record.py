@@ -11,10 +11,11 @@ import tomlkit
 
 from ... import escaping
 from ...quantities import Complex, Integer, Real, column_headers
+from ...response.certificates import Certificate
 from ...response.problem import RideProblem
 from ...response.scores import Kernel
 from ...search.problem import headers_of
-from ...tables.headers import readable, shown_unit
+from ...tables.headers import readable, shown_range, shown_unit, shown_value
 from ...tables.rounding import rounded
 from ...vehicles.files import coefficient_table
 from ..candidate_table import PRESENT, reaching
@@ -78,8 +79,16 @@ class OtherFront(NamedTuple):
     objectives: Real
 
 
-def record_of(study: StudyFile, decision: Decision, others: "Mapping[str, pd.DataFrame]") -> dict[str, Any]:
-    """Return the record of a study and its decision for JSON, beside other fronts with columns of objectives."""
+def record_of(
+    study: StudyFile,
+    decision: Decision,
+    others: "Mapping[str, pd.DataFrame]",
+    certificates: Sequence[Certificate] = (),
+) -> dict[str, Any]:
+    """Return the record of a study and its decision for JSON, beside other fronts with columns of objectives.
+
+    Designs with certificates stand beside the candidates.
+    """
     problem = decision.problem
     kernel, functions = problem.scores.kernel(problem.nodes), functions_of(problem)
     headers = column_headers(problem.objectives, problem.units)
@@ -92,6 +101,7 @@ def record_of(study: StudyFile, decision: Decision, others: "Mapping[str, pd.Dat
             "candidates": _designs(problem, candidates),
             "others": [_other(name, table[headers].to_numpy(dtype=float)) for name, table in others.items()],
             "present": _present(problem, study.present),
+            "certified": _certified(problem, certificates),
             "kernel": kernel,
             "functions": functions,
             **_cases(problem, kernel),
@@ -184,6 +194,25 @@ def _known(table: "pd.DataFrame") -> tuple[Sequence[tuple[str, str]], ...]:
     shown = readable(table[columns])
     texts = {str(header): rounded(shown[header].tolist(), alike=False) for header in shown}
     return tuple([(header, column[i]) for header, column in texts.items() if column[i]] for i in range(len(table)))
+
+
+def _certified(problem: RideProblem, certificates: Sequence[Certificate]) -> Designs | None:
+    """Return the designs of certificates with their simulated values, None without any."""
+    if not certificates:
+        return None
+    designs = np.array([[one.design[name] for name in problem.variables] for one in certificates])
+    names = tuple(f"certified {number}" for number in range(1, len(certificates) + 1))
+    return Designs(designs, problem.evaluate(designs), names, tuple(list(_simulated(one)) for one in certificates))
+
+
+def _simulated(certificate: Certificate) -> Iterator[tuple[str, str]]:
+    """Yield the simulated value of each measure in each load case with its interval, by titles."""
+    for row in certificate.rows:
+        if np.isfinite(row.simulated):
+            where = "" if len(certificate.cases) == 1 else f", case {row.case}"
+            value = shown_value(row.simulated, row.unit)
+            interval = f"95 % {shown_range(row.low, row.high, row.unit)}"
+            yield f"{escaping.terminal(row.measure)} simulated{where}", f"{value} ({interval})"
 
 
 def _present(problem: RideProblem, present: Mapping[str, float]) -> Designs | None:

@@ -18,7 +18,7 @@ export function drawDesign(explorer) {
   );
   explorer.show("design", () => {
     byId("measures").replaceChildren(...measures(explorer));
-    byId("known").replaceChildren(...(explorer.stored?.known ?? []).map((texts) => tableRow("td", texts)));
+    byId("known").replaceChildren(...explorer.known.map((texts) => tableRow("td", texts)));
   });
   const names = explorer.cases.map(({ name }) => name);
   if (names.length > 1) byId("cases").append(choice("load case", names, explorer.number, (i) => explorer.inCase(i)));

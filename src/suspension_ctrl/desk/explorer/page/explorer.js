@@ -40,6 +40,7 @@ export class Explorer {
     this.points = [
       ...pointsOf(record.candidates, "candidate"),
       ...pointsOf(record.present, "present"),
+      ...pointsOf(record.certified, "kept"),
       ...pointsOf(record.front, "front"),
     ];
     /** @type {{name: string, objectives: number[][]}[]} fronts to compare with */
@@ -159,6 +160,12 @@ export class Explorer {
     return this.evaluation.cases[this.number];
   }
 
+  /** Return what else is known of the design at hand, by titles. */
+  get known() {
+    return this.points.filter(({ design }) => this.design.every((value, i) => value === design[i]))
+      .flatMap(({ known }) => known);
+  }
+
   /** Return the curves of the design at hand, by response. */
   curves() {
     return curvesOf(this.ports, this.state.coefficients, this.state.point);
@@ -184,7 +191,7 @@ export class Explorer {
   /** @param {Evaluation["cases"][number]} state @returns {Mode[] | null} */
   modesAt({ coefficients, point }) {
     const { matrices, ports } = this.cases[this.number];
-    return matrices && modesOf(matrices, coefficients, ports.networks, point);
+    return matrices && point?.reached !== false ? modesOf(matrices, coefficients, ports.networks, point) : null;
   }
 
   /**

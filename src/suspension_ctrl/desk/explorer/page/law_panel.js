@@ -71,12 +71,14 @@ function lawChart(explorer, name, law) {
     if (explorer.number !== number) return;
     if (held < 0) size = sizeOf(explorer, law);
     const { ofRate, force } = curveAt(explorer, explorer.design, law);
-    const state = explorer.state.point?.states[law];
+    const { point } = explorer.state, state = point?.states[law];
     if (!state) return;
-    drawn.replaceChildren(...curveLines(force, size), ...bell(state, size));
+    drawn.replaceChildren(...curveLines(force, size), ...(point.reached ? bell(state, size) : []));
     const unit = ofRate ? "m/s" : "mm", factor = ofRate ? 1 : 1e3;
     caption.textContent = `${name}: ±${digits(size.x * factor)} ${unit} across, ±${digits(size.y / 1e3)} kN up; ` +
-      `standard deviation ${digits(factor * state.deviation)} ${unit}, mean force ${digits(state.force)} N`;
+      (point.reached
+        ? `standard deviation ${digits(factor * state.deviation)} ${unit}, mean force ${digits(state.force)} N`
+        : "no working point");
     placeHandles();
   };
   const placeHandles = () => pointsAt(explorer, law, size).forEach(([x, y], i) => {
@@ -108,7 +110,7 @@ function lawChart(explorer, name, law) {
 /** @param {Explorer} explorer @param {number} law @returns {Size} that shows all knots and three deviations */
 function sizeOf(explorer, law) {
   const { knots, force } = curveAt(explorer, explorer.design, law);
-  const deviation = explorer.state.point?.states[law].deviation ?? 0;
+  const { point } = explorer.state, deviation = point?.reached ? point.states[law].deviation : 0;
   const x = 1.2 * Math.max(3 * deviation, ...knots.map(Math.abs));
   return { x, y: 1.2 * Math.max(Math.abs(force(x)), Math.abs(force(-x)), 1) };
 }
