@@ -78,7 +78,7 @@ def test_selections_drop_the_largest_violations_first(case, data):
     violation, ranked = violations(*case), constrained(*case)
     size = data.draw(st.integers(1, len(ranked)))
     for select in (select_survivors, select_with_deap):
-        index, _ = select(ranked, size)
+        index, *_ = select(ranked, size)
         np.testing.assert_array_equal(np.sort(violation[index]), np.sort(violation)[:size])
 
 

@@ -84,7 +84,7 @@ def test_nsga2_is_as_good_as_published():
     for name, published in NSGA2.items():
         assert found.hypervolume[name] == pytest.approx(published, abs=5e-4)
     for name, (published, spread) in JMETAL_IGD_PLUS.items():
-        assert found.igd_plus[name] == pytest.approx(published, abs=spread)
+        assert found.igd_plus[name] < published + spread  # of zdt2 it is less by twice the spread
     check_igd_plus_and_dtlz2(found)
 
 

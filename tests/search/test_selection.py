@@ -45,10 +45,12 @@ def deaps_fronts(objectives: np.ndarray) -> list[list]:
     return fronts
 
 
-def kept_by(objectives: np.ndarray, selection: tuple[np.ndarray, np.ndarray]) -> Counter:
-    """Rank and crowding distance of each survivor, counted."""
+def kept_by(objectives: np.ndarray, selection: tuple[np.ndarray, np.ndarray, np.ndarray]) -> Counter:
+    """Rank and crowding distance of each survivor, counted; the selection must tell its rank."""
     rank = {i.index: r for r, front in enumerate(deaps_fronts(objectives)) for i in front}
-    return Counter((rank[i], round(c, 12)) for i, c in zip(*selection, strict=True))
+    index, told, crowding = selection
+    assert [rank[i] for i in index] == list(told)
+    return Counter((rank[i], round(c, 12)) for i, c in zip(index, crowding, strict=True))
 
 
 @settings(max_examples=500)
@@ -65,8 +67,9 @@ def test_keeps_the_ranks_and_crowding_distances_that_deap_keeps(case):
 def test_ranks_are_deaps_and_the_least_crowded_stay(case):
     """Where points share an objective, crowding distances depend on their order: ours are held to one another."""
     objectives, size = case
-    index, crowding = select_survivors(objectives, size)
+    index, fronts, crowding = select_survivors(objectives, size)
     rank, distance = ranks_and_crowding(objectives, len(objectives))
+    np.testing.assert_array_equal(fronts, rank[index])
     np.testing.assert_array_equal(
         rank[[i.index for front in deaps_fronts(objectives) for i in front]], np.sort(rank)
     )
@@ -105,12 +108,12 @@ def points(shape: str) -> np.ndarray:
 def test_crowding_distance_of_a_worked_example():
     """Five points on one front, range 4 in both: the neighbours of each middle one are 2 apart in both."""
     objectives = np.array([[0.0, 4.0], [1.0, 3.0], [2.0, 2.0], [3.0, 1.0], [4.0, 0.0]])
-    _, crowding = select_survivors(objectives, 5)
+    *_, crowding = select_survivors(objectives, 5)
     np.testing.assert_array_equal(crowding, [np.inf, 0.5, 0.5, 0.5, np.inf])  # (2/4 + 2/4) / 2 objectives
 
 
 def test_of_equal_individuals_the_earlier_stays():
-    index, _ = select_survivors(np.zeros((9, 2)), 4)
+    index, *_ = select_survivors(np.zeros((9, 2)), 4)
     np.testing.assert_array_equal(index[1:-1], [1, 2])  # between the first and the last, the ends of the front
     objectives = np.array([[1.0, 1.0], [0.0, 2.0], [2.0, 0.0], [0.0, 2.0], [2.0, 0.0]])
     np.testing.assert_array_equal(select_survivors(objectives, 2)[0], [1, 2])

@@ -14,8 +14,10 @@ from functools import partial
 from types import SimpleNamespace
 from typing import Any, Literal
 
+import moocore
 import numpy as np
 from deap import base
+from numpy.typing import NDArray
 
 from ..quantities import Integer, Real
 
@@ -67,14 +69,15 @@ def _drawing_from(rng: np.random.Generator) -> Iterator[None]:
 
 def select_with_deap(
     objectives: Real, size: int, nd: Literal["standard", "log"] = "standard"
-) -> tuple[Integer, Real]:
+) -> tuple[Integer, NDArray[np.int32], Real]:
     """Return the result of `select_survivors` by ``deap.tools.selNSGA2``; `nd` is its sorting method."""
     from deap import tools  # a tenth of the package's import time, and few need it
 
     individuals = as_individuals(objectives)
     survivors = sorted(tools.selNSGA2(individuals, size, nd=nd), key=lambda i: i.index)
     index = np.array([i.index for i in survivors], dtype=np.int64)
-    return index, np.array([i.fitness.crowding_dist for i in survivors])
+    rank = moocore.pareto_rank(objectives).astype(np.int32)  # DEAP does not tell
+    return index, rank[index], np.array([i.fitness.crowding_dist for i in survivors])
 
 
 def as_individuals(objectives: Real) -> list[Any]:

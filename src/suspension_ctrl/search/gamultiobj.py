@@ -25,7 +25,7 @@ from ..quantities import Integer, Real, unit
 from .constraints import any_feasible, constrained, ideal_with, violations
 from .evaluation import SearchProblem
 from .kinds import box
-from .operators import sample_uniform
+from .operators import ranked_winners, sample_uniform
 from .population import Generational, State
 from .problem import Minimisable
 from .selection import ranks_and_crowding
@@ -110,11 +110,10 @@ class Gamultiobj(Generational):
         return min(1.0, 2 * step) if survived > _SUCCESS else step / 2
 
 
-def ranked_tournament(rng: np.random.Generator, rank: NDArray[np.int32], crowding: Real, size: int) -> Integer:
+def ranked_tournament(rng: np.random.Generator, rank: Integer, crowding: Real, size: int) -> Integer:
     """Return `size` winners of tournaments of two out of ranks (n,): lower rank, then larger crowding distance."""
     a, b = (rng.random((2, size)) * rank.size).astype(np.int64)
-    b_wins = (rank[b] < rank[a]) | ((rank[b] == rank[a]) & (crowding[b] > crowding[a]))
-    return np.where(b_wins, b, a)
+    return ranked_winners(a, b, rank, crowding)
 
 
 def intermediate_crossover(rng: np.random.Generator, parents: Real) -> Real:

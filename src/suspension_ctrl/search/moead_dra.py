@@ -160,7 +160,7 @@ class MoeadDra(Settings):
             values = problem.values(toolbox.evaluate, designs)
             ideal, evaluations = ideal_with(np.full(m, np.inf), values, False), len(designs)
             if evaluations > size:
-                kept, _ = select_survivors(constrained(values, m), size)
+                kept, *_ = select_survivors(constrained(values, m), size)
                 designs, values = designs[kept], values[kept]
             utility, before, iteration = np.ones(size), values.copy(), 0
             yield State.of(designs, values, ideal, evaluations, utility=utility, before=before, iteration=0)

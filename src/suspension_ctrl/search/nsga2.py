@@ -94,17 +94,17 @@ class Nsga2(Generational):
         size, m = self.population, len(problem.objectives)
         state = state or problem.before_the_start()
         designs, values, ideal, evaluations = state.arrays()
-        crowding = state.memory.get("crowding")
+        rank, crowding = state.memory.get("rank"), state.memory.get("crowding")
         while True:
             if crowding is None:
                 children = np.array(toolbox.sample(rng, size), dtype=float)
             else:
-                parents = toolbox.tournament(rng, constrained(values, m), crowding, size)
+                parents = toolbox.tournament(rng, rank, crowding, size)
                 children = toolbox.mutate(rng, toolbox.mate(rng, designs.take(parents, axis=0)))
             new_values = problem.values(toolbox.evaluate, children)
             ideal = ideal_with(ideal, new_values, any_feasible(values, m))
             evaluations += len(children)
             designs, values = np.concatenate([designs, children]), np.concatenate([values, new_values])
-            kept, crowding = toolbox.select(constrained(values, m), size)
+            kept, rank, crowding = toolbox.select(constrained(values, m), size)
             designs, values = designs.take(kept, axis=0), values.take(kept, axis=0)
-            yield State.of(designs, values, ideal, evaluations, crowding=crowding)
+            yield State.of(designs, values, ideal, evaluations, rank=rank, crowding=crowding)

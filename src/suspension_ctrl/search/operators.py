@@ -20,39 +20,20 @@ def draw_below(rng: np.random.Generator, count: int) -> np.int64:
     return np.int64(rng.random() * count)
 
 
-def crowded_tournament(rng: np.random.Generator, objectives: Real, crowding: Real, size: int) -> Integer:
-    """Return `size` winners of tournaments of shuffled pairs by dominance, then crowding (Deb et al. 2002)."""
-    n = objectives.shape[0]
-    passes = -(-size // (n // 2))
-    return crowded_winners(rng.random((passes, n)), rng.random(size), objectives, crowding)
+def crowded_tournament(rng: np.random.Generator, rank: Integer, crowding: Real, size: int) -> Integer:
+    """Return `size` winners of tournaments of shuffled pairs out of ranks (n,): lower rank, then larger crowding.
+
+    It is the crowded comparison of Deb et al. 2002; in a pass over the population everyone takes part once.
+    """
+    pairs = rank.size // 2
+    passes = [rng.permutation(rank.size)[: 2 * pairs] for _ in range(-(-size // pairs))]
+    return ranked_winners(*np.concatenate(passes)[: 2 * size].reshape(-1, 2).T, rank, crowding)
 
 
-@compiled()
-def crowded_winners(draws: Real, coins: Real, objectives: Real, crowding: Real) -> Integer:
-    """Return the winners (k,) of passes shuffled by draws (p, n); draws `coins` (k,) decide ties."""
-    order = np.arange(objectives.shape[0])
-    pairs = order.size // 2
-    winners = np.empty(coins.size, dtype=np.int64)
-    for w in range(coins.size):
-        if w % pairs == 0:
-            shuffle(order, draws[w // pairs])
-        a, b = order[2 * (w % pairs)], order[2 * (w % pairs) + 1]
-        a_better = b_better = False  # in any objective
-        for j in range(objectives.shape[1]):
-            a_better |= objectives[a, j] < objectives[b, j]
-            b_better |= objectives[b, j] < objectives[a, j]
-        if a_better == b_better:
-            a_better = crowding[a] > crowding[b] or (crowding[a] == crowding[b] and coins[w] < 0.5)
-        winners[w] = a if a_better else b
-    return winners
-
-
-@compilable()
-def shuffle(values: Integer, draws: Real) -> None:
-    """Shuffle `values` (n,) in place by `draws` (n,) from 0 to 1 (Fisher and Yates)."""
-    for i in range(values.size - 1, 0, -1):
-        j = int(draws[i] * (i + 1))
-        values[i], values[j] = values[j], values[i]
+def ranked_winners(a: Integer, b: Integer, rank: Integer, crowding: Real) -> Integer:
+    """Return the winners (k,) of tournaments of a (k,) and b (k,): a where they tie."""
+    b_wins = (rank[b] < rank[a]) | ((rank[b] == rank[a]) & (crowding[b] > crowding[a]))
+    return np.where(b_wins, b, a)
 
 
 def simulated_binary_crossover(

@@ -14,8 +14,8 @@ _FEW = 24
 """Maximum number of consecutive equal values sorted by insertion; more are sorted faster by numpy."""
 
 
-def select_survivors(objectives: Real, size: int) -> tuple[Integer, Real]:
-    """Return indices, ascending, of `size` survivors of objectives (n, m), and their crowding distances [-].
+def select_survivors(objectives: Real, size: int) -> tuple[Integer, NDArray[np.int32], Real]:
+    """Return indices, ascending, of `size` survivors of objectives (n, m), their fronts and crowding distances.
 
     Whole fronts survive by rank, and of the last front the designs of largest crowding distance: K. Deb, A.
     Pratap, S. Agarwal, T. Meyarivan, "A fast and elitist multiobjective genetic algorithm: NSGA-II", IEEE Trans.
@@ -31,7 +31,7 @@ def select_survivors(objectives: Real, size: int) -> tuple[Integer, Real]:
         below, tied = front[distance < limit], front[distance == limit]
         rank[below], rank[tied[below.size - surplus :]] = last + 1, last + 1
     index = np.flatnonzero(rank <= last)
-    return index, crowding.take(index)
+    return index, rank.take(index), crowding.take(index)
 
 
 def ranks_and_crowding(objectives: Real, size: int) -> tuple[NDArray[np.int32], Real]:

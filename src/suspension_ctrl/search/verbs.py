@@ -13,7 +13,7 @@ from .. import checks
 from ..compiled import call_compiled
 from ..quantities import Bool, Integer, Real
 from .evaluation import SearchProblem
-from .gamultiobj import intermediate_crossover, select_controlled
+from .gamultiobj import intermediate_crossover
 from .sweep import VERBS, sweep_sequential
 
 
@@ -68,7 +68,7 @@ def _call_checked(
         case "mating_range":
             return _indices(subject, result, None, len(arguments[2]))
         case "select":
-            return _selection(subject, result, arguments, 3 if own.func is select_controlled else 2)
+            return _selection(subject, result, arguments)
         case "filter":
             return _mask(subject, result, len(arguments[0]))
         case "points":
@@ -104,15 +104,15 @@ def _indices(subject: str, result: Any, size: int | None, below: int, distinct: 
     return indices.astype(np.int64)
 
 
-def _selection(subject: str, result: Any, arguments: Any, count: int) -> tuple[Any, ...]:
+def _selection(subject: str, result: Any, arguments: Any) -> tuple[Any, ...]:
     objectives, size = arguments
-    if not isinstance(result, tuple) or len(result) != count:
-        raise ValueError(f"{subject} a tuple of {count} arrays, got {checks.shown(type(result).__name__)}")
+    if not isinstance(result, tuple) or len(result) != 3:
+        raise ValueError(f"{subject} a tuple of 3 arrays, got {checks.shown(type(result).__name__)}")
     index, *others = result
-    crowding = [checks.reals(subject, other) for other in others]
-    if any(other.shape != (size,) for other in crowding):
-        raise ValueError(f"{subject} arrays of shape {(size,)}, got {[other.shape for other in crowding]}")
-    return (_indices(subject, index, size, len(objectives), distinct=True), *crowding)
+    ordered = [checks.reals(subject, other) for other in others]  # fronts and crowding distances
+    if any(other.shape != (size,) for other in ordered):
+        raise ValueError(f"{subject} arrays of shape {(size,)}, got {[other.shape for other in ordered]}")
+    return (_indices(subject, index, size, len(objectives), distinct=True), *ordered)
 
 
 def _mask(subject: str, result: Any, size: int) -> Bool:
