@@ -15,7 +15,7 @@ from scipy import signal
 from typer import Option
 
 from peers import OURS, Contenders, contenders
-from sections import cold_start, derivatives, evaluation, process, report, searches, struts, summary
+from sections import cold_start, derivatives, evaluation, full_car, process, report, searches, struts, summary
 from suspension_ctrl import RideProblem
 from suspension_ctrl import tables as files
 from suspension_ctrl.commands import results, terminal
@@ -45,6 +45,12 @@ SETTINGS: dict[str, Any] = {
     "target_share": 0.995,
     "target_limit": 1.0,
     "grid": 400,
+    "car_population": 200,
+    "car_generations": 80,
+    "car_repeats": 5,
+    "car_share": 0.95,
+    "car_reference": (1000, 60),
+    "car_usual_designs": 5,
     "compare": [],
     "import_repeats": 15,
     "cold_repeats": 5,
@@ -66,6 +72,11 @@ QUICK = SETTINGS | {
     "target_repeats": 1,
     "target_limit": 0.1,
     "grid": 100,
+    "car_population": 20,
+    "car_generations": 2,
+    "car_repeats": 1,
+    "car_reference": (40, 5),
+    "car_usual_designs": 1,
     "compare": ["--quick"],
     "import_repeats": 1,
     "cold_repeats": 1,
@@ -132,6 +143,8 @@ def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summar
             ),
         ),
         **measure_searches(settings, field, problem, kept),
+        full_car=kept("full_car", measure_full_car(settings, field)),
+        usual_seconds=full_car.seconds_of_usual_way(full_car.problem(), settings["car_usual_designs"]),
         absent=field.absent,
     )
 
@@ -157,6 +170,15 @@ def measure_searches(
         "target": kept("target", searches.to_target(both, scaled, front, target, sizes, *to_target)),
         "nsga2": kept("nsga2", searches.by_population(field.nsga2, problem, *nsga2, *how)),
     }
+
+
+def measure_full_car(settings: dict[str, Any], field: Contenders) -> pd.DataFrame:
+    """Carry out the section of the full car's study."""
+    ride = full_car.problem()
+    searches = {name: search for name, search in field.nsga2.items() if name in full_car.CONTENDERS}
+    front = full_car.reference(ride, *settings["car_reference"])
+    sizes = settings["car_population"], settings["car_generations"], settings["car_repeats"]
+    return full_car.measure(searches, ride, front, settings["car_share"], *sizes)
 
 
 COMPARE = Path(__file__).parents[1] / "scripts" / "compare.py"

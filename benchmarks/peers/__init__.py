@@ -62,6 +62,15 @@ class Task:
         return [(float(a), float(b)) for a, b in zip(self.problem.lower, self.problem.upper, strict=True)]
 
     @property
+    def objectives(self) -> int:
+        """Number of objectives m, the first columns of what the problem returns; limits follow."""
+        return len(self.problem.objectives)
+
+    def violation(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the sum of violated limits (n,) from values (n, m + c)."""
+        return np.maximum(values[:, self.objectives :], 0.0).sum(axis=1)
+
+    @property
     def mutation_probability(self) -> float:
         """Probability that a variable mutates."""
         return 1 / len(self.bounds)
@@ -79,19 +88,21 @@ class Task:
     @property
     def weights(self) -> NDArray[np.float64]:
         """Weight vectors of MOEA/D, (N, m)."""
-        return np.array(weight_vectors(self.population, len(self.problem.objectives)))
+        return np.array(weight_vectors(self.population, self.objectives))
 
 
 def weights_in_file(task: Task) -> TemporaryDirectory[str]:
     """Return a folder, there as long as the object is, with the weights in a file as jMetal names it."""
     folder = TemporaryDirectory()
-    name = f"W{len(task.problem.objectives)}D_{task.population}.dat"
+    name = f"W{task.objectives}D_{task.population}.dat"
     np.savetxt(Path(folder.name) / name, task.weights)
     return folder
 
 
 class Job(NamedTuple):
     """A search that is set up: `run` is what gets timed, `objectives` reads the final ones from its result.
+
+    Of a problem with limits they are those of all final designs, also of designs beyond a limit.
 
     `evaluations` tells how many designs a run evaluated where that cannot be counted from outside.
     """

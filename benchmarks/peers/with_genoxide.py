@@ -9,15 +9,19 @@ from . import Job, Task
 
 
 def _job(task: Task, search: Any) -> Job:
+    def evaluate(designs: Any) -> Any:
+        values = task.problem.evaluate(designs)
+        return (values[:, : task.objectives], task.violation(values)) if task.problem.constraints else values
+
     def run() -> Any:
-        return search.run(task.problem.evaluate, generations=task.generations, batch=True)
+        return search.run(evaluate, generations=task.generations, batch=True)
 
     return Job(run, lambda found: np.array(found.front_objectives))
 
 
 def _common(task: Task) -> dict[str, Any]:
     mutation = gx.PolynomialMutation(task.eta, rate=task.mutation_probability)
-    return {"objectives": ["minimize"] * len(task.problem.objectives), "mutation": mutation, "seed": task.seed}
+    return {"objectives": ["minimize"] * task.objectives, "mutation": mutation, "seed": task.seed}
 
 
 def nsga2(task: Task) -> Job:

@@ -7,22 +7,32 @@ import pygmo as pg
 
 from . import Job, Task
 
+PENALTY = 1e3  # of a limit violated by its own size, in objectives that are about 1
+
 
 class _Vectorised:
+    """A problem; its multi-objective searches bear no limits, so a violation is added to every objective."""
+
     def __init__(self, task: Task) -> None:
         self.task = task
 
     def fitness(self, x: Any) -> Any:
-        return self.task.problem.evaluate(x[np.newaxis])[0]
+        return self._penalised(x[np.newaxis])[0]
 
     def batch_fitness(self, designs: Any) -> Any:
-        return self.task.problem.evaluate(designs.reshape(-1, len(self.task.bounds))).ravel()
+        return self._penalised(designs.reshape(-1, len(self.task.bounds))).ravel()
+
+    def _penalised(self, designs: Any) -> Any:
+        values = self.task.problem.evaluate(designs)
+        if not self.task.problem.constraints:
+            return values
+        return values[:, : self.task.objectives] + PENALTY * self.task.violation(values)[:, None]
 
     def get_bounds(self) -> Any:
         return tuple(np.array(self.task.bounds).T.tolist())
 
     def get_nobj(self) -> int:
-        return len(self.task.problem.objectives)
+        return self.task.objectives
 
 
 def _job(task: Task, algorithm: Any, *, batch: bool) -> Job:

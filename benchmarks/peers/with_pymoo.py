@@ -17,11 +17,13 @@ from . import Job, Task
 class _Vectorised(Problem):
     def __init__(self, task: Task) -> None:
         low, up = np.array(task.bounds).T
-        super().__init__(n_var=low.size, n_obj=len(task.problem.objectives), xl=low, xu=up)
+        limits = len(task.problem.constraints)
+        super().__init__(n_var=low.size, n_obj=task.objectives, n_ieq_constr=limits, xl=low, xu=up)
         self.task = task
 
     def _evaluate(self, x: Any, out: dict[str, Any], *_: Any, **__: Any) -> None:
-        out["F"] = self.task.problem.evaluate(x)
+        values = self.task.problem.evaluate(x)
+        out["F"], out["G"] = values[:, : self.task.objectives], values[:, self.task.objectives :]
 
 
 def _job(task: Task, algorithm: Any) -> Job:

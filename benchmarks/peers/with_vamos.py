@@ -12,15 +12,17 @@ from . import Job, Task, weights_in_file
 
 class _Vectorised:
     encoding = "real"
-    n_constraints = 0
 
     def __init__(self, task: Task) -> None:
         self.xl, self.xu = np.array(task.bounds).T
-        self.n_var, self.n_obj = self.xl.size, len(task.problem.objectives)
-        self._evaluate = task.problem.evaluate
+        self.n_var, self.n_obj = self.xl.size, task.objectives
+        self.n_constraints, self._evaluate = len(task.problem.constraints), task.problem.evaluate
 
     def evaluate(self, designs: Any, out: dict[str, Any]) -> None:
-        out["F"][:] = self._evaluate(designs)
+        values = self._evaluate(designs)
+        out["F"][:] = values[:, : self.n_obj]
+        if self.n_constraints:
+            out["G"] = values[:, self.n_obj :]
 
 
 def _job(task: Task, algorithm: str, settings: Any, engine: str) -> Job:

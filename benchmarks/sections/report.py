@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from peers import OURS
-from sections import cold_start, derivatives, evaluation, struts
+from sections import cold_start, derivatives, evaluation, full_car, struts
 from sections.searches import GENERATIONS
 from sections.summary import (
     GROWTH_FROM,
@@ -31,6 +31,7 @@ def page(found: Measurements, settings: dict[str, Any], machine: dict[str, Any])
         *_about_nsga2(found, settings),
         *_about_moead(found, settings),
         *_about_target(found, settings),
+        *_about_full_car(found, settings),
         *_about_processes(found),
         *_about_struts(found, settings),
         *_about_derivatives(found, settings),
@@ -50,7 +51,7 @@ def _opening(found: Measurements, settings: dict[str, Any], machine: dict[str, A
         "ours that is the toolbox, and the weight vectors of MOEA/D, which the others get too.",
         *[f"Absent: {name} ({reason})." for name, reason in found.absent.items()],
         "## In short",
-        _markdown(_goals_shown(goals(found))),
+        markdown(_goals_shown(goals(found))),
     ]
 
 
@@ -60,7 +61,7 @@ def _about_evaluation(found: Measurements, settings: dict[str, Any]) -> list[str
         "Microseconds per design by number of designs, and the largest relative error against adaptive quadrature "
         f"at the corners of the box and {settings['sample']} designs in it. A method is left out where by its "
         f"time so far it would take more than {settings['evaluation_limit']:g} s.",
-        _markdown(evaluation_table(found)),
+        markdown(evaluation_table(found)),
         f"A process that evaluates {settings['memory_designs']:,} designs in one call takes "
         f"{number(found.memory)} MB at its peak, imports and designs included.",
     ]
@@ -74,9 +75,9 @@ def _about_nsga2(found: Measurements, settings: dict[str, Any]) -> list[str]:
         f"A library is left out where in proportion to its time so far it would take more than "
         f"{settings['limit']:g} s; one that takes more than {settings['repeat_limit']:g} s runs once. Growth is "
         f"the exponent of time against N from {GROWTH_FROM:,} on. Evaluations are counted at the least N.",
-        _markdown(nsga2_table(found)),
+        markdown(nsga2_table(found)),
         "Ratios:",
-        _markdown(nsga2_ratios(found)),
+        markdown(nsga2_ratios(found)),
         "![Seconds against population, a line per library](performance.png)",
     ]
 
@@ -91,7 +92,7 @@ def _about_moead(found: Measurements, settings: dict[str, Any]) -> list[str]:
         "not every library normalises them. A batch evaluates a fifth of N, or all, in one call. Ours is "
         "MOEA/D-DRA, which does so by itself; it evaluates by the problem's compiled kernel, and without one by a "
         "call per design as the others do. Finding neighbours counts, for all but jMetalPy.",
-        _markdown(moead_table(found)),
+        markdown(moead_table(found)),
     ]
 
 
@@ -104,7 +105,22 @@ def _about_target(found: Measurements, settings: dict[str, Any]) -> list[str]:
         f"generations ({', '.join(map(str, GENERATIONS))}); a search is given up at an N where it fails once, or "
         f"where a run takes more than {settings['target_limit']:g} s and does not get there. "
         "Generations of MOEA/D are counted in N evaluations.",
-        _markdown(target_table(found)),
+        markdown(target_table(found)),
+    ]
+
+
+def _about_full_car(found: Measurements, settings: dict[str, Any]) -> list[str]:
+    n, generations = settings["car_reference"]
+    return [
+        "## A full car",
+        f"Seconds until the designs evaluated so far have {100 * settings['car_share']:g} % of the hypervolume of "
+        f"a front of ours with N = {n:,} and {generations} generations, on the study `full_car`: eight variables, "
+        f"three objectives, three load cases, two limits. NSGA-II of each library with N = "
+        f"{settings['car_population']} and the same evaluator, {settings['car_repeats']} repeats of "
+        f"{settings['car_generations']} generations; pygmo's bears no limits and gets a penalty in their place. "
+        f"With python-control and numpy in place of the evaluator a design takes "
+        f"{number(1e3 * found.usual_seconds)} ms: the last row is pymoo's run with that, by multiplication.",
+        markdown(full_car_table(found)),
     ]
 
 
@@ -112,11 +128,11 @@ def _about_processes(found: Measurements) -> list[str]:
     return [
         "## Whole process",
         "Seconds. The package is imported where control is imported already.",
-        _markdown(process_table(found)),
+        markdown(process_table(found)),
         "## Cold start",
         "Processor time of a process beyond `import control`, in multiples of it: the first process after "
         "installation, which compiles, and the second. Searches of N = 500, 10 iterations, on Table 1's problem.",
-        _markdown(cold_start_table(found)),
+        markdown(cold_start_table(found)),
     ]
 
 
@@ -129,7 +145,7 @@ def _about_struts(found: Measurements, settings: dict[str, Any]) -> list[str]:
         f"Least processor time per design of {settings['repeats']} calls: mean squares of {sizes} on one road at "
         f"{settings['strut_nodes']} nodes, and the ratio to the same vehicle without struts of its own. Each "
         "design has its own working point. Measured tables are those of `volvo_xc90_full`.",
-        _markdown(strut_table(found)),
+        markdown(strut_table(found)),
     ]
 
 
@@ -141,7 +157,7 @@ def _about_derivatives(found: Measurements, settings: dict[str, Any]) -> list[st
         f"{settings['strut_nodes']} nodes; of the study `full_car` at its own. A ratio is to be at most "
         f"{derivatives.BAR:g}. A damper on a mount exceeds it, as its values cost less than one adjoint, and so "
         "does a limit by a function, which is evaluated four times by each variable.",
-        _markdown(derivative_table(found)),
+        markdown(derivative_table(found)),
     ]
 
 
@@ -204,6 +220,28 @@ def target_table(found: Measurements) -> pd.DataFrame:
             "generations": [number(g) for g in table.generations],
         }
     )
+
+
+def full_car_table(found: Measurements) -> pd.DataFrame:
+    """Return seconds to the target, their ratio, generations and the whole run of each library, soonest first."""
+    table = full_car.quartiles(found.full_car)
+    own = table["median"][OURS]
+    usual = full_car.usual_seconds(found.full_car, found.usual_seconds)
+    reached = [not math.isnan(median) for median in table["median"]]
+    rows = pd.DataFrame(
+        {
+            "library": table.index,
+            "s": [
+                spread(row, 1) if yes else "not in every run"
+                for row, yes in zip(table.itertuples(), reached, strict=True)
+            ],
+            "ratio": [number(ratio) for ratio in table["median"] / own],
+            "generations": [number(g) for g in table.generations],
+            "whole run, s": [number(seconds) for seconds in table.whole],
+        }
+    )
+    last = [full_car.LOOP, number(usual), number(usual / own), "", ""]
+    return pd.concat([rows, pd.DataFrame([last], columns=rows.columns)])
 
 
 def process_table(found: Measurements) -> pd.DataFrame:
@@ -310,5 +348,6 @@ def _named(wide: pd.DataFrame, name: str = "library") -> pd.DataFrame:
     return wide.fillna("").rename_axis(name).reset_index()
 
 
-def _markdown(table: pd.DataFrame) -> str:
+def markdown(table: pd.DataFrame) -> str:
+    """Return a table in Markdown, its texts as they are."""
     return table.to_markdown(index=False, disable_numparse=True)

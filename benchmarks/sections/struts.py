@@ -56,17 +56,18 @@ def problems(nodes: int) -> dict[tuple[str, str], sc.RideProblem]:
         names = [DEFAULT, *(row.strut for row in ROWS if row.vehicle == vehicle)]
         for name, parts in zip(names, each, strict=False):  # without the imported one, which is the last
             found[vehicle, name] = _problem(file, parts, nodes)
-    found[FULL, "imported, 100 states"] = _imported(nodes)
-    found[TRUCK, "springs, dampers of two axles"] = _semitrailer(nodes)
+    found[FULL, "imported, 100 states"] = imported(nodes, 43)
+    found[TRUCK, "springs, dampers of two axles"] = semitrailer(nodes, 2)
     return found
 
 
-def _semitrailer(nodes: int) -> sc.RideProblem:
-    """Return a tractor with semitrailer, 16 coordinates, 12 tyres in two tracks; two axles vary."""
+def semitrailer(nodes: int, axles: int) -> sc.RideProblem:
+    """Return a tractor with semitrailer, 16 coordinates, 12 tyres in two tracks; so many axles vary."""
     truck: Any = sc.load_vehicle("kraz_semitrailer").vehicle
     wheels = [replace(one, position=(one.position[0], np.copysign(0.9, one.position[1]))) for one in truck.wheels]
     carriers = {one.name: one.carrier for one in truck.wheels}
-    varied = [one for one in truck.suspensions if one.name.startswith(("front", "drive_front"))]
+    names = list(dict.fromkeys(one.name.rsplit("_", 1)[0] for one in truck.suspensions))[:axles]
+    varied = [one for one in truck.suspensions if one.name.rsplit("_", 1)[0] in names]
     constant = [
         Support(
             name=one.name, lower=carriers[one.name], upper=one.upper, position=one.position, stiffness=8e5,
@@ -86,14 +87,14 @@ def _semitrailer(nodes: int) -> sc.RideProblem:
     return sc.RideProblem(truck, road, speed=20.0, bounds=bounds, band=(0.1, 20.0), nodes=nodes)
 
 
-def _imported(nodes: int) -> sc.RideProblem:
-    """Return a full car whose body bends in 43 modes, left and right alike, as a plant of 100 states."""
+def imported(nodes: int, modes: int) -> sc.RideProblem:
+    """Return a full car whose body bends in modes, left and right alike, as a plant: 43 make 100 states."""
     car = sc.load_vehicle("jian_2022_full").vehicle
-    front, rear = np.random.default_rng(0).normal(size=(2, 43)) / 60
-    side = {1: np.ones(43), -1: np.resize([1, -1], 43)}
+    front, rear = np.random.default_rng(0).normal(size=(2, modes)) / 60
+    side = {1: np.ones(modes), -1: np.resize([1, -1], modes)}
     body = sc.FlexibleBody(
-        frequencies=tuple(np.geomspace(12.0, 300.0, 43).tolist()),
-        damping_ratios=(0.02,) * 43,
+        frequencies=tuple(np.geomspace(12.0, 300.0, modes).tolist()),
+        damping_ratios=(0.02,) * modes,
         shapes={(x, 0.9 * y): shape * side[y] for x, shape in ((1.5, front), (-1.5, rear)) for y in side},
     )
     plant = sc.Plant(body.on(car).plant(), car.contacts, axles=("front", "rear"))

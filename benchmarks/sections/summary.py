@@ -22,6 +22,10 @@ class Measurements:
         From `evaluation.measure`, `searches.by_population` (twice), `searches.to_target`, `process.measure`.
     cold_start, struts, derivatives : DataFrame
         From `cold_start.measure`, `struts.measure` and `derivatives.measure`.
+    full_car : DataFrame
+        From `full_car.measure`.
+    usual_seconds : float
+        Of a design by the usual evaluator, from `full_car.seconds_of_usual_way` [s].
     errors : dict of str to float
         From `evaluation.errors`.
     memory : float
@@ -38,6 +42,8 @@ class Measurements:
     cold_start: pd.DataFrame
     struts: pd.DataFrame
     derivatives: pd.DataFrame
+    full_car: pd.DataFrame
+    usual_seconds: float
     errors: dict[str, float]
     memory: float
     absent: dict[str, str]

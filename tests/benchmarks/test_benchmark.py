@@ -19,7 +19,17 @@ def quick(script, tmp_path_factory):
 
 def test_writes_every_timing_the_page_and_the_picture(quick):
     out, docs, done = quick
-    sections = {"process", "cold_start", "evaluation", "struts", "derivatives", "moead", "target", "nsga2"}
+    sections = {
+        "process",
+        "cold_start",
+        "evaluation",
+        "struts",
+        "derivatives",
+        "moead",
+        "target",
+        "nsga2",
+        "full_car",
+    }
     names = {f"{section}.csv" for section in sections}
     assert {path.name for path in out.iterdir()} == names | {
         "environment.json",

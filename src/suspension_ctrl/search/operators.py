@@ -27,7 +27,8 @@ def crowded_tournament(rng: np.random.Generator, rank: Integer, crowding: Real, 
     """
     pairs = rank.size // 2
     passes = [rng.permutation(rank.size)[: 2 * pairs] for _ in range(-(-size // pairs))]
-    return ranked_winners(*np.concatenate(passes)[: 2 * size].reshape(-1, 2).T, rank, crowding)
+    a, b = np.concatenate(passes)[: 2 * size].reshape(-1, 2).T
+    return ranked_winners(a, b, rank, crowding)
 
 
 def ranked_winners(a: Integer, b: Integer, rank: Integer, crowding: Real) -> Integer:
