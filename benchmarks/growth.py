@@ -11,6 +11,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import Annotated, Any
 
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from typer import Option
