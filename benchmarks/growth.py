@@ -165,7 +165,7 @@ def exponent_table(timings: pd.DataFrame) -> pd.DataFrame:
                     line,
                     f"{least:,} to {most:,}",
                     f"{report.number(1e6 * cost)} µs" if curve.of == "design" else f"{report.number(cost)} s",
-                    "" if np.isnan(b := found[curve.name, line]) else f"{b + 0.0:.2f}",
+                    "" if np.isnan(b := found[curve.name, line]) else f"{round(b, 2) + 0.0:.2f}",
                 )
             )
     return pd.DataFrame(rows, columns=["against", "of", "sizes", "at the largest", "exponent"])
@@ -182,7 +182,8 @@ def picture(timings: pd.DataFrame) -> Figure:
             ax.loglog(medians.index, medians, "o-", ms=4, lw=2.2 if thick else 1.0, label=line)
         ax.set(xlabel=curve.size, ylabel=f"seconds per {curve.of}")
         ax.grid(alpha=0.3)
-        ax.legend(fontsize=7)
+        if len(part):
+            ax.legend(fontsize=7)
     axes[-1].remove()
     return figure
 
