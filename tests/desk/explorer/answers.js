@@ -1,6 +1,8 @@
 // Answers of the explorer's numerics: argument is a file of records, output their scores and curves as JSON.
 
 import { readFileSync } from "node:fs";
+import { assigned } from "../../../src/suspension_ctrl/desk/explorer/numerics/assignment.js";
+import { eigenOf } from "../../../src/suspension_ctrl/desk/explorer/numerics/eigenvalues.js";
 import { gamma, normal } from "../../../src/suspension_ctrl/desk/explorer/numerics/gaussian.js";
 import { curvesOf, preparedPorts } from "../../../src/suspension_ctrl/desk/explorer/numerics/frequency_responses.js";
 import { forceAt } from "../../../src/suspension_ctrl/desk/explorer/numerics/law_curves.js";
@@ -44,12 +46,20 @@ function slid(variable, place) {
   return [value, placeOf(whole, value)];
 }
 
-const { records, laws, normals, gammas } = JSON.parse(readFileSync(process.argv[2], "utf-8"));
+/** @param {number[][]} matrix @returns {number[][]} eigenvalues, then eigenvectors, parts in turn */
+function eigen(matrix) {
+  const { values, vectors } = eigenOf(matrix);
+  return [values, ...vectors].map((one) => Array.from(one));
+}
+
+const { records, laws, normals, gammas, matrices, costs } = JSON.parse(readFileSync(process.argv[2], "utf-8"));
 console.log(JSON.stringify({
   records: Object.fromEntries(Object.entries(records).map(([name, record]) => [name, answer(record)])),
   laws: Object.fromEntries(Object.entries(laws).map(([name, record]) => [name, forces(record)])),
   normals: normals.map(normal),
   gammas: gammas.map(gamma),
+  eigen: matrices.map(eigen),
+  assigned: costs.map(assigned),
   sliders: [
     slid({ kind: "integer" }, 640), slid({ kind: "log", low: 10, high: 40 }, 500),
     slid({ kind: "catalogue", values: [10, 15, 40] }, 1), slid({}, 300),

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.optimize import linear_sum_assignment
 from scipy.special import gamma
 from scipy.stats import norm
 
@@ -53,6 +54,12 @@ NAMES = (
     "damper curves", "functions", "static loads", "functions of stops",
 )  # fmt: skip
 LAWS = ("table", "power", "stops", "damper curves")
+RANDOM = np.random.default_rng(5)
+MATRICES = [
+    *(RANDOM.normal(size=(n, n)) for n in (1, 2, 5, 14)), np.zeros((3, 3)), np.diag([2.0, 2.0, 1.0]),
+    np.array([[0.0, 1.0], [-1.0, 0.0]]), np.roll(np.eye(5), 1, axis=1),
+]  # fmt: skip
+COSTS = [RANDOM.normal(size=shape) for shape in ((1, 1), (4, 7), (9, 9))]
 WITH_PEAKS = ("damper curves",)  # simulated by Python alone
 PLACES = np.array([-0.7, -0.2, -0.05, -0.01, 0.0, 0.004, 0.03, 0.11, 0.5, 1.4])  # m/s or m
 MASSES = {"body_mass": 317.5, "wheel_mass": 45.4, "tyre_stiffness": 192e3}
@@ -168,6 +175,7 @@ def answers(problems, designs, tmp_path_factory):
         }  # fmt: skip
     laws = {name: curves_asked(problems[name]) for name in LAWS}
     asked = {"records": records, "laws": laws, "normals": NORMALS.tolist(), "gammas": GAMMAS.tolist()}
+    asked |= {"matrices": [one.tolist() for one in MATRICES], "costs": [one.tolist() for one in COSTS]}
     file = tmp_path_factory.mktemp("explorer") / "asked.json"
     file.write_text(json.dumps(asked), encoding="utf-8")
     done = subprocess.run(["node", HERE / "answers.js", file], capture_output=True, text=True)
@@ -248,6 +256,24 @@ def test_shares_of_the_normal_distribution(answers):
 def test_places_of_a_slider_are_values_of_every_kind(answers):
     """A whole number, a logarithmic variable, one of a catalogue; 500 is the middle of 1000 steps."""
     assert answers["sliders"] == [[6, 600], [20.0, 500], [15.0, 1], [3.0, 300]]
+
+
+def test_eigenvectors_are_turned_by_their_eigenvalues_alone(answers):
+    """Backward errors are some 1e-15 of the norm, here at most 14."""
+    for matrix, (values, *vectors) in zip(MATRICES, answers["eigen"], strict=True):
+        poles, *shapes = (np.array(one).reshape(-1, 2) @ [1, 1j] for one in (values, *vectors))
+        x = np.array(shapes).T
+        np.testing.assert_allclose(matrix @ x, x * poles, atol=1e-12)
+        np.testing.assert_allclose(np.linalg.norm(x, axis=0), 1.0)
+        np.testing.assert_allclose(np.poly(poles), np.poly(matrix), atol=1e-8)
+        np.testing.assert_array_equal(np.sort_complex(poles), np.sort_complex(poles.conj()))
+
+
+def test_an_assignment_has_the_least_cost(answers):
+    for costs, columns in zip(COSTS, answers["assigned"], strict=True):
+        assert len(set(columns)) == len(costs)
+        found, least = costs[np.arange(len(costs)), columns], costs[linear_sum_assignment(costs)]
+        np.testing.assert_allclose(found.sum(), least.sum(), rtol=1e-12)
 
 
 def test_gamma_function(answers):

@@ -1,6 +1,6 @@
 // Curves over frequency of the design at hand in a load case, beside those of the present design.
 
-import { byId, choice, later } from "./elements.js";
+import { byId, choice, later, raised } from "./elements.js";
 
 /** @typedef {import("./explorer.js").Explorer} Explorer */
 /** @typedef {{name: "magnitude" | "phase" | "density", title: string, scale: number}} Row */
@@ -28,9 +28,9 @@ export function drawCurves(explorer) {
  * @param {import("../numerics/frequency_responses.js").ResponseCurves[] | null} present
  */
 function drawResponse(explorer, which, present) {
-  const [unit, factor] = explorer.ports.units[which], here = explorer.curves()[which];
+  const [given, factor] = explorer.ports.units[which], unit = raised(given), here = explorer.curves()[which];
   const rows = /** @type {Row[]} */ ([
-    { name: "magnitude", title: `[${unit}/m]`, scale: factor },
+    { name: "magnitude", title: `[(${unit})/m]`, scale: factor },
     { name: "phase", title: "phase [deg]", scale: 1 },
     { name: "density", title: `PSD [(${unit})²/Hz]`, scale: factor ** 2 },
   ]);

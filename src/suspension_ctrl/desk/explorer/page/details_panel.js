@@ -23,11 +23,12 @@ export function drawDetails(explorer) {
  */
 function modeRows(modes, present) {
   if (!modes) return [tableRow("td", ["Not known: modes need masses, springs and dampers by their values."])];
-  const header = ["mode", "undamped [Hz]", "damped [Hz]", "damping ratio", "present: undamped [Hz]", "damping ratio"];
-  return [tableRow("th", header), ...modes.map(({ name, frequency, damped, ratio }) => {
-    const own = present?.find((one) => one.name === name);
-    const cells = [frequency, damped, ratio, own?.frequency ?? null, own?.ratio ?? null].map(digits);
-    const row = tableRow("td", [name, ...cells]);
+  const own = ["mode", "undamped [Hz]", "damped [Hz]", "damping ratio"];
+  const header = tableRow("th", present ? [...own, "present: undamped [Hz]", "present: damping ratio"] : own);
+  return [header, ...modes.map(({ name, frequency, damped, ratio }) => {
+    const before = present?.find((one) => one.name === name);
+    const beside = present ? [before?.frequency ?? null, before?.ratio ?? null] : [];
+    const row = tableRow("td", [name, ...[frequency, damped, ratio, ...beside].map(digits)]);
     row.dataset.value = [frequency, damped, ratio].join();
     return row;
   })];
@@ -41,9 +42,15 @@ function sensitivityRows(explorer) {
     Math.max(...changes.map((change) => Math.abs(change ?? 0)));
   found.sort((one, other) => largest(other.changes) - largest(one.changes));
   return [tableRow("th", ["1 % more of", ...measures.map(({ name }) => `${name} [%]`)]), ...found.map(({ name, changes }) => {
-    const cells = changes.map((change) => (change === null ? "–" : `${change > 0 ? "+" : ""}${change.toFixed(2)}`));
-    const row = tableRow("td", [name, ...cells]);
+    const row = tableRow("td", [name, ...changes.map(signed)]);
     row.dataset.value = changes.join();
     return row;
   })];
+}
+
+/** @param {number | null} change @returns {string} with its sign and two decimals; a dash for what is not known */
+function signed(change) {
+  if (change === null) return "–";
+  const text = change.toFixed(2);
+  return Number(text) === 0 ? "0.00" : change > 0 ? `+${text}` : text;
 }

@@ -44,7 +44,12 @@ export function choice(label, texts, index, chosen) {
 
 /** @param {{name: string, unit: string}} column @returns {string} its name with its unit */
 export function headed({ name, unit }) {
-  return unit ? `${name} [${unit.replace("^2", "²").replace("^3", "³")}]` : name;
+  return unit ? `${name} [${raised(unit)}]` : name;
+}
+
+/** @param {string} unit @returns {string} with raised powers */
+export function raised(unit) {
+  return unit.replace("^2", "²").replace("^3", "³");
 }
 
 /** @param {number | null} value @returns {string} four digits; a dash for what is not known */
