@@ -77,7 +77,7 @@ function largest(each, value) {
   return Math.max(...each.map(value));
 }
 
-/** @param {{terms: number[], tyres: number[]}} numbers @param {State} state @returns {number[]} load over static load */
+/** @param {{terms: number[], tyres: number[]}} numbers @param {State} state @returns {number[]} shares */
 function ofTyres({ terms, tyres }, state) {
   const loads = staticLoads(state);
   return terms.map((term, i) => Math.sqrt(state.squares[term]) / loads[tyres[i]]);

@@ -20,7 +20,7 @@ const ODD = 1e-6; // N, mean force up to which a law is odd
  * @param {ArrayLike<number>} values
  * @param {State[]} states
  */
-export function linearise({ laws }, curves, values, states) {
+function linearise({ laws }, curves, values, states) {
   states.forEach((state, i) => {
     const [factor, exponent] = laws[i].power;
     [state.force, state.slope, state.change] = ofLines(curves[i], state.mean, state.deviation);

@@ -42,7 +42,10 @@ export function modesOf(plant, coefficients, networks, point) {
 /** @param {import("./state_matrix.js").Matrices} matrices @returns {Found} */
 export function polesOf(matrices) {
   const { matrix, frequency, scale } = stateMatrix(matrices), { values, vectors } = eigenOf(matrix);
-  const poles = vectors.map((_, i) => /** @type {Complex} */ ([frequency * values[2 * i], frequency * values[2 * i + 1]]));
+  const poles = vectors.map((_, i) => {
+    const [re, im] = values.subarray(2 * i, 2 * i + 2);
+    return /** @type {Complex} */ ([frequency * re, frequency * im]);
+  });
   const shapes = vectors.map((vector) => Float64Array.from({ length: 2 * scale.length }, (_, i) =>
     vector[i] / scale[i >> 1]));
   return { poles, shapes };
@@ -115,18 +118,19 @@ function repaired(poles) {
  * @returns {string[]}
  */
 function namesOf(plant, values, shapes) {
-  const names = /** @type {string[]} */ ([]);
+  const motions = /** @type {string[]} */ (plant.names), names = /** @type {string[]} */ ([]);
   const shares = shapes.map((shape) => {
     const energy = energiesOf(plant, values, shape);
     const total = energy.reduce((sum, own) => sum + own, 0);
     return energy.map((own) => own / total);
   });
-  if (shapes.length <= plant.names.length) {
-    assigned(shares.map((row) => row.map((share) => -share))).forEach((k, i) => (names[i] = plant.names[k]));
+  if (shapes.length <= motions.length) {
+    assigned(shares.map((row) => row.map((share) => -share))).forEach((k, i) => (names[i] = motions[k]));
   } else { // of an inerter in series
-    assigned(plant.names.map((/** @type {string} */ _, /** @type {number} */ k) => shares.map((row) => -row[k]))).forEach((i, k) => (names[i] = plant.names[k]));
+    const costs = motions.map((_, k) => shares.map((row) => -row[k]));
+    assigned(costs).forEach((i, k) => (names[i] = motions[k]));
   }
-  return shares.map((row, i) => names[i] ?? `${plant.names[row.indexOf(Math.max(...row))]} ${i + 1}`);
+  return shares.map((row, i) => names[i] ?? `${motions[row.indexOf(Math.max(...row))]} ${i + 1}`);
 }
 
 /**

@@ -43,7 +43,7 @@ function preparedCase(one) {
  * @param {ArrayLike<number>} design
  * @returns {{squares: Float64Array, coefficients: ArrayLike<number>, point: Point | null}}
  */
-export function squaresIn(one, design) {
+function squaresIn(one, design) {
   if (one.class === "Mapped") return squaresIn(one.case, coefficientsOf(one.formulas, design));
   if (one.class === "OneStrut") {
     return { squares: squaresOfOneStrut(one, design), coefficients: design, point: null };

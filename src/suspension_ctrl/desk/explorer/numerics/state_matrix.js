@@ -7,7 +7,7 @@ import { rowsIn } from "./packed.js";
 /** @typedef {import("./network_rows.js").Networks} Networks */
 /** @typedef {import("./networked.js").Point} Point */
 /** @typedef {Float64Array[]} Matrix */
-/** @typedef {{ends: ArrayLike<number>, numerator: number[], denominator: number[]}} Filter of a strut by its ends (n,) */
+/** @typedef {{ends: ArrayLike<number>, numerator: number[], denominator: number[]}} Filter of a strut with ends (n,) */
 /** @typedef {{stiffness: Matrix, damping: Matrix, mass: Matrix, filters: Filter[]}} Matrices (n, n) each */
 
 /**

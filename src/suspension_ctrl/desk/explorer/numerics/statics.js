@@ -86,7 +86,7 @@ function leanOf(vehicle, { roll, arm, wheel, axles }) {
   return { stiffness, places: solved(stiffness, right) };
 }
 
-/** @param {Float64Array[]} matrix symmetric @returns {boolean} whether all its eigenvalues are above 0, by its pivots */
+/** @param {Float64Array[]} matrix symmetric @returns {boolean} whether its eigenvalues are above 0, by its pivots */
 function isPositive(matrix) {
   const lines = matrix.map((row) => row.slice());
   return lines.every((line, c) => {

@@ -86,5 +86,6 @@ function measures(explorer) {
     row.className = here !== null && (here > largest || here < least) ? "beyond" : "";
     return row;
   });
-  return [tableRow("th", ["measure", "this design", "present", "change [%]", ...kept.map(({ name }) => name)]), ...rows];
+  const header = ["measure", "this design", "present", "change [%]", ...kept.map(({ name }) => name)];
+  return [tableRow("th", header), ...rows];
 }

@@ -41,7 +41,8 @@ function sensitivityRows(explorer) {
   const largest = (/** @type {(number | null)[]} */ changes) =>
     Math.max(...changes.map((change) => Math.abs(change ?? 0)));
   found.sort((one, other) => largest(other.changes) - largest(one.changes));
-  return [tableRow("th", ["1 % more of", ...measures.map(({ name }) => `${name} [%]`)]), ...found.map(({ name, changes }) => {
+  const header = tableRow("th", ["1 % more of", ...measures.map(({ name }) => `${name} [%]`)]);
+  return [header, ...found.map(({ name, changes }) => {
     const row = tableRow("td", [name, ...changes.map(signed)]);
     row.dataset.value = changes.join();
     return row;

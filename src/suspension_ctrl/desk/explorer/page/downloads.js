@@ -29,7 +29,7 @@ function save(name, text) {
 }
 
 /** @param {Explorer} explorer @returns {string} the designs shown in the units of the columns */
-export function designsAsCsv(explorer) {
+function designsAsCsv(explorer) {
   const header = ["design", ...explorer.columns.map((column) => column.csv)];
   const rows = explorer.shown().map((point) => [
     point.name.replace(/,/g, ""), ...explorer.columns.map((column) => explorer.valueAt(column, point)),
@@ -42,7 +42,7 @@ export function designsAsCsv(explorer) {
  * @param {ArrayLike<number>} design
  * @param {{text: string, keys: string[]}} study text without the present design, and its keys
  */
-export function asStudy(design, { text, keys }) {
+function asStudy(design, { text, keys }) {
   const lines = keys.map((key, v) => {
     const value = String(design[v]);
     return `${key} = ${/[.e]/.test(value) ? value : `${value}.0`}`;

@@ -10,6 +10,7 @@ import { byId, digits, element, later, svg } from "./elements.js";
 /** @typedef {import("./explorer.js").Explorer} Explorer */
 /** @typedef {import("../numerics/network_rows.js").Networks} Networks */
 /** @typedef {{x: number, y: number}} Size of the drawn half of the curve [m or m/s, N] */
+/** @typedef {{point: number, size: Size}} Held point of a chart, -1 for none; the size stays while it moves */
 
 const WIDTH = 420, CURVE = 260, BELL = 70, EDGE = 0.9; // px; share of the width at which the outer points stand
 const LINES = 201;
@@ -62,49 +63,74 @@ function curveAt(explorer, design, law) {
 
 /** @param {Explorer} explorer @param {string} name @param {number} law @returns {HTMLElement} */
 function lawChart(explorer, name, law) {
-  const chart = svg("svg", { viewBox: `0 0 ${WIDTH} ${CURVE + BELL}`, width: WIDTH });
+  const chart = svg("svg", { viewBox: `0 0 ${WIDTH} ${CURVE + BELL}`, width: WIDTH }), { number } = explorer;
   const caption = element("figcaption"), drawn = svg("g", {}), handles = svg("g", {});
   chart.append(drawn, handles);
-  const { number } = explorer;
-  let size = sizeOf(explorer, law), held = -1;
+  /** @type {Held} */
+  const held = { point: -1, size: sizeOf(explorer, law) };
   const draw = () => {
     if (explorer.number !== number) return;
-    if (held < 0) size = sizeOf(explorer, law);
-    const { ofRate, force } = curveAt(explorer, explorer.design, law);
-    const { point } = explorer.state, state = point?.states[law];
-    if (!state) return;
-    drawn.replaceChildren(...curveLines(force, size), ...(point.reached ? bell(state, size) : []));
-    const unit = ofRate ? "m/s" : "mm", factor = ofRate ? 1 : 1e3;
-    caption.textContent = `${name}: ±${digits(size.x * factor)} ${unit} across, ±${digits(size.y / 1e3)} kN up; ` +
-      (point.reached
-        ? `standard deviation ${digits(factor * state.deviation)} ${unit}, mean force ${digits(state.force)} N`
-        : "no working point");
-    placeHandles();
-  };
-  const placeHandles = () => pointsAt(explorer, law, size).forEach(([x, y], i) => {
-    const [left, top] = onChart(x, y, size);
-    handles.children[i]?.setAttribute("cx", String(left));
-    handles.children[i]?.setAttribute("cy", String(top));
-  });
-  pointsAt(explorer, law, size).forEach((_, i) => {
-    const handle = svg("circle", { r: 7, class: "knot", tabindex: 0, role: "slider" });
-    handle.setAttribute("aria-label", `point ${i + 1} of ${name}`);
-    const moveTo = (/** @type {number} */ x, /** @type {number} */ y) => moved(explorer, law, i, [x, y], size);
-    handle.addEventListener("pointerdown", (event) => { held = i; handle.setPointerCapture(event.pointerId); });
-    handle.addEventListener("pointermove", (event) => held === i && moveTo(...fromChart(event, chart, size)));
-    handle.addEventListener("pointerup", () => { held = -1; draw(); });
-    handle.addEventListener("keydown", (event) => {
-      const [right, up] = ARROWS[event.key] ?? [0, 0];
-      if (!right && !up) return;
-      event.preventDefault();
-      const [x, y] = pointsAt(explorer, law, size)[i];
-      moveTo(x + 0.02 * right * size.x, y + 0.02 * up * size.y);
+    if (held.point < 0) held.size = sizeOf(explorer, law);
+    const { point } = explorer.state, { force } = curveAt(explorer, explorer.design, law);
+    if (!point) return;
+    const bars = point.reached ? bell(point.states[law], held.size) : [];
+    drawn.replaceChildren(...curveLines(force, held.size), ...bars);
+    caption.textContent = captionOf(explorer, name, law, held.size);
+    pointsAt(explorer, law, held.size).forEach((place, i) => {
+      const [left, top] = onChart(...place, held.size);
+      handles.children[i]?.setAttribute("cx", String(left));
+      handles.children[i]?.setAttribute("cy", String(top));
     });
-    handles.append(handle);
-  });
+  };
+  handles.append(...pointsAt(explorer, law, held.size).map((_, i) =>
+    handleOf(explorer, chart, { law, name: `point ${i + 1} of ${name}`, i }, held, draw)));
   draw();
   explorer.show("design", later(draw));
   return element("figure", { className: "law" }, chart, caption);
+}
+
+/**
+ * Return the handle of a point, which the mouse and the arrow keys move.
+ * @param {Explorer} explorer
+ * @param {SVGElement} chart
+ * @param {{law: number, name: string, i: number}} point
+ * @param {Held} held
+ * @param {() => void} draw
+ * @returns {SVGElement}
+ */
+function handleOf(explorer, chart, { law, name, i }, held, draw) {
+  const handle = svg("circle", { r: 7, class: "knot", tabindex: 0, role: "slider" });
+  handle.setAttribute("aria-label", name);
+  const moveTo = (/** @type {number} */ x, /** @type {number} */ y) => moved(explorer, law, i, [x, y], held.size);
+  handle.addEventListener("pointerdown", (event) => {
+    held.point = i;
+    handle.setPointerCapture(event.pointerId);
+  });
+  handle.addEventListener("pointermove", (event) => {
+    if (held.point === i) moveTo(...fromChart(event, chart, held.size));
+  });
+  handle.addEventListener("pointerup", () => {
+    held.point = -1;
+    draw();
+  });
+  handle.addEventListener("keydown", (event) => {
+    const [right, up] = ARROWS[event.key] ?? [0, 0];
+    if (!right && !up) return;
+    event.preventDefault();
+    const [x, y] = pointsAt(explorer, law, held.size)[i];
+    moveTo(x + 0.02 * right * held.size.x, y + 0.02 * up * held.size.y);
+  });
+  return handle;
+}
+
+/** @param {Explorer} explorer @param {string} name @param {number} law @param {Size} size @returns {string} */
+function captionOf(explorer, name, law, size) {
+  const { point } = explorer.state, { ofRate } = curveAt(explorer, explorer.design, law);
+  const unit = ofRate ? "m/s" : "mm", factor = ofRate ? 1 : 1e3;
+  const shown = `${name}: ±${digits(size.x * factor)} ${unit} across, ±${digits(size.y / 1e3)} kN up; `;
+  if (!point?.reached) return `${shown}no working point`;
+  const { deviation, force } = point.states[law];
+  return `${shown}standard deviation ${digits(factor * deviation)} ${unit}, mean force ${digits(force)} N`;
 }
 
 /** @param {Explorer} explorer @param {number} law @returns {Size} that shows all knots and three deviations */

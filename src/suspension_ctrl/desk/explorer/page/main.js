@@ -24,7 +24,8 @@ async function textOf(id) {
 
 /** Draw all parts of the page. */
 async function draw() {
-  document.head.append(element("script", { textContent: await textOf("plotly") })); // which the policy knows by its hash
+  const plotly = await textOf("plotly"); // whose hash the policy knows
+  document.head.append(element("script", { textContent: plotly }));
   const record = unpacked(JSON.parse(await textOf("record")));
   const explorer = new Explorer(record);
   drawFront(explorer);
