@@ -5,29 +5,36 @@ import pytest
 
 from suspension_ctrl.response.many_struts import ManyStruts
 
-N = 7
 SIZES = [(2, 1, 3), (3, 2, 2)]
 """Struts, sources and responses of two blocks."""
 ORDER = np.array([0, 1, 2, 0])
 
 
 def complex_rows(rng: np.random.Generator, *shape: int) -> np.ndarray:
-    return rng.normal(size=(*shape, N)) + 1j * rng.normal(size=(*shape, N))
+    return rng.normal(size=shape) + 1j * rng.normal(size=shape)
 
 
 def real_rows(values: np.ndarray) -> np.ndarray:
-    return np.stack([values.real, values.imag], axis=-2).reshape(-1, 2, N)
+    return np.stack([values.real, values.imag], axis=-2).reshape(-1, 2, values.shape[-1])
 
 
-@pytest.mark.parametrize("seed", range(5))
-def test_mean_squares_are_those_of_a_dense_solve(seed):
-    """With e = S + P D e the responses are R + T D (1 - P D)^-1 S, squared, summed over nodes and sources."""
+@pytest.mark.parametrize(("seed", "n"), [*((seed, 7) for seed in range(5)), *((seed, 24) for seed in range(5))])
+def test_mean_squares_are_those_of_a_dense_solve(seed, n):
+    """With e = S + P D e the responses are R + T D (1 - P D)^-1 S, squared, summed over nodes and sources.
+
+    Of 24 nodes, three times eight, two struts without coupling are closed in lanes, others row by row.
+    """
     rng = np.random.default_rng(seed)
-    omega, origin = rng.uniform(0.5, 2.0, N), rng.normal(size=4)
+    omega, origin = rng.uniform(0.5, 2.0, n), rng.normal(size=4)
     gains = [rng.normal(size=(4, q, q)) for q, _, _ in SIZES]
     gains[0][:, 0, 1] = 0.0  # an entry that no coefficient reaches
+    if seed:
+        gains[0][:, 1, 0] = 0.0
     parts = [
-        (0.1 * complex_rows(rng, q, q), complex_rows(rng, q, s), complex_rows(rng, k, s), complex_rows(rng, k, q))
+        tuple(
+            complex_rows(rng, *shape, n) * (0.1 if shape == (q, q) else 1.0)
+            for shape in ((q, q), (q, s), (k, s), (k, q))
+        )
         for q, s, k in SIZES
     ]
     response = np.array([0, 2, 1, 1, 0])
@@ -59,9 +66,9 @@ def test_mean_squares_are_those_of_a_dense_solve(seed):
 
 def test_no_blocks_give_nothing():
     """As of roll on a road shaped like a cylinder."""
-    none, whole = np.empty((0, 2, N)), np.zeros(0, dtype=np.int64)
+    none, whole = np.empty((0, 2, 7)), np.zeros(0, dtype=np.int64)
     struts = ManyStruts(
-        omega=np.ones(N), rows=none, sizes=np.empty((0, 3), dtype=np.int64), response=whole,
+        omega=np.ones(7), rows=none, sizes=np.empty((0, 3), dtype=np.int64), response=whole,
         channel=np.array([0, 0]), gain=np.empty((1, 0)), order=np.array([0]), origin=np.ones(1),
     )  # fmt: skip
     np.testing.assert_array_equal(struts(np.array([[2.0], [3.0]])), np.zeros((2, 2)))

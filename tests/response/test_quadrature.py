@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from suspension_ctrl.response.quadrature import frequency_nodes
+from suspension_ctrl.response.quadrature import frequency_nodes, in_lanes
 
 
 @given(st.floats(0, 5), st.floats(0.1, 100), st.integers(0, 12))
@@ -39,3 +39,14 @@ def test_kinks_at_panel_edges_do_no_harm():
 def test_rejects_impossible_bands(band):
     with pytest.raises(ValueError, match=r"^band must be finite with 0 <= lower < upper \[Hz\], got"):
         frequency_nodes(band, 100)
+
+
+@pytest.mark.parametrize(("n", "filled"), [(1, 8), (8, 8), (9, 24), (200, 200), (256, 264)])
+def test_nodes_fill_an_odd_number_of_eights_without_weight(n, filled):
+    f, w = frequency_nodes((0.1, 20.0), max(n, 2))
+    f, w = f[:n], w[:n]
+    found, weights, densities = in_lanes(f, w, np.array([w, 2 * w]))
+    assert found.shape == weights.shape == (filled,)
+    assert (np.diff(found) >= 0).all()
+    np.testing.assert_array_equal(densities, [weights, 2 * weights])
+    assert weights.sum() == pytest.approx(w.sum(), rel=1e-15)

@@ -6,6 +6,8 @@ import numpy as np
 
 from ..compiled import compilable, compiled, uncounted
 from ..quantities import Bool, Integer, Real
+from .lanes import WIDTH, load, spread, store, total
+from .two_struts import add_two_struts
 
 
 class ManyStruts(NamedTuple):
@@ -25,58 +27,109 @@ class ManyStruts(NamedTuple):
     order: Integer  # (v,), 0 of springs, 1 of dampers, 2 of inerters and masses
     origin: Real  # (v,), values of the variables around which the plant is closed already
 
-    @compiled()
+    @compiled(nogil=True)
     def __call__(self, designs: Real) -> Real:
-        """Return the mean squares (p, k) of designs (p, v), each as if alone, by (1 - P D) e = S.
-
-        Elimination closes one strut after the other and needs no pivoting.
-        """
-        sizes, n = self.sizes, self.omega.size
-        q, s = 0, 0
-        for b in range(sizes.shape[0]):
-            q, s = max(q, sizes[b, 0]), max(s, sizes[b, 1])
-        stiffness, loop, present = (
-            np.empty((q * q, 2, n)),
-            np.empty((q * (q + s), 2, n)),
-            np.empty(q * q, np.bool_),
-        )
-        tension, value = np.empty((q, 2, n)), np.empty((2, n))
-        found = np.empty(self.channel.size)
-        result = np.empty((designs.shape[0], self.channel.size))
+        """Return the mean squares (p, k) of designs (p, v), each as if alone, by (1 - P D) e = S."""
+        room, found, sums = room_for(self), np.empty(self.channel.size), np.empty((self.channel.size, WIDTH))
+        result, added = np.empty((designs.shape[0], self.channel.size)), np.empty(designs.shape[1])
         for p in range(designs.shape[0]):
-            found[:] = 0.0
-            row, entry, output = 0, 0, 0
-            for b in range(sizes.shape[0]):
-                q, s, k = sizes[b]
-                fill_stiffness(designs[p] - self.origin, self, entry, present, stiffness[: q * q])
-                feedback = self.rows[row : row + q * q]
-                sources = self.rows[row + q * q : row + q * (q + s)]
-                by_source = self.rows[row + q * (q + s) : row + q * (q + s) + k * s]
-                row += (q + k) * (q + s)
-                by_strut = self.rows[row - k * q : row]
-                fill_loop(q, s, present, stiffness, feedback, sources, loop)
-                eliminate(q, q + s, loop)
-                response = self.response[output : output + k]
-                add_terms(q, s, present, stiffness, loop, by_source, by_strut, response, tension, value, found)
-                entry, output = entry + q * q, output + k
+            for v in range(added.size):
+                added[v] = designs[p, v] - self.origin[v]
+            fill_squares(self, added, room, found, sums)
             for term in range(self.channel.size):
-                result[p, term] = found[self.channel[term]]
+                channel = self.channel[term]
+                result[p, term] = found[channel] + total(load(sums, (channel, 0)))
         return result
+
+
+class Room(NamedTuple):
+    """Work arrays for the largest block, of rows (2, n)."""
+
+    present: Bool  # (q q), whether an entry of D is not zero
+    stiffness: Real  # D (q q)
+    loop: Real  # (q (q + s))
+    tension: Real  # D e (q)
+    value: Real
+
+
+@compilable()
+def room_for(struts: ManyStruts) -> Room:
+    """Return work arrays."""
+    q, s, n = 0, 0, struts.omega.size
+    for b in range(struts.sizes.shape[0]):
+        q, s = max(q, struts.sizes[b, 0]), max(s, struts.sizes[b, 1])
+    square, loop = np.empty((q * q, 2, n)), np.empty((q * (q + s), 2, n))
+    return Room(np.empty(q * q, np.bool_), square, loop, np.empty((q, 2, n)), np.empty((2, n)))
+
+
+@uncounted()
+def fill_squares(struts: ManyStruts, added: Real, room: Room, found: Real, sums: Real) -> None:
+    """Fill in the distinct mean squares: each that of an array (m,) and the lanes of another (m, 8)."""
+    row, entry, output = 0, 0, 0
+    for channel in range(found.size):
+        found[channel] = 0.0
+        store(spread(0.0), sums, (channel, 0))
+    for b in range(struts.sizes.shape[0]):
+        q, s, k = struts.sizes[b]
+        rows, response = struts.rows[row : row + (q + k) * (q + s)], struts.response[output : output + k]
+        if q == 2 and struts.omega.size % WIDTH == 0 and not across(struts, entry):
+            one, other = element_at(struts, added, entry), element_at(struts, added, entry + 3)
+            add_two_struts(struts.omega, rows, one, other, s, response, sums)
+        else:
+            add_block(struts, added, entry, q, s, rows, response, room, found)
+        row, entry, output = row + (q + k) * (q + s), entry + q * q, output + k
+
+
+@uncounted()
+def across(struts: ManyStruts, entry: int) -> bool:
+    """Whether a variable couples the two struts of a block with this first entry."""
+    found = 0
+    for v in range(struts.gain.shape[0]):
+        found += struts.gain[v, entry + 1] != 0.0 or struts.gain[v, entry + 2] != 0.0
+    return found > 0
+
+
+@uncounted()
+def element_at(struts: ManyStruts, added: Real, entry: int) -> tuple[float, float, float]:
+    """Return stiffness, damping and inertance at an entry of D for variables with values `added` (v,)."""
+    k, c, b = 0.0, 0.0, 0.0
+    for v in range(added.size):
+        value = struts.gain[v, entry] * added[v]
+        if struts.order[v] == 0:
+            k += value
+        elif struts.order[v] == 1:
+            c += value
+        else:
+            b += value
+    return k, c, b
+
+
+@uncounted()
+def add_block(
+    struts: ManyStruts,
+    added: Real,
+    entry: int,
+    q: int,
+    s: int,
+    rows: Real,
+    response: Integer,
+    room: Room,
+    found: Real,
+) -> None:
+    """Add the integrals of a block of any size with its rows (l, 2, n) to the distinct mean squares."""
+    present, stiffness, loop = room.present, room.stiffness, room.loop
+    by_source, by_strut = rows[q * (q + s) :], rows[q * (q + s) + response.size * s :]
+    fill_stiffness(added, struts, entry, present, stiffness[: q * q])
+    fill_loop(q, s, present, stiffness, rows, rows[q * q :], loop)
+    eliminate(q, q + s, loop)
+    add_terms(q, s, present, stiffness, loop, by_source, by_strut, response, room.tension, room.value, found)
 
 
 @uncounted()
 def fill_stiffness(added: Real, struts: ManyStruts, entry: int, present: Bool, stiffness: Real) -> None:
     """Fill in D (q q, 2, n), sum of gain (jw)^order, and which entries (q q,) are not zero."""
     for i in range(stiffness.shape[0]):
-        k, c, b = 0.0, 0.0, 0.0
-        for v in range(added.size):
-            value = struts.gain[v, entry + i] * added[v]
-            if struts.order[v] == 0:
-                k += value
-            elif struts.order[v] == 1:
-                c += value
-            else:
-                b += value
+        k, c, b = element_at(struts, added, entry + i)
         present[i] = k != 0.0 or c != 0.0 or b != 0.0
         for t in range(struts.omega.size):
             w = struts.omega[t]
@@ -102,7 +155,10 @@ def fill_loop(q: int, s: int, present: Bool, stiffness: Real, feedback: Real, so
 
 @uncounted()
 def eliminate(q: int, columns: int, loop: Real) -> None:
-    """Solve the linear equations (q columns, 2, n) in place: solutions replace the right-hand sides."""
+    """Solve the linear equations (q columns, 2, n) in place: solutions replace the right-hand sides.
+
+    Elimination closes one strut after the other and needs no pivoting.
+    """
     for c in range(q):
         invert(loop[c * columns + c])
         for j in range(c + 1, columns):

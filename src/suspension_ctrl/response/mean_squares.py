@@ -21,7 +21,7 @@ from .measures.terms import Term
 from .one_port import OnePort
 from .one_strut import OneStrut
 from .ports import Ports
-from .quadrature import frequency_nodes
+from .quadrature import frequency_nodes, in_lanes
 from .strut_data import any_struts, networks_of
 
 AnyCase = OnePort | AnyStruts
@@ -76,15 +76,16 @@ def case_of(
     kind = kind or kind_of([load_case], variables)
     variables = varying(load_case.vehicle, variables)
     f, w, densities = quadrature_of(load_case, terms, band, nodes)
-    omega, vehicle = 2 * np.pi * f, load_case.vehicle
+    vehicle = load_case.vehicle
     responses = [term.response for term in terms]
     if kind is OneStrut:
-        return OneStrut.around(Ports.of(vehicle, f, responses), omega, densities * load_case.psd(f))
+        return OneStrut.around(Ports.of(vehicle, f, responses), 2 * np.pi * f, densities * load_case.psd(f))
     if kind is OnePort:
         ports, excitation = Ports.of(vehicle, f, responses), w * load_case.psd(f)
         networks = networks_of(vehicle, setting, variables, f, np.eye(1, dtype=bool))
         return OnePort.around(networks, ports, f, excitation, densities * load_case.psd(f))
-    apart = pairs(vehicle.struts, vehicle.contact_points)
+    f, w, densities = in_lanes(f, w, densities)
+    omega, apart = 2 * np.pi * f, pairs(vehicle.struts, vehicle.contact_points)
     if kind is AnyStruts:
         return any_struts(load_case, responses, setting, variables, f, w, densities, apart)
     ports, roads = Ports.of(vehicle, f, responses, setting), load_case.cross_spectrum(f)

@@ -8,6 +8,9 @@ from ..compiled import compiled
 from ..quantities import Complex, Integer, Real
 from .ports import Ports
 
+_TOGETHER = 4
+"""Designs that are summed at once: a sum has the same order whether they are four or one."""
+
 
 class OneStrut(NamedTuple):
     """Mean squares over designs (K, C) of one strut, from one frequency response of the plant.
@@ -24,32 +27,37 @@ class OneStrut(NamedTuple):
 
     # The sums over frequencies may be taken in whatever order suits the processor, the same one for every design;
     # numpy's error model leaves out a check for division by zero that would keep the loop from being vectorised.
-    @compiled(fastmath={"reassoc", "contract", "nsz"}, error_model="numpy")
+    @compiled(nogil=True, fastmath={"reassoc", "contract", "nsz"}, error_model="numpy")
     def __call__(self, designs: Real) -> Real:
         """Return the mean squares (p, k) of designs (p, 2), K [N/m] and C [N s/m], each as if alone."""
-        result = np.empty((designs.shape[0], self.terms))
-        gain = np.empty(self.denominator.shape[1])
-        half = gain.size // 2
-        for p in range(designs.shape[0]):
-            k, c = designs[p, 0], designs[p, 1]
-            scale = 1.0 / (1.0 + k * k + c * c)  # keeps the products of two denominators in range
-            powers = (scale, scale * k, scale * c, scale * k * k, scale * c * c)
-            for term in range(self.terms):
-                result[p, term] = 0.0
-            for i in range(half):  # one division for two frequencies: it takes as long as ten multiplications
-                one, other = (
-                    polynomial(self.denominator, powers, i),
-                    polynomial(self.denominator, powers, half + i),
-                )
-                inverse = 1.0 / (one * other)
-                gain[i], gain[half + i] = inverse * other, inverse * one
-            if 2 * half < gain.size:
-                gain[2 * half] = 1.0 / polynomial(self.denominator, powers, 2 * half)
+        result, n = np.zeros((designs.shape[0], self.terms)), self.denominator.shape[1]
+        gain, power, half = np.zeros((_TOGETHER, n)), np.empty((_TOGETHER, 5)), n // 2
+        for first in range(0, designs.shape[0], _TOGETHER):
+            count = min(_TOGETHER, designs.shape[0] - first)
+            for p in range(count):
+                k, c = designs[first + p, 0], designs[first + p, 1]
+                scale = 1.0 / (1.0 + k * k + c * c)  # keeps the products of two denominators in range
+                powers = (scale, scale * k, scale * c, scale * k * k, scale * c * c)
+                for i in range(5):
+                    power[p, i] = powers[i]
+                for i in range(half):  # one division for two frequencies: it takes as long as ten multiplications
+                    one, other = (
+                        polynomial(self.denominator, powers, i),
+                        polynomial(self.denominator, powers, half + i),
+                    )
+                    inverse = 1.0 / (one * other)
+                    gain[p, i], gain[p, half + i] = inverse * other, inverse * one
+                if 2 * half < n:
+                    gain[p, 2 * half] = 1.0 / polynomial(self.denominator, powers, 2 * half)
             for q in range(self.power.size):
-                integral = 0.0
-                for i in range(gain.size):
-                    integral += gain[i] * self.numerators[q, i]
-                result[p, self.term[q]] += integral * powers[self.power[q]]
+                a, b, c, d = 0.0, 0.0, 0.0, 0.0
+                for i in range(n):  # a numerator is loaded once for four designs
+                    factor = self.numerators[q, i]
+                    a, b = a + gain[0, i] * factor, b + gain[1, i] * factor
+                    c, d = c + gain[2, i] * factor, d + gain[3, i] * factor
+                integrals = (a, b, c, d)
+                for p in range(count):
+                    result[first + p, self.term[q]] += integrals[p] * power[p, self.power[q]]
         return result
 
     @classmethod

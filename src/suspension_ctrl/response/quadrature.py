@@ -8,6 +8,7 @@ from scipy.special import roots_legendre
 
 from .. import checks
 from ..quantities import Real
+from .lanes import WIDTH
 
 _PARTS = 1000
 _LEAST = 16  # nodes of a panel for 1e-9 beside a slow pole, K/C of a soft and heavily damped strut
@@ -34,6 +35,17 @@ def _panel(x: Real, w: Real, start: float, end: float) -> tuple[Real, Real]:
     half = (end - start) / 2
     u = start + half * (1 + x)
     return u**2, w * half * 2 * u  # df = 2 u du
+
+
+def in_lanes(f: Real, w: Real, densities: Real) -> tuple[Real, Real, Real]:
+    """Return nodes f (n,) [Hz] with weights (n,) and densities (k, n), filled up to an odd number of eights.
+
+    What is added has no weight. Rows as long as a power of two would share a few lines of the processor's cache.
+    """
+    more = (WIDTH - f.size) % (2 * WIDTH)
+    nothing = np.zeros((len(densities), more))
+    weights = np.concatenate([w, np.zeros(more)])
+    return np.concatenate([f, np.full(more, f[-1])]), weights, np.concatenate([densities, nothing], axis=1)
 
 
 def middles(band: tuple[float, float]) -> Real:

@@ -320,6 +320,8 @@ def spectra_of(h: Complex, roads: Complex, names: Sequence[str]) -> dict[str, Re
 
 def reached(values: Real, designs: Real) -> Real:
     """Return values (p, k) of designs (p, v); ValueError that names the first without a working point."""
+    if not np.isnan(values.min(initial=0.0)):  # which takes a tenth of the time of looking at each
+        return values
     check_reached(np.asarray(~np.isnan(values).any(axis=1)), designs)
     return values
 

@@ -1,0 +1,174 @@
+"""Eight numbers at a time in compiled code, in the vector registers of whatever processor there is.
+
+The compiler makes vectors of a loop by itself only if few of its arrays might overlap. A long chain of arithmetic
+on many rows is written in lanes: it stays in registers, and its bits do not depend on their width.
+"""
+
+import operator
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.extending import lower_builtin, models, register_model, type_callable
+
+from ..compiled import uncounted
+from ..quantities import Real
+
+WIDTH = 8
+
+Lanes = Any
+"""Eight numbers; in plain Python an array (8,)."""
+Pair = tuple[Any, Any]
+"""Real and imaginary parts of eight complex numbers."""
+
+_VECTOR, _INDEX = ir.VectorType(ir.DoubleType(), WIDTH), ir.IntType(32)
+
+
+class _Lanes(types.Type):
+    """Numba's type of eight numbers."""
+
+    def __init__(self) -> None:
+        super().__init__("Lanes")
+
+
+@register_model(_Lanes)
+class _Model(models.PrimitiveModel):
+    def __init__(self, manager: Any, kind: Any) -> None:
+        models.PrimitiveModel.__init__(self, manager, kind, _VECTOR)
+
+
+_LANES = _Lanes()
+
+
+def load(array: Any, place: tuple[int, ...]) -> Lanes:
+    """Return eight numbers of an array along its last dimension, the first at a place."""
+    return array[(*place[:-1], slice(place[-1], place[-1] + WIDTH))]
+
+
+def store(lanes: Lanes, array: Any, place: tuple[int, ...]) -> None:
+    """Fill in eight numbers of an array along its last dimension, the first at a place."""
+    array[(*place[:-1], slice(place[-1], place[-1] + WIDTH))] = lanes
+
+
+def spread(value: float) -> Lanes:
+    """Return eight times the same number."""
+    return np.full(WIDTH, value)
+
+
+def fused(factor: Lanes, other: Lanes, added: Lanes) -> Lanes:
+    """Return ``factor * other + added``, rounded once in compiled code."""
+    return factor * other + added
+
+
+def total(lanes: Lanes) -> float:
+    """Return the sum of eight numbers, of halves of them in turn."""
+    while len(lanes) > 1:
+        lanes = lanes[: len(lanes) // 2] + lanes[len(lanes) // 2 :]
+    return float(lanes[0])
+
+
+@uncounted(forceinline=True)
+def product(a: Pair, b: Pair) -> Pair:
+    """Return a b."""
+    (x, y), (u, v) = a, b
+    return fused(x, u, -(y * v)), fused(x, v, y * u)
+
+
+@uncounted(forceinline=True)
+def plus(z: Pair, a: Pair, b: Pair) -> Pair:
+    """Return z + a b."""
+    (x, y), (u, v), (re, im) = a, b, z
+    return fused(x, u, fused(-y, v, re)), fused(x, v, fused(y, u, im))
+
+
+@uncounted(forceinline=True)
+def less(z: Pair, a: Pair, b: Pair) -> Pair:
+    """Return z - a b."""
+    (x, y), (u, v), (re, im) = a, b, z
+    return fused(-x, u, fused(y, v, re)), fused(-x, v, fused(-y, u, im))
+
+
+@uncounted(error_model="numpy", forceinline=True)
+def reciprocal(a: Pair) -> Pair:
+    """Return 1 / a."""
+    x, y = a
+    inverse = spread(1.0) / fused(x, x, y * y)
+    return x * inverse, -(y * inverse)
+
+
+@uncounted(forceinline=True)
+def at(rows: Real, row: int, start: int) -> Pair:
+    """Return eight complex numbers of a row of real and imaginary parts (2, n)."""
+    return load(rows, (row, 0, start)), load(rows, (row, 1, start))
+
+
+def _register(function: Any, result: Any, *kinds: Any) -> Callable[[Any], None]:
+    """Let compiled code call a function of these types of arguments, as the decorated function writes it."""
+    typers: tuple[Callable[..., Any], ...] = (
+        lambda a: result if _fits(kinds, a) else None,
+        lambda a, b: result if _fits(kinds, a, b) else None,
+        lambda a, b, c: result if _fits(kinds, a, b, c) else None,
+    )
+    type_callable(function)(lambda _context: typers[len(kinds) - 1])
+    return lower_builtin(function, *kinds)
+
+
+def _fits(kinds: tuple[Any, ...], *given: Any) -> bool:
+    return all(map(isinstance, given, kinds))
+
+
+def _loaded(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+    return builder.load(_pointer(context, builder, signature.args[0], *values), align=8)
+
+
+def _stored(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+    builder.store(values[0], _pointer(context, builder, signature.args[1], *values[1:]), align=8)
+    return context.get_dummy_value()
+
+
+def _pointer(context: Any, builder: Any, kind: Any, array: Any, place: Any) -> Any:
+    array, indices = context.make_array(kind)(context, builder, array), cgutils.unpack_tuple(builder, place)
+    first = cgutils.get_item_pointer(context, builder, kind, array, indices, wraparound=False)
+    return builder.bitcast(first, _VECTOR.as_pointer())
+
+
+def _spread(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
+    nothing, first = ir.Constant(_VECTOR, ir.Undefined), ir.Constant(_INDEX, 0)
+    return builder.shuffle_vector(builder.insert_element(nothing, values[0], first), nothing, _places([0] * WIDTH))
+
+
+def _fused(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
+    kind = ir.FunctionType(_VECTOR, [_VECTOR] * 3)
+    return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.fma.v{WIDTH}f64"), values)
+
+
+def _total(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
+    lanes, half = values[0], WIDTH // 2
+    while half:
+        nothing = ir.Constant(lanes.type, ir.Undefined)
+        parts = (_places(list(range(first, first + half))) for first in (0, half))
+        lanes, half = builder.fadd(*(builder.shuffle_vector(lanes, nothing, part) for part in parts)), half // 2
+    return builder.extract_element(lanes, ir.Constant(_INDEX, 0))
+
+
+def _places(numbers: list[int]) -> Any:
+    return ir.Constant(ir.VectorType(_INDEX, len(numbers)), numbers)
+
+
+def _by(instruction: str) -> Callable[..., Any]:
+    """Return how an instruction of the compiler is written."""
+    return lambda _context, builder, _signature, values: getattr(builder, instruction)(*values)
+
+
+_register(load, _LANES, types.Array, types.BaseTuple)(_loaded)
+_register(store, types.none, _Lanes, types.Array, types.BaseTuple)(_stored)
+_register(spread, _LANES, types.Float)(_spread)
+_register(fused, _LANES, _Lanes, _Lanes, _Lanes)(_fused)
+_register(total, types.float64, _Lanes)(_total)
+_register(operator.neg, _LANES, _Lanes)(_by("fneg"))
+_register(operator.add, _LANES, _Lanes, _Lanes)(_by("fadd"))
+_register(operator.mul, _LANES, _Lanes, _Lanes)(_by("fmul"))
+_register(operator.truediv, _LANES, _Lanes, _Lanes)(_by("fdiv"))
