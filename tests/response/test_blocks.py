@@ -144,7 +144,10 @@ def test_the_band_may_begin_at_zero(vehicle):
 def test_rows_are_independent_to_the_last_bit():
     p = problem(FULL, ("front.spring", "rear.damper", "rear_antiroll"), ("ACC", "SWS", "DTL"))
     designs = draws(p, 7)
-    np.testing.assert_array_equal(p.evaluate(designs), np.vstack([p.evaluate(row[None]) for row in designs]))
+    together = p.evaluate(designs)
+    np.testing.assert_array_equal(together, np.vstack([p.evaluate(row[None]) for row in designs]))
+    many = np.tile(designs, (70, 1))  # work for more than one thread
+    np.testing.assert_array_equal(p.evaluate(many, threads=3), np.tile(together, (70, 1)))
 
 
 def test_one_strut_is_worked_out_the_same_as_many():

@@ -17,6 +17,7 @@ from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.response import weightings
 
 springs, dampers = st.floats(1e3, 30e3), st.floats(1e3, 5e3)
+DRAWN = np.random.default_rng(2).uniform(1e3, [30e3, 5e3], (9000, 2))
 
 
 @cache
@@ -115,6 +116,30 @@ def test_rows_are_independent_and_the_input_is_untouched(designs):
     alone = np.vstack([p.evaluate(row[None]) for row in x])
     np.testing.assert_array_equal(x, before)
     np.testing.assert_array_equal(together, alone)
+
+
+@settings(max_examples=10)
+@given(st.integers(0, 9000), st.integers(2, 3))
+def test_any_number_of_threads_gives_the_same_bits(count, threads):
+    """Two threads take part from some 1,500 designs on."""
+    designs = DRAWN[:count]
+    np.testing.assert_array_equal(
+        problem().evaluate(designs, threads=threads), problem().evaluate(designs, threads=1)
+    )
+
+
+def test_derivatives_have_the_same_bits_on_two_threads():
+    values, jacobian = problem().with_jacobian(DRAWN, threads=2)
+    np.testing.assert_array_equal(jacobian[:2000], problem().jacobian(DRAWN[:2000], threads=1))
+    assert values.shape == (9000, 3)
+
+
+def test_a_design_outside_is_refused_on_threads_as_without():
+    designs = np.vstack([DRAWN, [[1e3, 1e9]]])
+    with pytest.raises(ValueError, match="designs must lie within"):
+        problem().evaluate(designs, threads=2)
+    with pytest.raises(ValueError, match="threads must be a whole number >= 1, got 0"):
+        problem().evaluate(DRAWN[:1], threads=0)
 
 
 @given(springs, dampers)

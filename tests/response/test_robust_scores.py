@@ -40,6 +40,14 @@ def quarter(measures=ROBUST, **changes) -> RideProblem:
     return RideProblem(QUARTER, ROAD, speed=20.0, bounds=BOUNDS, band=BAND, measures=measures, **changes)
 
 
+def test_samples_have_the_same_bits_on_any_number_of_threads():
+    p = quarter()
+    designs = np.random.default_rng(5).uniform(p.lower, p.upper, (150, 2))
+    one = p.evaluate(designs, threads=1)
+    for threads in (2, 3):
+        np.testing.assert_array_equal(p.evaluate(designs, threads=threads), one)
+
+
 def nominal(designs, measures=("ACC", "SWS", "DTL"), **changes):
     return quarter(measures, scatter=None, **changes).evaluate(designs)
 

@@ -48,7 +48,7 @@ class AnyStruts(NamedTuple):
         return solve(self, designs, nothing)
 
 
-@compiled(error_model="numpy")
+@compiled(nogil=True, error_model="numpy")
 def solve(any_struts: AnyStruts, designs: Real, points: Points) -> Real:
     """Return the mean squares (p, k) of designs (p, v), and fill in their working points if there is room."""
     struts, networks = any_struts.struts, any_struts.networks

@@ -21,7 +21,7 @@ class Mapped(NamedTuple):
         return call(self.case, (coefficients_of(self.formulas, designs),))
 
 
-@compiled(error_model="numpy")
+@compiled(nogil=True, error_model="numpy")
 def coefficients_of(formulas: Formulas, designs: Real) -> Real:
     """Return the coefficients (p, w) of designs (p, v)."""
     coefficients, slots = np.empty((designs.shape[0], formulas.result.size)), np.empty(formulas.start.size)
@@ -30,7 +30,7 @@ def coefficients_of(formulas: Formulas, designs: Real) -> Real:
     return coefficients
 
 
-@compiled(error_model="numpy")
+@compiled(nogil=True, error_model="numpy")
 def slopes_of(formulas: Formulas, designs: Real) -> Real:
     """Return the derivatives (p, w, v) of the coefficients of designs (p, v) by the variables."""
     count, coefficients = designs.shape[0], np.empty((1, formulas.result.size))

@@ -120,7 +120,7 @@ def room_for(networks: Networks, n: int) -> Room:
     return Room(values, curve, state, statics, position, work, damping, direct, rows, gain, np.empty(n))
 
 
-@compiled(error_model="numpy")
+@compiled(nogil=True, error_model="numpy")
 def solve(port: OnePort, designs: Real, points: Points) -> Real:
     """Return the mean squares (p, k) of designs (p, v), and fill in their working points if there is room."""
     networks, room = port.networks, room_for(port.networks, port.omega.size)

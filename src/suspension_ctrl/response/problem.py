@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from .. import checks
 from ..quantities import FrozenMapping, Real, Record
+from ..threads import number
 from ..vehicles.unit_slips import warn_of_slip
 from ..vehicles.vehicle import Struts, Vehicle
 from .bands import OwnBand, band_of
@@ -227,7 +228,7 @@ class RideProblem(Record):
         plain, weighted = ([one.nominal.in_case(case, w).terms for one in self.measures] for w in weightings)
         return plain != weighted
 
-    def evaluate(self, designs: ArrayLike) -> Real:
+    def evaluate(self, designs: ArrayLike, *, threads: int | None = None) -> Real:
         """Return the objectives and constraints of many designs.
 
         Parameters
@@ -235,6 +236,9 @@ class RideProblem(Record):
         designs : (n, d) array_like
             Variables of each design, within the bounds: spring K_s [N/m] and damper C_s [N s/m] of a quarter car.
             Outside, where resonances may be too sharp for the nodes, a ValueError is raised.
+        threads : int, optional
+            Most threads, by default one per processor, and one in timed runs and on workers of a study. Few
+            designs take one. The values are the same bit by bit.
 
         Returns
         -------
@@ -242,11 +246,11 @@ class RideProblem(Record):
             Objectives, ACC [m/s^2], SWS [m] and DTL [N] unless `measures` says otherwise; then for each constraint
             the violation as a share of the limit.
         """
-        x = self._inside(designs)
-        values = self.scores.evaluate(x, self.nodes)
-        return self.scoring.robust.put(values, x, self.nodes) if self.scoring.robust else values
+        x, threads = self._inside(designs), number(threads)
+        values = self.scores.evaluate(x, self.nodes, threads)
+        return self.scoring.robust.put(values, x, self.nodes, threads) if self.scoring.robust else values
 
-    def jacobian(self, designs: ArrayLike) -> Real:
+    def jacobian(self, designs: ArrayLike, *, threads: int | None = None) -> Real:
         """Return the derivatives of the objectives and constraints by the variables.
 
         They are exact to rounding at the nodes of `evaluate`: of the largest of several wheels, and of the worst
@@ -260,6 +264,8 @@ class RideProblem(Record):
         ----------
         designs : (n, d) array_like
             Variables of each design, as of `evaluate`.
+        threads : int, optional
+            Most threads, as of `evaluate`.
 
         Returns
         -------
@@ -288,16 +294,25 @@ class RideProblem(Record):
         SWS: -0.00 % by 1 % of the spring, -0.50 % by 1 % of the damper
         DTL: +0.01 % by 1 % of the spring, -0.26 % by 1 % of the damper
         """
-        return self.with_jacobian(designs)[1]
+        return self.with_jacobian(designs, threads=threads)[1]
 
-    def with_jacobian(self, designs: ArrayLike) -> tuple[Real, Real]:
+    def with_jacobian(self, designs: ArrayLike, *, threads: int | None = None) -> tuple[Real, Real]:
         """Return the values (n, m + c) of `evaluate` and the `jacobian` (n, m + c, d) in one pass.
 
         The values are those of `evaluate` but for rounding.
         """
-        x = self._inside(designs)
-        found = with_jacobian(self.scores, x, self.nodes, (np.array(self.lower), np.array(self.upper)))
-        return over_scatter(self.scoring.robust, *found, x, self.nodes) if self.scoring.robust else found
+        x, bounds = self._inside(designs), (np.array(self.lower), np.array(self.upper))
+
+        def found(part: slice) -> tuple[Real, Real]:
+            plain = with_jacobian(self.scores, x[part], self.nodes, bounds)
+            return over_scatter(robust, *plain, x[part], self.nodes) if robust else plain
+
+        robust = self.scoring.robust
+        compiled = self.scores.compiled and (robust is None or robust.scattered.scores.compiled)
+        samples = 1 if robust is None else robust.statistics.weight.shape[1]
+        parts = self.scores.in_blocks(found, len(x), self.nodes, number(threads) if compiled else 1, samples)
+        values, jacobian = map(np.concatenate, zip(*parts, strict=True))
+        return values, jacobian
 
     @cached_property
     def kernel(self) -> Kernel | RobustKernel | None:

@@ -103,12 +103,18 @@ class RobustScores:
     def __init__(self, scattered: ScatteredScores, statistics: Statistics) -> None:
         self.scattered, self.statistics = scattered, statistics
 
-    def put(self, scores: Real, designs: Real, nodes: int) -> Real:
+    def put(self, scores: Real, designs: Real, nodes: int, threads: int = 1) -> Real:
         """Return the scores (p, m) of designs (p, d) with those over the scatter in their columns."""
-        result, step = scores.copy(), max(1, _ROWS // self.statistics.weight.shape[1])
-        for first in range(0, len(designs), step):
-            part = slice(first, first + step)
-            result[part, self.statistics.column] = self.statistics.of(self.scattered.samples(designs[part], nodes))
+        result, samples = scores.copy(), self.statistics.weight.shape[1]
+
+        def fill(part: slice) -> None:
+            for first in range(part.start, part.stop, step):
+                some = slice(first, min(first + step, part.stop))
+                found = self.statistics.of(self.scattered.samples(designs[some], nodes))
+                result[some, self.statistics.column] = found
+
+        own, step = self.scattered.scores, max(1, _ROWS // samples)
+        own.in_blocks(fill, len(designs), nodes, threads if own.compiled else 1, samples)
         return result
 
     def kernel(self, nominal: Kernel, nodes: int) -> RobustKernel:

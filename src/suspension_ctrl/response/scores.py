@@ -1,14 +1,15 @@
 """Objectives and constraints of designs from the mean squares of every load case."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from math import sqrt
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
 from ..compiled import call, compilable
 from ..quantities import Bool, Complex, Integer, Real
+from ..threads import in_blocks, numbers_in
 from ..vehicles.feedback import gains_by_order
 from ..vehicles.varied import Varied
 from ..vehicles.vehicle import Vehicle, assembled
@@ -24,6 +25,9 @@ RESOLVED = 1e-6
 """Largest relative change of a root mean square that twice the nodes may make."""
 NODES = (256, 384, 512, 768, 1024, 2048, 4096)
 """Numbers of nodes to choose from."""
+
+
+T = TypeVar("T")
 
 
 class Score(NamedTuple):
@@ -147,17 +151,37 @@ class Scores:
         """Whether the kernel alone gives all scores."""
         return not self.functions
 
-    def evaluate(self, designs: Real, nodes: int) -> Real:
-        """Return the scores (p, s) of designs (p, v)."""
+    def evaluate(self, designs: Real, nodes: int, threads: int = 1) -> Real:
+        """Return the scores (p, s) of designs (p, v); functions of designs are called on this thread."""
+        found = self.in_blocks(lambda part: self._by_kernel(designs[part], nodes), len(designs), nodes, threads)
+        scores, squares = (list(each) for each in zip(*found, strict=True))
+        if len(found) == 1 and self.compiled:
+            return scores[0]
+        whole = np.concatenate(scores)
+        if self.functions:
+            by_case = [np.concatenate(each) for each in zip(*squares, strict=True)]
+            self.fill_functions(whole, designs, nodes, by_case, self.functions)
+        return whole
+
+    def in_blocks(
+        self, function: Callable[[slice], T], designs: int, nodes: int, threads: int, times: int = 1
+    ) -> list[T]:
+        """Return the results of a function of parts of so many designs, on threads if the work is worth them.
+
+        Each design passes through the kernel so many `times`.
+        """
+        passed = designs * times * numbers_in(self.kernel(nodes).cases)
+        return in_blocks(function, designs, passed, threads)
+
+    def _by_kernel(self, designs: Real, nodes: int) -> tuple[Real, list[Real]]:
+        """Return the scores (p, s) of designs (p, v) without functions, and the mean squares (p, k) of cases."""
         kernel = self.kernel(nodes)
+        squares = [mean_squares_of(case, designs) for case in kernel.cases]
         if self._simple:
             which, factor = self._simple
-            found = reached(mean_squares_of(kernel.cases[0], designs), designs).T[which]
-            return np.asarray(kernel.scale * np.sqrt(factor * found).T + kernel.offset)
-        mean_squares = [mean_squares_of(case, designs) for case in kernel.cases]
-        scores = reached(kernel.scores(mean_squares), designs)
-        self.fill_functions(scores, designs, nodes, mean_squares, self.functions)
-        return scores
+            found = reached(squares[0], designs).T[which]
+            return np.asarray(kernel.scale * np.sqrt(factor * found).T + kernel.offset), squares
+        return reached(kernel.scores(squares), designs), squares
 
     def fill_functions(
         self, scores: Real, designs: Real, nodes: int, mean_squares: Sequence[Real], columns: Sequence[int]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from uuid import uuid4
 
 from ..checks import installed
+from ..threads import limited
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -66,7 +67,8 @@ def _unpickled(content: bytes) -> tuple[Any, str]:
     from distributed.protocol.pickle import loads
 
     call, error = outcome(loads, (content,))
-    return (None, error) if call is None else outcome(*call)
+    with limited(1):  # the other processors have workers of their own
+        return (None, error) if call is None else outcome(*call)
 
 
 def _spread(pickled: Mapping[str, bytes], client: "Client") -> Iterator[tuple[str, Any, str]]:

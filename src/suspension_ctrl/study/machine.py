@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ..checks import installed
+from ..threads import limited
 
 PACKAGES = ("suspension-ctrl", "control", "deap", "moocore", "numba", "numpy", "pandas", "scipy")
 
@@ -22,7 +23,7 @@ def provenance() -> dict[str, str]:
 
 @contextmanager
 def single_thread() -> Iterator[None]:
-    """Limit the thread pools of BLAS and numba to one thread, so that timings compare algorithms."""
+    """Limit evaluations and the thread pools of BLAS and numba to one thread: timings compare algorithms."""
     import numba
 
     with installed("study"):
@@ -31,7 +32,7 @@ def single_thread() -> Iterator[None]:
     before = numba.get_num_threads()
     numba.set_num_threads(1)
     try:
-        with threadpool_limits(limits=1):
+        with threadpool_limits(limits=1), limited(1):
             yield
     finally:
         numba.set_num_threads(before)

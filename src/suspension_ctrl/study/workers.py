@@ -6,7 +6,7 @@ import logging
 import signal
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext, suppress
 from multiprocessing.resource_tracker import ensure_running
@@ -19,6 +19,7 @@ from .. import checks
 from ..checks import installed
 from ..quantities import Real
 from ..search.problem import Minimisable, Problem
+from ..threads import limited
 from .machine import PACKAGES
 
 if TYPE_CHECKING:
@@ -191,8 +192,16 @@ def distributed(problem: Minimisable, client: "Client", chunk: int = 16) -> Prob
 
     def evaluate(designs: Real) -> Real:
         parts = [designs[start : start + chunk] for start in range(0, len(designs), chunk)]
-        return np.concatenate(client.gather(client.map(problem.evaluate, parts, pure=False)))
+        return np.concatenate(
+            client.gather(client.map(_on_one_thread, parts, pure=False, evaluate=problem.evaluate))
+        )
 
     names = ("lower", "upper", "objectives", "variables", "units", "kinds")
     same = {name: getattr(problem, name) for name in names}
     return Problem(evaluate=evaluate, constraints=tuple(map(str, problem.constraints)), **same)
+
+
+def _on_one_thread(designs: Real, evaluate: Callable[[Real], Real]) -> Real:
+    """Return the values of designs on a worker: the other processors have workers of their own."""
+    with limited(1):
+        return evaluate(designs)

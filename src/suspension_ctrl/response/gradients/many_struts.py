@@ -44,7 +44,7 @@ class Loops(NamedTuple):
     weight: Real  # (m,), of them in a combination
 
 
-@compiled()
+@compiled(nogil=True)
 def with_slopes(struts: ManyStruts, wanted: Wanted, designs: Real) -> tuple[Real, Real]:
     """Return the mean squares (p, k) of designs (p, v), and the derivatives (p, s, v) of what is wanted."""
     count, terms, loops = designs.shape[0], struts.channel.size, loops_of(struts)

@@ -34,7 +34,7 @@ from .working_point import (
 )
 
 
-@compiled(error_model="numpy")
+@compiled(nogil=True, error_model="numpy")
 def with_slopes(port: OnePort, wanted: Wanted, designs: Real) -> tuple[Real, Real]:
     """Return the mean squares (p, k) of designs (p, v), and the derivatives (p, s, v) of what is wanted.
 

@@ -9,7 +9,7 @@ from .wanted import Wanted, combine, fill_weights
 
 
 # Floating-point options as of `OneStrut`.
-@compiled(fastmath={"reassoc", "contract", "nsz"}, error_model="numpy")
+@compiled(nogil=True, fastmath={"reassoc", "contract", "nsz"}, error_model="numpy")
 def with_slopes(strut: OneStrut, wanted: Wanted, designs: Real) -> tuple[Real, Real]:
     """Return the mean squares (p, k) of designs (p, 2), and the derivatives (p, s, 2) of what is wanted.
 

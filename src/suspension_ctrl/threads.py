@@ -1,0 +1,75 @@
+"""Blocks of rows worked on by several threads: compiled loops and numpy leave Python to the others meanwhile.
+
+Each row has its result by itself, so that the bits do not depend on the number of threads.
+"""
+
+import os
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import lru_cache
+from itertools import pairwise
+from typing import Any, TypeVar
+
+from . import checks
+
+T = TypeVar("T")
+
+_BLOCK, _LEAST = 1 << 23, 1 << 21
+"""Numbers that a block passes through, a millisecond's work, and the least that are worth a thread."""
+
+_most: ContextVar[int | None] = ContextVar("most", default=None)
+
+
+@contextmanager
+def limited(threads: int) -> Iterator[None]:
+    """Use so many threads in the block where no number is given."""
+    token = _most.set(checks.at_least("threads", threads, 1))
+    try:
+        yield
+    finally:
+        _most.reset(token)
+
+
+def number(threads: int | None) -> int:
+    """Return a number of threads as given; without one the limit, or the processors that this process may use."""
+    if threads is not None:
+        return checks.at_least("threads", threads, 1)
+    return _most.get() or _processors()
+
+
+def _processors() -> int:
+    if hasattr(os, "sched_getaffinity"):  # Linux
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def in_blocks(function: Callable[[slice], T], rows: int, work: int, threads: int) -> list[T]:
+    """Return the results of a function of parts of so many rows, in order: of the whole if the work is little.
+
+    The work is the count of numbers that are passed through. An exception is that of the first part that has one.
+    The function may not call this one.
+    """
+    blocks = min(rows, work // _LEAST, -(-(work // _BLOCK + 1) // threads) * threads)
+    if threads == 1 or blocks <= 1:
+        return [function(slice(0, rows))]
+    pool, edges = _pool(os.getpid(), threads), [rows * i // blocks for i in range(blocks + 1)]
+    futures: list[Future[T]] = []
+    try:
+        futures += [pool.submit(function, slice(*each)) for each in pairwise(edges)]
+        return [future.result() for future in futures]
+    finally:  # an interrupt too
+        for future in futures:
+            future.cancel()
+
+
+@lru_cache(maxsize=4)
+def _pool(process: int, threads: int) -> ThreadPoolExecutor:
+    """Return the threads of a process, which a fork does not take along."""
+    return ThreadPoolExecutor(threads, thread_name_prefix=f"suspension-ctrl-{process}")
+
+
+def numbers_in(part: Any) -> int:
+    """Return the count of numbers in the arrays of nested tuples, by which work on them is measured."""
+    return sum(map(numbers_in, part)) if isinstance(part, tuple) else int(getattr(part, "size", 1))

@@ -1,0 +1,92 @@
+"""Blocks of rows on threads: results in order, errors, interrupts, and how many threads there are."""
+
+import _thread
+import threading
+import time
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from suspension_ctrl.threads import in_blocks, limited, number, numbers_in
+
+MUCH = 1 << 30
+"""Work for more blocks than there are rows here."""
+
+
+@settings(max_examples=30)
+@given(st.integers(0, 50), st.integers(0, 1 << 26), st.integers(1, 4))
+def test_blocks_are_all_rows_in_order(rows, work, threads):
+    parts = in_blocks(lambda part: list(range(part.start, part.stop)), rows, work, threads)
+    assert [row for part in parts for row in part] == list(range(rows))
+    assert len(parts) <= max(1, min(rows, work // 2**21))
+    assert max(map(len, parts)) - min(map(len, parts)) <= 1
+
+
+def test_blocks_run_at_the_same_time_on_as_many_threads_as_asked_for():
+    meeting, seen = threading.Barrier(3), set()
+
+    def meet(part):
+        meeting.wait(timeout=10)
+        seen.add(threading.get_ident())
+
+    in_blocks(meet, 3, MUCH, 3)
+    assert len(seen) == 3
+    assert threading.get_ident() not in seen
+
+
+@pytest.mark.parametrize(("work", "threads"), [(MUCH, 1), (1 << 21, 4)])
+def test_little_work_and_one_thread_stay_on_the_caller_s(work, threads):
+    found = in_blocks(lambda part: (part, threading.get_ident()), 100, work, threads)
+    assert found == [(slice(0, 100), threading.get_ident())]
+
+
+def test_the_first_error_is_raised_and_what_waits_is_not_begun():
+    begun = []
+
+    def fail(part):
+        begun.append(part.start)
+        if part.start in (1, 2):
+            raise ValueError(f"row {part.start}")
+        time.sleep(0.02)
+
+    with pytest.raises(ValueError, match="row 1"):
+        in_blocks(fail, 100, MUCH, 2)
+    assert len(begun) < 100
+    assert in_blocks(lambda part: part.start, 2, MUCH, 2) == [0, 1]  # the threads live on
+
+
+def test_an_interrupt_ends_it_soon():
+    begun = []
+
+    def interrupt(part):
+        begun.append(part.start)
+        if part.start == 1:
+            _thread.interrupt_main()
+        time.sleep(0.02)
+
+    with pytest.raises(KeyboardInterrupt):
+        in_blocks(interrupt, 100, MUCH, 2)
+    assert len(begun) < 100
+
+
+def test_a_limit_holds_in_its_block_where_no_number_is_given():
+    free = number(None)
+    assert free >= 1
+    with limited(1):
+        assert (number(None), number(3)) == (1, 3)
+        with limited(2):
+            assert number(None) == 2
+        assert number(None) == 1
+    assert number(None) == free
+
+
+@pytest.mark.parametrize("threads", [0, -1, 1.5, "2", True])
+def test_other_numbers_of_threads_are_refused(threads):
+    with pytest.raises(ValueError, match="threads must be a whole number >= 1, got"):
+        number(threads)
+
+
+def test_numbers_are_counted_in_nested_tuples():
+    assert numbers_in((np.ones((2, 3)), (np.ones(4), 5), 6.0)) == 12
