@@ -10,7 +10,13 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from suspension_ctrl.search.deap_adapter import as_individuals, select_with_deap
-from suspension_ctrl.search.selection import lexicographic, ranks_and_crowding, select_survivors
+from suspension_ctrl.search.selection import (
+    by_buckets,
+    insert,
+    lexicographic,
+    ranks_and_crowding,
+    select_survivors,
+)
 
 LARGEST = np.finfo(float).max
 
@@ -135,8 +141,19 @@ def ties(rows: st.SearchStrategy[int]) -> st.SearchStrategy[np.ndarray]:
 @given(ties(st.integers(1, 3)))
 def test_sorts_as_numpys_lexicographic_sort_does(keys):
     before = keys.copy()
-    np.testing.assert_array_equal(lexicographic(keys, np.argsort(keys[0])), np.lexsort(before[::-1]))
+    np.testing.assert_array_equal(lexicographic(keys), np.lexsort(before[::-1]))
     np.testing.assert_array_equal(keys, before)
+
+
+@pytest.mark.parametrize("outlier", [0.0, 10.0, 1e150])
+def test_sorts_keys_that_lie_evenly_and_those_that_an_outlier_crowds(outlier):
+    """One bucket each, one of all others with which sorting by insertion is given up, and some between."""
+    keys = np.random.default_rng(0).normal(size=(2, 1000))
+    keys[0, 500] += outlier
+    order = by_buckets(keys[0])
+    assert insert(keys, order) == (outlier < 1e150)
+    np.testing.assert_array_equal(lexicographic(keys), np.lexsort(keys[::-1]))
+    np.testing.assert_array_equal(lexicographic(keys, lexicographic(keys[:1])), np.lexsort(keys[::-1]))
 
 
 @settings(max_examples=300)
