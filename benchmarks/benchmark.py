@@ -15,7 +15,18 @@ from scipy import signal
 from typer import Option
 
 from peers import OURS, Contenders, contenders
-from sections import cold_start, derivatives, evaluation, full_car, process, report, searches, struts, summary
+from sections import (
+    cold_start,
+    derivatives,
+    evaluation,
+    full_car,
+    moead_limits,
+    process,
+    report,
+    searches,
+    struts,
+    summary,
+)
 from suspension_ctrl import RideProblem
 from suspension_ctrl import tables as files
 from suspension_ctrl.commands import results, terminal
@@ -40,6 +51,7 @@ SETTINGS: dict[str, Any] = {
     "repeat_limit": 5.0,
     "moead_population": 1000,
     "moead_generations": 4,  # 5,000 evaluations, those of MOEA/D-DRA in 20 iterations
+    "uf1_evaluations": 300_000,
     "target_populations": (500, 640, 800, 1000, 1240, 1600),
     "target_repeats": 7,
     "target_share": 0.995,
@@ -68,6 +80,7 @@ QUICK = SETTINGS | {
     "limit": 1.0,
     "repeat_limit": 1.0,
     "moead_population": 100,
+    "uf1_evaluations": 0,  # it would compile for seconds
     "target_populations": (500,),
     "target_repeats": 1,
     "target_limit": 0.1,
@@ -164,9 +177,11 @@ def measure_searches(
     how = settings["repeats"], settings["limit"], settings["repeat_limit"]
     moead = [settings["moead_population"]], settings["moead_generations"]
     nsga2 = settings["populations"], settings["generations"]
+    limits = settings["moead_population"], settings["moead_generations"], settings["uf1_evaluations"]
     to_target = settings["target_repeats"], settings["target_limit"]
     return {
         "moead": kept("moead", searches.by_population(field.moead, scaled, *moead, *how)),
+        "moead_limits": kept("moead_limits", moead_limits.measure(scaled, *limits, settings["repeats"])),
         "target": kept("target", searches.to_target(both, scaled, front, target, sizes, *to_target)),
         "nsga2": kept("nsga2", searches.by_population(field.nsga2, problem, *nsga2, *how)),
     }

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from peers import OURS
-from sections import cold_start, derivatives, evaluation, full_car, struts
+from sections import cold_start, derivatives, evaluation, full_car, moead_limits, struts
 from sections.searches import GENERATIONS
 from sections.summary import (
     GROWTH_FROM,
@@ -93,6 +93,23 @@ def _about_moead(found: Measurements, settings: dict[str, Any]) -> list[str]:
         "MOEA/D-DRA, which does so by itself; it evaluates by the problem's compiled kernel, and without one by a "
         "call per design as the others do. Finding neighbours counts, for all but jMetalPy.",
         markdown(moead_table(found)),
+        *_about_limits(found, settings),
+    ]
+
+
+def _about_limits(found: Measurements, settings: dict[str, Any]) -> list[str]:
+    loop = (
+        f"UF1 of CEC 2009 has 30 variables; {settings['uf1_evaluations']:,} evaluations at N = 600, T = 60, "
+        "n_r = 6. The loop in C is `benchmarks/moead_dra.c`, for this problem and these sizes alone, by `cc -O3 "
+        "-march=native`; IGD, the distance of the front from the final population, shows the same search."
+        if moead_limits.LOOP in set(found.moead_limits.contender)
+        else "The loop in C on UF1 is left out: no C compiler, or the short form."
+    )
+    return [
+        "Beside its limits, in processor time. Arithmetic and evaluation alone are a compiled loop of one "
+        "evaluation, one difference of designs, one mutated variable and the comparison with all partners for "
+        f"each child, without random numbers, choice, neighbourhoods and replacement. {loop}",
+        markdown(limits_table(found)),
     ]
 
 
@@ -199,6 +216,18 @@ def moead_table(found: Measurements) -> pd.DataFrame:
             "µs per evaluation": [spread(row, 1e6) for row in table.itertuples()],
             "ratio": table.ratio.map(number),
             "evaluations": table.contender.map(evaluations).map("{:,.0f}".format),
+        }
+    )
+
+
+def limits_table(found: Measurements) -> pd.DataFrame:
+    """Return milliseconds of MOEA/D-DRA and of its limits, and the distance from the front where it is known."""
+    table = found.moead_limits.groupby("contender", sort=False)
+    return pd.DataFrame(
+        {
+            "what": list(table.groups),
+            "ms": [number(1e3 * seconds) for seconds in table.seconds.median()],
+            "IGD": [number(igd) for igd in table.igd.median()],
         }
     )
 

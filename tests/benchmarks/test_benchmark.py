@@ -26,6 +26,7 @@ def test_writes_every_timing_the_page_and_the_picture(quick):
         "struts",
         "derivatives",
         "moead",
+        "moead_limits",
         "target",
         "nsga2",
         "full_car",

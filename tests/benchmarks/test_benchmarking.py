@@ -7,7 +7,18 @@ import pandas as pd
 import pytest
 
 from peers import OURS, Contenders, Job
-from sections import cold_start, derivatives, evaluation, process, report, searches, struts, summary, timing
+from sections import (
+    cold_start,
+    derivatives,
+    evaluation,
+    moead_limits,
+    process,
+    report,
+    searches,
+    struts,
+    summary,
+    timing,
+)
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.indicators import ReferenceFront
 
@@ -154,6 +165,7 @@ def measurements(ours: float, theirs: float) -> summary.Measurements:
         evaluation=pd.DataFrame([{"contender": n, "designs": 1000, "seconds": s} for n, s in names.items()]),
         nsga2=searched([1000, 16000]),
         moead=searched([1000]),
+        moead_limits=pd.DataFrame([{"contender": n, "seconds": 1.0, "igd": 0.1} for n in LIMITS]),
         target=searched([500]).assign(contender=lambda t: t.contender + ", NSGA-II"),
         process=pd.DataFrame([{"contender": n, "seconds": s} for n, s in imports.items()]),
         cold_start=cold_starts(0.1, 1.0),
@@ -163,6 +175,9 @@ def measurements(ours: float, theirs: float) -> summary.Measurements:
         memory=100.0,
         absent={"other": "ModuleNotFoundError: no"},
     )
+
+
+LIMITS = moead_limits.RIDE, moead_limits.BARE, moead_limits.UF1, moead_limits.LOOP
 
 
 def cold_starts(filled: float, empty: float) -> pd.DataFrame:
@@ -270,7 +285,8 @@ def test_goals_held_and_missed():
 def test_page_has_all_sections_and_the_absent():
     settings = {
         "nodes": 200, "repeats": 3, "sample": 2, "evaluation_limit": 1.0, "memory_designs": 10, "generations": 20,
-        "limit": 60.0, "repeat_limit": 5.0, "moead_population": 1000, "moead_generations": 4,
+        "limit": 60.0, "repeat_limit": 5.0, "moead_population": 1000,
+        "moead_generations": 4, "uf1_evaluations": 300_000,
         "target_share": 0.995, "target_populations": (500,), "target_repeats": 3, "target_limit": 1.0,
         "strut_nodes": 256, "strut_designs": {struts.QUARTER: 4000, struts.FULL: 400, struts.TRUCK: 400},
     }  # fmt: skip

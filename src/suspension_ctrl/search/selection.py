@@ -80,8 +80,8 @@ def fill_buckets(values: Real, least: float, scale: float, bucket: Integer, ends
         b = np.int64((values[i] - least) * scale)
         bucket[i] = b if b < last else last
         ends[bucket[i] + 1] += 1
-    for b in range(1, ends.size):
-        ends[b] += ends[b - 1]
+    for k in range(1, ends.size):
+        ends[k] += ends[k - 1]
     for i in range(values.size):
         order[ends[bucket[i]]] = i
         ends[bucket[i]] += 1
