@@ -1,10 +1,14 @@
 """Measures by functions as numbers; `test_numerics` computes them under Node."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from garage import DRIVER, FULL, GEOMETRY, ROAD
 from suspension_ctrl import LoadCase, Measure, RideProblem, SpeedBump
+from suspension_ctrl.desk.explorer import functions
 from suspension_ctrl.desk.explorer.functions import functions_of, why_not
 
 BOUNDS = {"front.spring": (15e3, 30e3), "rear.spring": (15e3, 30e3)}
@@ -42,3 +46,9 @@ def test_numbers_are_places_of_terms_and_of_tyres(problem):
     assert vdv.power == 4.0
     np.testing.assert_allclose(vdv.cases[0]["factors"], (3 * 8 * 3600.0) ** 0.25)
     assert [axle["track"] for axle in gradient.cases[0]["axles"]] == [1.5, 1.46]
+
+
+def test_every_word_has_a_formula():
+    text = (Path(functions.__file__).parent / "numerics" / "functions.js").read_text(encoding="utf-8")
+    table = text.partition("const OF_WORD = {")[2].partition("\n};")[0]
+    assert set(re.findall(r"^  (\w+)[:,]", table, re.MULTILINE)) == functions.WORDS

@@ -9,10 +9,10 @@ import numpy as np
 from ...response.load_case import LoadCase
 from ...response.measures.comfort import SEAT
 from ...response.measures.dose import VDV
-from ...response.measures.gaussian import Bottoming, LargestPeak, Lift
+from ...response.measures.gaussian import Bottoming, LargestPeak, Lift, Topping
 from ...response.measures.handling import FrontLoadTransfer, RollDamping, RollGradient
 from ...response.measures.measure import Measure, OwnMeasure
-from ...response.measures.modal import ModeFrequency
+from ...response.measures.modal import ModeDamping, ModeFrequency
 from ...response.measures.peak import Peak
 from ...response.measures.power import DamperPower
 from ...response.measures.robust import Robust
@@ -25,6 +25,14 @@ from ...vehicles.networks import gap_of_stop
 from ...vehicles.vehicle import Vehicle, assembled
 
 Numbers = Mapping[str, Any]
+WORDS = frozenset(
+    one.word
+    for one in (
+        *(VDV, SEAT, DLC, Lift, LargestPeak, Bottoming, Topping, DamperPower, ModeFrequency, ModeDamping),
+        *(RollDamping, RollGradient, FrontLoadTransfer),
+    )
+)
+"""Words of the measures with a formula in `numerics/functions.js`."""
 
 
 class Function(NamedTuple):
@@ -62,7 +70,7 @@ def functions_of(problem: RideProblem) -> list[Function | None]:
             for case, own, terms in zip(scores.cases, score.cases, scores.terms, strict=True)
         ]
         known = tuple(one for one in cases if one is not None)
-        whole = score.by_function and len(known) == len(cases)
+        whole = score.by_function and len(known) == len(cases) and measure.word in WORDS
         found.append(Function(measure.word, score.cases[0].power, known) if whole else None)
     return found
 
