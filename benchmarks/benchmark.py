@@ -16,6 +16,7 @@ from typer import Option
 
 from peers import OURS, Contenders, contenders
 from sections import (
+    arithmetic,
     cold_start,
     derivatives,
     evaluation,
@@ -23,6 +24,7 @@ from sections import (
     moead_limits,
     process,
     report,
+    roofline,
     searches,
     struts,
     summary,
@@ -44,6 +46,8 @@ SETTINGS: dict[str, Any] = {
     "memory_designs": 1_000_000,
     "strut_nodes": 256,
     "strut_designs": {struts.QUARTER: 4000, struts.FULL: 400, struts.TRUCK: 400},
+    "roofline_designs": {struts.QUARTER: 10_000, struts.FULL: 2000, struts.TRUCK: 400},
+    "roofline_population": 10_000,
     "derivative_cases": tuple(row.case for row in derivatives.ROWS),
     "populations": (500, 1000, 4000, 16_000),
     "generations": 20,
@@ -74,6 +78,8 @@ QUICK = SETTINGS | {
     "designs": (1, 10, 1000),
     "evaluation_limit": 1.0,
     "strut_designs": {struts.QUARTER: 200, struts.FULL: 20, struts.TRUCK: 20},
+    "roofline_designs": {struts.QUARTER: 200, struts.FULL: 20, struts.TRUCK: 20},
+    "roofline_population": 200,
     "derivative_cases": ("quarter car", "full car"),  # others compile for long
     "populations": (100, 200),
     "generations": 2,
@@ -153,6 +159,13 @@ def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summar
             "derivatives",
             derivatives.measure(
                 settings["strut_nodes"], settings["strut_designs"], repeats, settings["derivative_cases"]
+            ),
+        ),
+        limits=arithmetic.limits(),
+        roofline=kept(
+            "roofline",
+            roofline.measure(
+                settings["strut_nodes"], settings["roofline_designs"], settings["roofline_population"], repeats
             ),
         ),
         **measure_searches(settings, field, problem, kept),

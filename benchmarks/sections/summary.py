@@ -6,7 +6,8 @@ import numpy as np
 import pandas as pd
 
 from peers import OURS
-from sections import cold_start, derivatives, evaluation, moead_limits, process, struts
+from sections import cold_start, derivatives, evaluation, moead_limits, process, roofline, struts
+from sections.arithmetic import Limits
 
 GROWTH_FROM = 1000
 """Population from which on growth is fitted; below it what a run costs whatever its size weighs too much."""
@@ -20,10 +21,12 @@ class Measurements:
     ----------
     evaluation, nsga2, moead, target, process : DataFrame
         From `evaluation.measure`, `searches.by_population` (twice), `searches.to_target`, `process.measure`.
-    cold_start, struts, derivatives, moead_limits : DataFrame
+    cold_start, struts, derivatives, moead_limits, roofline : DataFrame
         From the function `measure` of these sections.
     full_car : DataFrame
         From `full_car.measure`.
+    limits : Limits
+        From `arithmetic.limits`.
     usual_seconds : float
         Of a design by the usual evaluator, from `full_car.seconds_of_usual_way` [s].
     errors : dict of str to float
@@ -43,6 +46,8 @@ class Measurements:
     cold_start: pd.DataFrame
     struts: pd.DataFrame
     derivatives: pd.DataFrame
+    roofline: pd.DataFrame
+    limits: Limits
     full_car: pd.DataFrame
     usual_seconds: float
     errors: dict[str, float]
@@ -136,6 +141,8 @@ def goals(found: Measurements) -> pd.DataFrame:
         rows.append((what, f"<= {bar:g}", ratio, "spring and damper by default", ratio <= bar))
     for what, bar, ratio in derivatives.goals(found.derivatives):
         rows.append((what, f"<= {bar:g}", ratio, "values alone", ratio <= bar))
+    for what, bar, share in roofline.goals(found.roofline):
+        rows.append((what, f">= {bar:g}", share, "", share >= bar))
     return pd.DataFrame(rows, columns=["what", "bar", "here", "against", "holds"])
 
 

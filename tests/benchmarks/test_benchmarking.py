@@ -8,12 +8,14 @@ import pytest
 
 from peers import OURS, Contenders, Job
 from sections import (
+    arithmetic,
     cold_start,
     derivatives,
     evaluation,
     moead_limits,
     process,
     report,
+    roofline,
     searches,
     struts,
     summary,
@@ -171,10 +173,23 @@ def measurements(ours: float, theirs: float) -> summary.Measurements:
         cold_start=cold_starts(0.1, 1.0),
         struts=strut_times(1.0, 1.4),
         derivatives=derivative_times(2.5),
+        roofline=roofline_times(),
+        limits=arithmetic.Limits(3e10, 3e9, 2e10),
         errors=dict.fromkeys(names, 1e-8),
         memory=100.0,
         absent={"other": "ModuleNotFoundError: no"},
     )
+
+
+def roofline_times(share: float = 0.65) -> pd.DataFrame:
+    """A share of the limit on one thread, and twice that on two, at the second of two calls."""
+    rows = [
+        (name, threads, 10, share * 1e-5, seconds)
+        for name in (*(row.what for row in roofline.ROWS), roofline.RANKING)
+        for threads in (1, 2)
+        for seconds in (2e-4, 1e-4 / threads)
+    ]
+    return pd.DataFrame(rows, columns=["what", "threads", "designs", "limit", "seconds"])
 
 
 LIMITS = moead_limits.RIDE, moead_limits.BARE, moead_limits.UF1, moead_limits.LOOP
