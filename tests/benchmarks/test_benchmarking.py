@@ -12,6 +12,7 @@ from sections import (
     cold_start,
     derivatives,
     evaluation,
+    full_car,
     moead_limits,
     process,
     report,
@@ -173,6 +174,13 @@ def measurements(ours: float, theirs: float) -> summary.Measurements:
         cold_start=cold_starts(0.1, 1.0),
         struts=strut_times(1.0, 1.4),
         derivatives=derivative_times(2.5),
+        full_car=pd.DataFrame(
+            [
+                {"contender": name, "population": 100, "seconds": s, "generations": 10, "whole_seconds": 2 * s}
+                for name, s in ((OURS, 1.0), (full_car.PYMOO, 4.0))
+            ]
+        ),
+        usual_seconds=0.01,
         roofline=roofline_times(),
         limits=arithmetic.Limits(3e10, 3e9, 2e10),
         errors=dict.fromkeys(names, 1e-8),
@@ -302,8 +310,10 @@ def test_page_has_all_sections_and_the_absent():
         "nodes": 200, "repeats": 3, "sample": 2, "evaluation_limit": 1.0, "memory_designs": 10, "generations": 20,
         "limit": 60.0, "repeat_limit": 5.0, "moead_population": 1000,
         "moead_generations": 4, "uf1_evaluations": 300_000,
-        "target_share": 0.995, "target_populations": (500,), "target_repeats": 3, "target_limit": 1.0,
-        "strut_nodes": 256, "strut_designs": {struts.QUARTER: 4000, struts.FULL: 400, struts.TRUCK: 400},
+        "car_reference": (1000, 200), "car_share": 0.98, "car_population": 100, "car_repeats": 3,
+        "car_generations": 50, "target_share": 0.995, "target_populations": (500,), "target_repeats": 3,
+        "target_limit": 1.0, "strut_nodes": 256,
+        "strut_designs": {struts.QUARTER: 4000, struts.FULL: 400, struts.TRUCK: 400},
     }  # fmt: skip
     machine = {"processor": "A processor", "cores": 2, "python": "3.11", "versions": {"numpy": "2.4"}}
     found = measurements(1.0, 4.0)
