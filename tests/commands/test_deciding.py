@@ -5,16 +5,14 @@ import pytest
 
 from suspension_ctrl import (
     Iso8608Road,
-    LoadCase,
     Measure,
     MoeadDra,
     Nsga2,
-    Payload,
     RideProblem,
     load_vehicle,
     minimise,
 )
-from suspension_ctrl.commands.deciding import Request, introduced, without_designs
+from suspension_ctrl.commands.deciding import Request, without_designs
 from suspension_ctrl.desk.decision import Decision
 from suspension_ctrl.desk.study_files import SearchSettings, StudyFile
 from suspension_ctrl.paper import experiment as paper
@@ -80,17 +78,3 @@ def test_rows_that_table_5_lacks_are_told_with_the_travels_of_the_front():
     assert line == f"Table 5 lacks designs picked: none is at the limit; the front has SWS of {have}."
     full = pd.DataFrame({"design": ["exact, least ACC", "picked, least ACC"]})
     assert without_designs(decision, [full]) == []
-
-
-def test_the_problem_is_told_with_its_cases_variables_and_present_design():
-    laden = Payload(mass=200.0, position=(0.0, 0.0)).on(FILE.vehicle)
-    cases = [PROBLEM.cases[0], LoadCase(vehicle=laden, road=Iso8608Road("D"), speed=15.0, share=0.5)]
-    several = PROBLEM.replace(cases=cases, kinds={"front.spring": (20e3, 30e3)})
-    lines = introduced(study_of(several, **dict.fromkeys(several.variables, 15e3)))
-    assert lines[0] == "A car; 0.3 to 20 Hz; ACC weighted with Wk."
-    assert lines[1].startswith("Varied: front.spring of 20, 30 kN/m; front.damper 1 to 8 kN s/m; ")
-    assert lines[2] == "Limits: SWS <= 20 mm."
-    assert lines[4].startswith("Case 1, share 1: ISO 8608 class C")
-    assert lines[5].endswith("15 m/s.")
-    assert lines[6].startswith("Present design: front.spring 15 kN/m, front.damper 15 kN s/m, ")
-    assert introduced(study_of(PROBLEM))[-1] == "Present design: not known."

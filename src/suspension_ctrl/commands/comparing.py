@@ -21,8 +21,9 @@ from ..study.findings import findings, last_rows
 from ..study.reference import Reference
 from ..study.reference_files import load_reference
 from ..study.store import FolderStore, keeping
-from ..tables import write_csv, write_json
+from ..tables import write_csv, write_json, write_text
 from . import quality, reports, results, stages, studies, terminal
+from .comparison_page import Outcome, page
 
 QUICK_TOLERANCE = 1e-3
 RECORD = "environment.json"
@@ -112,13 +113,23 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
         known = None if request.options["quick"] else finder(request.problem, float(timed.seconds.sum()))
         reference = campaign.reference(store, request.reference, known)
     if reference is None:
+        write_page(request, store, Outcome(timed))
         terminal.note("Quality is not judged: no two designs found within the limits differ in every objective.")
         return 0
     timed = timing.judged(campaign.comparison, store, timed, reference.front)
     reports.write_quality(request, timed, reference)
+    outcome = Outcome(timed, reference)
+    write_page(request, store, outcome)
     reports.say_quality(request, timed, reference)
     terminal.say()
-    return 0 if cluster is None else _judge(request, cluster, store, timed, reference.front)
+    return 0 if cluster is None else _judge(request, cluster, store, outcome, reference.front)
+
+
+def write_page(request: Request, store: FolderStore, outcome: Outcome) -> None:
+    """Write the page of a comparison, if a run found a design within the limits."""
+    with stages.stage("page"):
+        if (text := page(request, store, outcome)) is not None:
+            write_text(request.campaign.folder / "report.html", text)
 
 
 def settled(request: Request, *, judged: bool) -> StudyFile:
@@ -135,16 +146,17 @@ def _judge(
     request: Request,
     cluster: AbstractContextManager[Any],
     store: FolderStore,
-    timed: pd.DataFrame,
+    outcome: Outcome,
     front: ReferenceFront,
 ) -> int:
     """Make the runs over many seeds and write and print what came of them; return the number that raised."""
     campaign = request.campaign
     with cluster as client, terminal.compiling():
         table, judged = campaign.judge(front, client)
-    write_csv(campaign.folder / "runs.csv", pd.concat([timed, last_rows(table)]))
+    write_csv(campaign.folder / "runs.csv", pd.concat([outcome.timed, last_rows(table)]))
     clock, target = timing.seconds_by_evaluations(campaign.comparison, store), request.study.search.target
     if results := findings(campaign.comparison, table, clock, target):
         quality.write(request, results, judged)
+        write_page(request, store, outcome._replace(findings=results))
         quality.say(results, target)
     return int((table.error.ne("") & table.budget.isna()).sum())

@@ -10,13 +10,16 @@ import pandas as pd
 from .. import checks
 from ..desk import figures
 from ..desk.active_beside import ActiveBeside
+from ..desk.advice import Advice
 from ..desk.candidate_scatter import parts_over_scatter
 from ..desk.candidate_table import PRESENT
 from ..desk.candidate_texts import decimals_of, markdown, parts_of
 from ..desk.decision import Decision
+from ..desk.explorer.layers import Layer, attainable_layers, exact_layers
 from ..desk.explorer.page_file import page_of
 from ..desk.exporting import save_candidates
 from ..desk.study_files import SearchSettings, StudyFile, check_fits_file
+from ..desk.study_texts import introduced
 from ..paper import experiment as paper
 from ..paper.optimum import KINDS, TRAVEL, table5
 from ..quantities import column_headers
@@ -26,7 +29,7 @@ from ..search.driver import minimise
 from ..search.run import Optimiser
 from ..study.comparison import optimiser
 from ..tables import write_csv, write_figure, write_text
-from ..tables.headers import name_and_unit, readable, shown_range, shown_value
+from ..tables.headers import name_and_unit, readable, shown_range
 from . import results, studies, terminal
 
 WEIGHTINGS = ("Wk", "Wb", "Wb-table")
@@ -83,6 +86,7 @@ class Findings(NamedTuple):
 
     decision: Decision
     beside: ActiveBeside
+    exact: list[Layer]  # front of exact optima, empty where it is not cheap
     parts: Mapping[str, pd.DataFrame]
     said: list[str]
 
@@ -92,14 +96,16 @@ class Findings(NamedTuple):
         study = request.study
         with terminal.compiling(), terminal.waiting("searching"):
             decision = request.decide()
-            beside = ActiveBeside.of(study.problem, study.present)
+            beside, exact = ActiveBeside.of(study.problem, study.present), exact_layers(study.problem)
             parts = parts_of(study.problem, decision.table) | parts_over_scatter(study.problem, decision.table)
-        return cls(decision, beside, parts, [*introduced(study), *decision.describe(), beside.text])
+        return cls(decision, beside, exact, parts, [*introduced(study), *decision.describe(), beside.text])
 
     def page(self, study: StudyFile) -> str:
         """Return the page for a browser."""
         headers = column_headers(study.problem.objectives, study.problem.units)
-        return page_of(study, self.decision, self.said, self.parts, self.beside.by_controller(headers))
+        passive = pd.concat([self.decision.run.front()[headers], self.decision.table[headers]])
+        layers = [*self.exact, *attainable_layers(self.beside.by_controller(headers), passive)]
+        return page_of(study, self.decision, self.said, {"Candidates": self.parts}, layers)
 
 
 def carry_out(request: Request, out: Path | None) -> None:
@@ -108,14 +114,15 @@ def carry_out(request: Request, out: Path | None) -> None:
     study = request.study
     check_fits_file(study)
     found = Findings.of(request)
-    decision, beside, parts, said = found
+    decision, beside, _, parts, said = found
+    advice = Advice.of(study.problem, decision.table).said
     printed = [] if request.travel is None else tables5(request, request.travel)
     said += without_designs(decision, printed)
     folder = studies.folder_with(study, out)
     if printed:
         write_csv(folder / "table5.csv", pd.concat(printed))
     write_csv(folder / "candidates.csv", decision.table.reset_index())
-    write_text(folder / "candidates.md", markdown(study.name, parts, said))
+    write_text(folder / "candidates.md", markdown(study.name, parts, [*advice, *said]))
     save_candidates(study.problem, decision.table, folder / "candidates", study.name)
     write_csv(folder / "front.csv", decision.run.front())
     if beside.shares is not None and beside.fronts is not None:
@@ -124,7 +131,7 @@ def carry_out(request: Request, out: Path | None) -> None:
     write_text(folder / "report.html", found.page(study))
     with terminal.waiting("drawing"):
         draw(folder, decision, beside, study.name)
-    show(said, printed, parts)
+    show([*said, *advice], printed, parts)
     terminal.end(folder)
 
 
@@ -179,15 +186,3 @@ def show(said: Sequence[str], printed: Sequence[pd.DataFrame], parts: Mapping[st
         terminal.show(title, table, decimals_of(table), readable=True)
     for line in said:
         terminal.note(line)
-
-
-def introduced(study: StudyFile) -> list[str]:
-    """Return name, band, variables, load cases and present design of a study, a sentence each."""
-    problem, (low, high) = study.problem, study.problem.band
-    weighted = f"; ACC weighted with {problem.weighting}" if problem.weighted else ""
-    own = (f"{name} {shown_value(value, problem.units[name])}" for name, value in study.present.items())
-    return [
-        f"{study.name}; {low:g} to {high:g} Hz{weighted}.",
-        *problem.describe(),
-        f"Present design: {', '.join(own) or 'not known'}.",
-    ]

@@ -17,6 +17,7 @@ def report(
     present design; sliders of the variables move measures and curves. Writes the page and the resolved study to a
     folder; its path is the last line printed.
     """
+    from ..desk.advice import Advice
     from ..tables import write_text
     from . import deciding, results, studies, terminal
 
@@ -28,6 +29,6 @@ def report(
     found = deciding.Findings.of(deciding.Request(chosen))
     folder = studies.folder_with(chosen, out)
     write_text(folder / "report.html", found.page(chosen))
-    for line in found.said:
+    for line in [*found.said, *Advice.of(chosen.problem, found.decision.table).said]:
         terminal.note(line)
     terminal.end(folder)

@@ -97,11 +97,26 @@ def attainable(
     import pandas as pd
 
     checks.of_kind("problem", problem, RideProblem)
-    checks.at_least("points", points, 1)
     problem = problem.nominal.replace(constraints=())
+    table = optimal_controllers(problem, present, points, sensors or {})
+    if _takes_sky(problem):
+        front = search(with_sky(problem), Nsga2(population=_POPULATION), iterations=_ITERATIONS, seed=1).front()
+        sky = front[table.attrs["measures"]].assign(controller=SKYHOOK)
+        attributes, table = table.attrs, pd.concat([table, sky], ignore_index=True)
+        table.attrs.update(attributes)
+    return table
+
+
+def optimal_controllers(
+    problem: RideProblem, present: Present | None, points: int, sensors: Mapping[str, float]
+) -> "pd.DataFrame":
+    """Return the table of `attainable` without skyhook, of a nominal problem without limits."""
+    import pandas as pd
+
+    checks.at_least("points", points, 1)
     design = _middle(problem) if present is None else design_of(problem, present)
-    noise = _checked_sensors(problem, sensors or {})
-    active = ActiveSuspension.of(reaching(problem, design), design, list(sensors or ()))
+    noise = _checked_sensors(problem, sensors)
+    active = ActiveSuspension.of(reaching(problem, design), design, list(sensors))
     estimator = active.estimator(noise) if sensors else None
     names = list(problem.objectives)
     headers = column_headers(names, problem.units)
@@ -117,9 +132,6 @@ def attainable(
     labels = ["controller", *headers, *(f"{name} weight [-]" for name in names), LEAST, WITHIN]
     table = pd.DataFrame(rows, columns=labels)
     table = table.sort_values("controller", ascending=False, kind="stable", ignore_index=True)
-    if _takes_sky(problem):
-        front = search(with_sky(problem), Nsga2(population=_POPULATION), iterations=_ITERATIONS, seed=1).front()
-        table = pd.concat([table, front[headers].assign(controller=SKYHOOK)], ignore_index=True)
     table.attrs.update(_attributes(active, headers))
     return table
 

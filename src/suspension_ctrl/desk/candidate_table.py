@@ -42,8 +42,9 @@ def candidates(
     """Return designs of a front to choose from, side by side with the present design.
 
     They are the least of each objective; the `knee`; the compromise, nearest to the ideal point with objectives
-    scaled to the front, from 0 to 1 [1]_; and further designs between them, each the farthest from all before it
-    [2]_. A design that is several of these has all their names.
+    scaled to the front, from 0 to 1 [1]_; if all of these are worse than the present design in a measure, one that
+    is worse in none, with the largest reductions in sum; and further designs between them, each the farthest from
+    all before it [2]_. A design that is several of these has all their names.
 
     Parameters
     ----------
@@ -91,7 +92,8 @@ def candidates(
     -22 %, 0.5 Hz; damper at its lower bound
     """
     front = front_of(problem, run)
-    names = chosen(front.objectives, tuple(problem.objectives), checks.at_least("count", count, 1))
+    changes = against_present(problem, front.objectives, present)
+    names = chosen(front.objectives, tuple(problem.objectives), checks.at_least("count", count, 1), changes)
     rows = list(names)
     values = np.hstack([front.objectives[rows], front.constraints[rows]])
     return table_of(problem, list(names.values()), front.designs[rows], values, present)
@@ -154,6 +156,21 @@ def _changes(problem: Minimisable, objectives: Real) -> "pd.DataFrame":
 
     changes = changes_of(objectives, objectives[0])
     return pd.DataFrame(changes, columns=[f"{name} change [%]" for name in problem.objectives])
+
+
+def against_present(problem: Minimisable, objectives: Real, present: Present | None) -> Real | None:
+    """Return the changes of objectives (k, m) against the present design [%]; None if it is not known."""
+    if present is None:
+        return None
+    own = design_of(problem, present)
+    before = reaching(problem, own).evaluate(own[None])[0, : objectives.shape[1]]
+    return full_changes(objectives, before)
+
+
+def full_changes(objectives: Real, before: Real) -> Real:
+    """Return the changes of objectives (k, m) against present ones (m,) [%]; against 0 infinite or none."""
+    changes = changes_of(objectives, before)
+    return np.where(np.isnan(changes), np.where(objectives > before, np.inf, 0.0), changes)
 
 
 def changes_of(values: ArrayLike, present: ArrayLike) -> Real:

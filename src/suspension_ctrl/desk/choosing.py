@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import checks
-from ..quantities import Real, quantity
+from ..quantities import Integer, Real, quantity
 from ..search.decomposition import farthest_first
 from ..search.population import Population
 from ..search.problem import Minimisable, headers_of
@@ -18,7 +18,9 @@ from ..search.problem import Minimisable, headers_of
 if TYPE_CHECKING:
     import pandas as pd
 
-KNEE, COMPROMISE, BETWEEN = "knee", "compromise", "between"
+KNEE, COMPROMISE, BETWEEN, NONE_WORSE = "knee", "compromise", "between", "none worse"
+EQUAL = 0.05
+"""Largest change against the present design that counts as none [%]: it is shown as 0.0."""
 SAME = 1e-4
 """Largest difference of scaled objectives of designs that count as one."""
 _FLAT = 1e-6  # largest span of an objective that is equal throughout a front, as a share of its size
@@ -59,11 +61,18 @@ def scaled(objectives: Real) -> Real:
     return np.asarray((objectives - objectives.min(axis=0)) / span)
 
 
-def chosen(objectives: Real, names: tuple[str, ...], count: int) -> dict[int, str]:
+def improving(changes: Real) -> Integer:
+    """Return the rows of changes (k, m) [%] that gain in a measure and lose in none, first the largest sum."""
+    rows = np.flatnonzero((changes <= EQUAL).all(axis=1) & (changes < -EQUAL).any(axis=1))
+    return rows[changes[rows].sum(axis=1).argsort(kind="stable")]
+
+
+def chosen(objectives: Real, names: tuple[str, ...], count: int, changes: Real | None = None) -> dict[int, str]:
     """Return the names of candidates by row of objectives (k, m), by rising first objective.
 
-    First the least of each objective, of several equal ones that of the least sum; knee and compromise; then, up
-    to `count`, repeatedly the row farthest from all before it. Rows that are equal up to `SAME` are one.
+    First the least of each objective, of several equal ones that of the least sum; knee and compromise; if none of
+    them is `improving` by changes (k, m) against the present design, the row that is most so; then, up to `count`,
+    repeatedly the row farthest from all before it. Rows that are equal up to `SAME` are one.
     """
     points = scaled(objectives)
     total = points.sum(axis=1)
@@ -77,6 +86,9 @@ def chosen(objectives: Real, names: tuple[str, ...], count: int) -> dict[int, st
     for row, name in [*least, (_knee(points), KNEE), (_compromise(points), COMPROMISE)]:
         known = equal(row)
         found.setdefault(row if known is None else known, []).append(name)
+    better = [] if changes is None else improving(changes).tolist()
+    if better and not set(better) & set(found):
+        found[better[0]] = [NONE_WORSE]
     size = min(max(count, len(found)), len(points))
     for row in farthest_first(points, np.array(list(found)), size).tolist():
         if equal(row) is None:

@@ -11,7 +11,8 @@ from ..response.measures.limits import Limit
 from ..response.problem import RideProblem
 from ..search.constraints import InfeasibleWarning
 from ..search.driver import minimise
-from ..search.run import Optimiser, Run
+from ..search.population import Population
+from ..search.run import Optimiser
 from ..tables.headers import shown_range, shown_value
 from .active import designs_by_text, limit_text
 from .candidate_table import Present, candidates
@@ -27,8 +28,8 @@ class Decision(NamedTuple):
     """Runs of a ride problem within its limits and without them, and the candidates."""
 
     problem: RideProblem
-    run: Run
-    free: Run  # that of the problem without limits, `run` itself if it has none
+    run: Population
+    free: Population  # that of the problem without limits, `run` itself if it has none
     table: "pd.DataFrame"
 
     @classmethod
@@ -121,7 +122,7 @@ def measured(limit: Limit, g: Real) -> Real:
     return np.asarray((g - limit.offset) / limit.scale)
 
 
-def _check_feasible(problem: RideProblem, run: Run) -> None:
+def _check_feasible(problem: RideProblem, run: Population) -> None:
     """Raise ValueError that tells how near the limits the nearest design is, if none is within them."""
     if run.feasible.any():
         return

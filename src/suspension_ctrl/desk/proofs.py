@@ -15,7 +15,7 @@ from ..response.measures.robust import Robust
 from ..response.problem import RideProblem
 from ..search.run import Run
 from .active import limit_text
-from .candidate_table import COUNT, Present, table_of
+from .candidate_table import COUNT, Present, against_present, table_of
 from .choosing import BETWEEN, SAME, chosen, front_of, scaled
 from .descent import HELD
 from .refinement import Refined, least_of, price_unit, refine
@@ -77,7 +77,7 @@ def refined_candidates(
     the descent finds nothing as good stays as it is, without a residual.
     """
     front = front_of(problem, run)
-    rows = chosen(front.objectives, problem.objectives, COUNT)
+    rows = chosen(front.objectives, problem.objectives, COUNT, against_present(problem, front.objectives, present))
     found = [_refined(problem, name, front.designs[row], front.objectives[row]) for row, name in rows.items()]
     designs = np.array([_design(one, front.designs[row]) for one, row in zip(found, rows, strict=True)])
     values = values_of(problem, designs)

@@ -19,6 +19,13 @@ def _table1() -> dict[str, dict[str, str]]:
     return {row["symbol"]: row for row in datafiles.rows("paper/table1_vehicle.csv")}
 
 
+def table1() -> "pd.DataFrame":
+    """Return Table 1 as printed: quantity, symbol, value, unit and bounds, empty where there is none."""
+    import pandas as pd
+
+    return pd.DataFrame(datafiles.rows("paper/table1_vehicle.csv"))
+
+
 def ride_problem(**changes: Any) -> RideProblem:
     """Return the problem of Table 1, with `changes` of parameters of `RideProblem`."""
     rows = _table1()

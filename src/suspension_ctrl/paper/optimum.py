@@ -15,6 +15,7 @@ from . import experiment, tables
 if TYPE_CHECKING:
     import pandas as pd
 
+    from ..search.population import Population
     from ..search.run import Run
 
 TRAVEL = 0.0287
@@ -35,21 +36,36 @@ def table5(problem: RideProblem, run: "Run", limit: float = TRAVEL) -> "pd.DataF
     Rows are left out where no design has the travel.
     """
     checks.positive("sws_limit", limit, "m")
-    columns = experiment.table5()
-    published = {"reference car": columns["reference"], "published optimum": columns["optimised"]}
-    designs: dict[str, tuple[float, ...]] = {
-        "reference car": experiment.reference_design(),
-        "published optimum": experiment.optimised_design(),
-    }
     travel = run.objectives[:, problem.measures.index(SWS())]
     starts = run.designs[np.abs(travel - limit).argsort(kind="stable")[:_STARTS]]
+    exact = {}
     for objective in (ACC(), DTL()):
         with suppress(ValueError):  # of a travel that no design has
             best = least_of(problem, objective.label, starts, {SWS().label: (limit, limit)})
-            designs[f"{EXACT}, least {objective}"] = tuple(best.design.values())
-    within = {SWS().label: ((1 - AT_LIMIT) * limit, limit)}
+            exact[f"{EXACT}, least {objective}"] = tuple(best.design.values())
+    return _beside_published(problem, exact | _picked(problem, run, limit))
+
+
+def table5_of_front(problem: RideProblem, run: "Population") -> "pd.DataFrame":
+    """Return Table 5 without exact designs: the paper's, and those picked from a run at the paper's travel."""
+    return _beside_published(problem, _picked(problem, run, TRAVEL))
+
+
+def _picked(problem: RideProblem, run: "Population", limit: float) -> dict[str, tuple[float, ...]]:
+    """Return the designs of a run with the least of a measure at a travel limit, by name."""
+    found, within = {}, {SWS().label: ((1 - AT_LIMIT) * limit, limit)}
     for objective in (ACC(), DTL()):
         with suppress(ValueError):  # of a front that has no design so near the limit
             picked = pick(problem, run, minimise=objective.label, within=within)
-            designs[f"{PICKED}, least {objective}"] = tuple(picked.iloc[: len(problem.variables)].tolist())
-    return tables.beside_published(problem, designs, published)
+            found[f"{PICKED}, least {objective}"] = tuple(picked.iloc[: len(problem.variables)].tolist())
+    return found
+
+
+def _beside_published(problem: RideProblem, designs: dict[str, tuple[float, ...]]) -> "pd.DataFrame":
+    columns = experiment.table5()
+    published = {"reference car": columns["reference"], "published optimum": columns["optimised"]}
+    papers = {
+        "reference car": experiment.reference_design(),
+        "published optimum": experiment.optimised_design(),
+    }
+    return tables.beside_published(problem, papers | designs, published)

@@ -71,7 +71,7 @@ def searched(study: StudyFile) -> str:
         else minimise(problem.replace(constraints=()), Nsga2(population=20), iterations=1, seed=1)
     )
     decision = Decision(problem, run, free, table)
-    return page_of(study, decision, ["Said: <b>bold</b>."], parts_of(problem, table))
+    return page_of(study, decision, ["Said: <b>bold</b>."], {"Candidates": parts_of(problem, table)})
 
 
 def studies() -> dict[str, StudyFile]:
@@ -137,7 +137,7 @@ def test_the_front_without_limits_stands_beside(paper):
 
 def test_texts_of_a_study_are_no_markup(paper):
     assert paper.page.inner_text("h1") == EVIL
-    assert "Said: <b>bold</b>." in paper.page.inner_text("header")
+    assert "Said: <b>bold</b>." in paper.page.inner_text("main")
 
 
 MOVES = """places => places.map(place => {

@@ -8,8 +8,8 @@ import pytest
 
 from suspension_ctrl.desk.explorer.bundling import bundled
 
-BASE = """export const A = 1, B = 2;
-const hidden = 3;
+BASE = """export const A = 1, B = 2, C = [3, 4];
+const hidden = C[0];
 export function sum() {
   return A + B + hidden;
 }

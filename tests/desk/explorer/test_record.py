@@ -7,6 +7,7 @@ import pytest
 
 from suspension_ctrl import Nsga2, load_study
 from suspension_ctrl.desk.decision import Decision
+from suspension_ctrl.desk.explorer.layers import Layer
 from suspension_ctrl.desk.explorer.record import columns_of, record_of
 
 SEARCH = {"iterations": 2, "seed": 1}
@@ -23,7 +24,11 @@ def study():
 @pytest.fixture(scope="module")
 def record(study):
     decision = Decision.of(study.problem, Nsga2(population=20), present=study.present, **SEARCH)
-    return json.loads(json.dumps(record_of(study, decision, {"other": decision.run.front()}), allow_nan=False))
+    return json.loads(
+        json.dumps(
+            record_of(study, decision, [Layer("other", decision.run.front(), "run", False)]), allow_nan=False
+        )
+    )
 
 
 def test_columns_are_measures_limits_and_variables(study):
@@ -46,7 +51,9 @@ def test_the_record_holds_the_front_the_candidates_and_the_present_design(study,
     assert record["candidates"]["designs"]["shape"][1] == d
     assert record["candidates"]["scores"]["shape"] == [len(record["candidates"]["names"]), s]
     assert record["front"]["scores"]["shape"][1] == s
-    assert [one["name"] for one in record["others"]] == ["other"]
+    assert [[one[key] for key in ("name", "kind", "shown")] for one in record["others"]] == [
+        ["other", "run", False]
+    ]
     assert record["others"][0]["objectives"]["shape"] == [record["front"]["scores"]["shape"][0], 3]
 
 

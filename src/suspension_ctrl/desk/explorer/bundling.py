@@ -6,6 +6,7 @@ from pathlib import Path
 
 _IMPORT = re.compile(r'^import \{([^}]*)\} from "([^"]+)";\n', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=(?:function|class|const) )", re.MULTILINE)
+_CONSTANT = re.compile(r"(?:^|, )(\w+) = ")
 _NAME = re.compile(r"^export (?:function|class) (\w+)|^export const (.*);", re.MULTILINE)
 
 
@@ -40,8 +41,8 @@ def _scoped(path: Path) -> str:
 
 
 def _names(found: re.Match[str]) -> list[str]:
-    """Return the names of an exported function or class, or of constants ``A = 1, B = 2``."""
-    return [found[1]] if found[1] else [part.split("=")[0].strip() for part in found[2].split(",")]
+    """Return the names of an exported function or class, or of constants ``A = 1, B = [2, 3]``."""
+    return [found[1]] if found[1] else _CONSTANT.findall(found[2])
 
 
 def _from_module(found: re.Match[str]) -> str:

@@ -97,6 +97,5 @@ def explore(
         {} if present is None else dict(zip(problem.variables, design_of(problem, present).tolist(), strict=True))
     )
     study = StudyFile(problem=problem, name=title, present=own)
-    decision = Decision(problem, run, run, table)
-    html = page_of(study, decision, problem.describe(), parts_of(problem, table), certificates=certificates)
-    return Page(title, html)
+    decision, sections = Decision(problem, run, run, table), {"Candidates": parts_of(problem, table)}
+    return Page(title, page_of(study, decision, problem.describe(), sections, certificates=certificates))

@@ -2,6 +2,7 @@
 
 import gzip
 import json
+import re
 from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from hashlib import sha256
@@ -12,16 +13,20 @@ from ... import checks, escaping
 from ...response.certificates import Certificate
 from ...tables.headers import readable
 from ...tables.rounding import rounded
+from ..advice import Advice
 from ..candidate_texts import decimals_of
 from ..decision import Decision
 from ..study_files import StudyFile
 from .bundling import bundled
+from .choice_table import choice_table
+from .layers import Layer
 from .record import record_of
 
 if TYPE_CHECKING:
     import pandas as pd
 
 _HERE = Path(__file__).parent
+_SIGNS = re.compile(r"\^[23]|<=|>=")
 _PLOTLY = _HERE / "plotly" / "plotly-strict.min.js.gz"
 
 
@@ -29,36 +34,45 @@ def page_of(
     study: StudyFile,
     decision: Decision,
     said: Sequence[str],
-    parts: "Mapping[str, pd.DataFrame]",
-    others: "Mapping[str, pd.DataFrame] | None" = None,
+    sections: "Mapping[str, Mapping[str, pd.DataFrame]]",
+    layers: Sequence[Layer] = (),
     certificates: Sequence[Certificate] = (),
 ) -> str:
-    """Return the page of a study and its decision as HTML, with sentences `said` and tables by title.
+    """Return the page of a study and its decision as HTML, with sentences `said` and sections of tables by title.
 
-    Beside the front stands that without limits, if it was searched, and others by name, tables with a column for
-    each objective. Designs with certificates are shown with their simulated values.
+    Beside the front stands that without limits, if it was searched, and layers. Designs with certificates are shown
+    with their simulated values.
 
     The policy allows the scripts of the page alone, by their hashes: no request, no `eval`. The plotting library
     is compressed; the page itself makes it a script.
     """
+    advice = Advice.of(decision.problem, decision.table)
+    first = decision.table.index[decision.table.index > 0].get_loc(advice.number)
     limited = decision.free is not decision.run
-    free = {"front without limits": decision.free.front()} if limited else {}
+    free = [Layer("front without limits", decision.free.front())] if limited else []
     with checks.installed("report"):
         from jinja2 import Environment
         from markupsafe import Markup
     environment = Environment(autoescape=True)
     environment.filters["html"] = lambda text: Markup(escaping.html(text))
+    environment.filters["words"] = lambda text: Markup(escaping.html(_SIGNS.sub(_as_sign, text)))
     script, plotly = bundled(_HERE / "page" / "main.js"), _PLOTLY.read_bytes()
     return environment.from_string(_text("page.html.jinja")).render(
         title=study.name,
         said=said,
-        tables=[_table(title, part) for title, part in parts.items()],
-        record=_packed(record_of(study, decision, {**free, **(others or {})}, certificates)),
+        advice=advice,
+        choice=choice_table(decision.problem, decision.table),
+        sections={title: [_table(*part) for part in parts.items()] for title, parts in sections.items()},
+        record=_packed(record_of(study, decision, [*free, *layers], certificates) | {"first": first}),
         style=Markup(_text("page.css")),
         script=Markup(script),
         plotly=b64encode(plotly).decode("ascii"),
         hashes=Markup(f"{_hash(script.encode())} {_hash(gzip.decompress(plotly))}"),
     )
+
+
+def _as_sign(found: re.Match[str]) -> str:
+    return {"^2": "²", "^3": "³", "<=": "≤", ">=": "≥"}[found[0]]
 
 
 def _text(name: str) -> str:
@@ -77,8 +91,9 @@ def _hash(script: bytes) -> str:
 
 
 def _table(title: str, part: "pd.DataFrame") -> dict[str, Any]:
-    """Return a table in mm and kN as texts."""
+    """Return a table in mm and kN as texts, and which columns hold texts."""
     shown, digits = readable(part), decimals_of(part)
     columns = [rounded(shown[header].tolist(), digits.get(str(header))) for header in shown]
     rows = [list(row) for row in zip(*columns, strict=True)]
-    return {"title": title, "header": list(map(str, shown)), "rows": rows}
+    texts = [column.dtype.kind not in "iuf" for _, column in shown.items()]
+    return {"title": title, "header": list(map(str, shown)), "texts": texts, "rows": rows}

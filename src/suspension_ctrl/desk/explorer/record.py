@@ -24,6 +24,7 @@ from ..decision import Decision
 from ..proofs import PRICE, RESIDUAL
 from ..study_files import StudyFile, save_study
 from .functions import functions_of, why_not
+from .layers import Layer
 from .packing import packed
 from .plant_matrices import plant_matrices
 from .plant_ports import plant_ports
@@ -73,22 +74,18 @@ class Designs(NamedTuple):
 
 
 class OtherFront(NamedTuple):
-    """Objectives (k, m) of a front to compare with, whose designs are not of the study."""
+    """Objectives (k, m) of a layer."""
 
     name: str
+    kind: str
+    shown: bool
     objectives: Real
 
 
 def record_of(
-    study: StudyFile,
-    decision: Decision,
-    others: "Mapping[str, pd.DataFrame]",
-    certificates: Sequence[Certificate] = (),
+    study: StudyFile, decision: Decision, layers: Sequence[Layer], certificates: Sequence[Certificate] = ()
 ) -> dict[str, Any]:
-    """Return the record of a study and its decision for JSON, beside other fronts with columns of objectives.
-
-    Designs with certificates stand beside the candidates.
-    """
+    """Return the record of a study and its decision for JSON, beside layers, and designs with certificates."""
     problem = decision.problem
     kernel, functions = problem.scores.kernel(problem.nodes), functions_of(problem)
     headers = column_headers(problem.objectives, problem.units)
@@ -99,7 +96,7 @@ def record_of(
             "variables": list(_variables(problem)),
             "front": _evenly(front_of(problem, decision.run)),
             "candidates": _designs(problem, candidates),
-            "others": [_other(name, table[headers].to_numpy(dtype=float)) for name, table in others.items()],
+            "others": [_other(layer, headers) for layer in layers],
             "present": _present(problem, study.present),
             "certified": _certified(problem, certificates),
             "kernel": kernel,
@@ -167,8 +164,9 @@ def _evenly(front: Front) -> Designs:
     return Designs(front.designs[rows], np.hstack([front.objectives, front.constraints])[rows])
 
 
-def _other(name: str, objectives: Real) -> OtherFront:
-    return OtherFront(name, objectives[_spread(objectives)])
+def _other(layer: Layer, headers: list[str]) -> OtherFront:
+    objectives = layer.table[headers].to_numpy(dtype=float)
+    return OtherFront(layer.name, layer.kind, layer.shown, objectives[_spread(objectives)])
 
 
 def _spread(objectives: Real) -> Integer:

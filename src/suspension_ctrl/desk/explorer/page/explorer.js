@@ -43,9 +43,9 @@ export class Explorer {
       ...pointsOf(record.certified, "kept"),
       ...pointsOf(record.front, "front"),
     ];
-    /** @type {{name: string, objectives: number[][]}[]} fronts to compare with */
-    this.others = record.others.map((/** @type {any} */ { name, objectives }) => ({
-      name, objectives: rowsIn(objectives).map((row) => Array.from(row)),
+    /** @type {import("./layers.js").Layer[]} fronts to compare with */
+    this.others = record.others.map((/** @type {any} */ layer) => ({
+      ...layer, objectives: rowsIn(layer.objectives).map((row) => Array.from(row)),
     }));
     this.present = this.points.find((point) => point.group === "present") ?? null;
     /** @type {[number, number][]} least and largest value of each column in its unit */
@@ -55,7 +55,7 @@ export class Explorer {
     /** @type {Map<Change, (() => void)[]>} */
     this.views = new Map([["case", []], ["design", []], ["shown", []]]);
     this.check();
-    const first = this.points.find((point) => point.name.includes("knee")) ?? this.points[0];
+    const first = this.points[record.first];
     this.design = Float64Array.from(first.design);
     this.evaluation = evaluated(this.kernel, this.design);
     /** @type {Point | null} the stored point that the design at hand is */

@@ -1,21 +1,24 @@
 // The front as linked projections and in 3-D: designs, candidates, the present design and the one at hand.
 
 import { byId, choice, element, headed, later } from "./elements.js";
+import { drawLayers, styleOf } from "./layers.js";
+import { FAINT, MARKS, SCALE } from "./palette.js";
 
 /** @typedef {import("./explorer.js").Explorer} Explorer */
 /** @typedef {import("./explorer.js").Column} Column */
 /** @typedef {import("./explorer.js").Point} Point */
 
-const SCALE = "Cividis"; // even in lightness, told apart by all
-const HERE = "#d55e00", PRESENT = "#000000", KEPT = "#009e73", FAINT = "#bbbbbb"; // of Okabe and Ito
-const OTHERS = ["#999999", "#cc79a7", "#56b4e9", "#009e73"];
 const CONFIG = { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["sendDataToCloud"] };
 const MOST = 4; // projections
+const FRONT = 1; // among the traces
+const FONT = { size: 14, color: "#111111" };
+const ROOM = 0.5; // of an axis beyond the designs, in their range, for fronts to compare with
 
 /** @param {Explorer} explorer put choices of axes and all plots into the page */
 export function drawFront(explorer) {
   const measures = explorer.columns.filter((column) => column.kind !== "variable");
-  const axes = { across: 0, colour: Math.min(2, explorer.columns.length - 1), space: [0, 1, 2] };
+  const last = explorer.columns.length - 1, space = [0, 1, 2].map((i) => Math.min(i, last));
+  const axes = { across: 0, colour: Math.min(2, last), space };
   const names = explorer.columns.map(headed);
   const redraw = () => explorer.tell("shown");
   /** @type {(label: string, first: number, set: (index: number) => void) => HTMLElement} */
@@ -30,7 +33,7 @@ export function drawFront(explorer) {
   byId("projections").append(...panels);
   const draw = () => {
     const up = measures.filter((column) => column !== explorer.columns[axes.across]);
-    panels.forEach((panel, i) => projection(explorer, panel, explorer.columns[axes.across], up[i], axes.colour));
+    panels.forEach((panel, i) => projection(explorer, panel, explorer.columns[axes.across], up[i], axes.colour, !i));
     inSpace(explorer, axes.space.map((i) => explorer.columns[i]), axes.colour);
   };
   const move = () => {
@@ -38,6 +41,7 @@ export function drawFront(explorer) {
     panels.forEach((panel, i) => moved(explorer, panel, [explorer.columns[axes.across], up[i]], ["x", "y"]));
     moved(explorer, byId("space"), axes.space.map((i) => explorer.columns[i]), ["x", "y", "z"]);
   };
+  drawLayers(explorer);
   explorer.show("shown", draw);
   explorer.show("design", later(move));
   panels.forEach((panel) => linked(explorer, panel));
@@ -81,15 +85,16 @@ function traces(explorer, columns, coordinates, colour, style) {
     size: 5, color: lit.map((point) => explorer.valueAt(by, point)), colorscale: SCALE, showscale: true,
     colorbar: { title: { text: headed(by), side: "right" }, thickness: 10 },
   };
+  const above = coordinates.length < 3 ? { zorder: 2 } : {};
   const numbers = candidates.map(({ name }) => name.split(" ")[0]);
-  const texts = { mode: "markers+text", text: numbers, textposition: "top center" };
+  const texts = { mode: "markers+text", text: numbers, textposition: "top center", ...above };
   const ofGroup = (/** @type {Point["group"]} */ group) => shown.filter((point) => point.group === group);
   return [
     trace("others", front.filter((point) => !marked(point)), { size: 4, color: FAINT }),
     trace("front", lit, shades),
-    trace("candidates", candidates, { size: 9, color: PRESENT, symbol: "circle-open" }, texts),
-    trace("kept", ofGroup("kept"), { size: 10, color: KEPT, symbol: "square-open" }),
-    trace("present design", ofGroup("present"), { size: 9, color: PRESENT, symbol: "square" }),
+    trace("candidates", candidates, { size: 9, color: MARKS.candidate, symbol: "circle-open", line: { width: 2 } }, texts),
+    trace("kept", ofGroup("kept"), { size: 10, color: MARKS.kept, symbol: "square-open" }, above),
+    trace("present design", ofGroup("present"), { size: 9, color: MARKS.present, symbol: "square" }, above),
     ...otherFronts(explorer, columns, coordinates, style),
     here(explorer, columns, coordinates, style),
   ];
@@ -98,17 +103,16 @@ function traces(explorer, columns, coordinates, colour, style) {
 /** @param {Explorer} explorer @param {Column[]} columns @param {string[]} coordinates @param {any} style */
 function otherFronts(explorer, columns, coordinates, style) {
   if (columns.some(({ kind }) => kind !== "objective")) return [];
-  return explorer.others.map(({ name, objectives }, i) => ({
-    name, mode: "markers", hoverinfo: "skip", ...style,
-    marker: { size: 4, color: OTHERS[i % OTHERS.length], symbol: "diamond-open" },
+  return explorer.others.flatMap((layer, i) => !layer.shown ? [] : [{
+    name: layer.name, mode: "markers", hoverinfo: "skip", ...style, ...styleOf(layer, i, coordinates.length > 2),
     ...Object.fromEntries(coordinates.map((axis, k) =>
-      [axis, objectives.map((row) => row[columns[k].place] * columns[k].factor)])),
-  }));
+      [axis, layer.objectives.map((row) => row[columns[k].place] * columns[k].factor)])),
+  }]);
 }
 
 /** @param {Explorer} explorer @param {Column[]} columns @param {string[]} coordinates @param {any} style */
 function here(explorer, columns, coordinates, style) {
-  const marker = { size: 11, color: HERE, symbol: "diamond" }, place = placeOfDesign(explorer, columns);
+  const marker = { size: 11, color: MARKS.here, symbol: "diamond" }, place = placeOfDesign(explorer, columns);
   const own = coordinates.map((axis, i) => [axis, place.map((values) => values[i])]);
   return { name: "design at hand", mode: "markers", hoverinfo: "skip", ...style, marker, ...Object.fromEntries(own) };
 }
@@ -123,7 +127,26 @@ function placeOfDesign(explorer, columns) {
 function moved(explorer, panel, columns, coordinates) {
   const place = placeOfDesign(explorer, columns), last = /** @type {any} */ (panel).data.length - 1;
   const own = coordinates.map((axis, i) => [axis, [place.map((values) => values[i])]]);
-  Plotly.restyle(panel, Object.fromEntries(own), [last]);
+  const scene = coordinates.length > 2 ? "scene." : "";
+  const ends = coordinates.map((axis, i) => [`${scene}${axis}axis.autorangeoptions`, clipped(explorer, columns[i])]);
+  Plotly.update(panel, Object.fromEntries(own), Object.fromEntries(ends), [last]);
+}
+
+/** @param {Explorer} explorer @param {Column} column @returns {any} the title of an axis and the ends of its range */
+function axisOf(explorer, column) {
+  return { title: { text: headed(column) }, autorangeoptions: clipped(explorer, column) };
+}
+
+/**
+ * Return the ends of an axis: the range of designs, and room beyond it for fronts to compare with.
+ * @param {Explorer} explorer
+ * @param {Column} column
+ */
+function clipped(explorer, column) {
+  const values = explorer.points.map((point) => explorer.valueAt(column, point)), here = explorer.valueHere(column);
+  const known = [...values, here ?? NaN].filter(Number.isFinite);
+  const [least, largest] = [Math.min(...known), Math.max(...known)], room = ROOM * (largest - least);
+  return room ? { clipmin: least - room, clipmax: largest + room } : {};
 }
 
 /**
@@ -133,14 +156,17 @@ function moved(explorer, panel, columns, coordinates) {
  * @param {Column} x
  * @param {Column} y
  * @param {number} colour
+ * @param {boolean} first whether the scale of colours stands beside
  */
-function projection(explorer, panel, x, y, colour) {
+function projection(explorer, panel, x, y, colour, first) {
   const layout = {
-    margin: { l: 60, r: 10, t: 10, b: 50 }, showlegend: false, dragmode: "select", hovermode: "closest",
-    xaxis: { title: { text: headed(x) } }, yaxis: { title: { text: headed(y) } }, uirevision: x.name + y.name,
+    margin: { l: 65, r: 10, t: 10, b: 50 }, showlegend: false, dragmode: "select", hovermode: "closest", font: FONT,
+    xaxis: axisOf(explorer, x), yaxis: axisOf(explorer, y), uirevision: x.name + y.name,
     shapes: [...limitLines(x, "x"), ...limitLines(y, "y")],
   };
-  Plotly.react(panel, traces(explorer, [x, y], ["x", "y"], colour, { type: "scatter" }), layout, CONFIG);
+  const drawn = traces(explorer, [x, y], ["x", "y"], colour, { type: "scatter" });
+  drawn[FRONT].marker.showscale = first;
+  Plotly.react(panel, drawn, layout, CONFIG);
 }
 
 /** @param {Column} column @param {"x" | "y"} axis @returns {any[]} dashed lines at the limits of a column */
@@ -157,10 +183,11 @@ function limitLines(column, axis) {
 
 /** @param {Explorer} explorer @param {Column[]} columns @param {number} colour */
 function inSpace(explorer, columns, colour) {
-  const [x, y, z] = columns.map((column) => ({ title: { text: headed(column) } }));
+  const [x, y, z] = columns.map((column) => axisOf(explorer, column));
   const layout = {
-    margin: { l: 0, r: 0, t: 0, b: 0 }, showlegend: true, legend: { orientation: "h" }, scene: {
+    margin: { l: 0, r: 0, t: 0, b: 0 }, showlegend: true, font: FONT, legend: { orientation: "h" }, scene: {
       xaxis: x, yaxis: y, zaxis: z, uirevision: columns.map((column) => column.name).join(),
+      camera: { eye: { x: 1.5, y: 1.5, z: 0.9 } },
     },
   };
   const drawn = traces(explorer, columns, ["x", "y", "z"], colour, { type: "scatter3d" });

@@ -1,13 +1,12 @@
 // Parallel coordinates: a line for each design over an axis for each column. A drag along an axis filters by it.
 
 import { byId, digits, headed, svg } from "./elements.js";
+import { FAINT, MARKS } from "./palette.js";
 
 /** @typedef {import("./explorer.js").Explorer} Explorer */
 /** @typedef {{least: number, largest: number, x: number}} Axis */
 
 const TOP = 40, BOTTOM = 300, HEIGHT = 330, ROOM = 160; // of an axis
-const COLOURS = { front: "#0072b2", candidate: "#000000", kept: "#009e73", present: "#d55e00" };
-const FAINT = "#dddddd";
 
 /** @param {Explorer} explorer put parallel coordinates into the page */
 export function drawLines(explorer) {
@@ -36,7 +35,7 @@ function placeOn({ least, largest }, value) {
 
 /** @param {Explorer} explorer @param {Axis} axis @param {number} i @returns {SVGElement} line, name and ends */
 function axisOf(explorer, axis, i) {
-  const group = svg("g", { "font-size": 11, "text-anchor": "middle" });
+  const group = svg("g", { "font-size": 13, "text-anchor": "middle" });
   const texts = [[headed(explorer.columns[i]), 14], [digits(axis.largest), 32], [digits(axis.least), BOTTOM + 18]];
   group.append(svg("line", { x1: axis.x, x2: axis.x, y1: TOP, y2: BOTTOM, stroke: "#333" }));
   group.append(...texts.map(([text, y]) => {
@@ -54,8 +53,9 @@ function linesOf(explorer, axes) {
   return explorer.shown().sort((a, b) => rank(a) - rank(b)).map((point) => {
     const places = columns.map((column, i) => [axes[i].x, placeOn(axes[i], explorer.valueAt(column, point))]);
     const line = svg("polyline", {
-      points: places.map((place) => place.join()).join(" "), stroke: marked(point) ? COLOURS[point.group] : FAINT,
+      points: places.map((place) => place.join()).join(" "), stroke: marked(point) ? MARKS[point.group] : FAINT,
       "stroke-width": point.group === "front" ? 1 : 2, "stroke-opacity": point.group === "front" ? 0.35 : 1,
+      "stroke-dasharray": point.group === "present" ? "7 4" : "none",
     });
     line.addEventListener("click", () => explorer.choose(point.design));
     return line;

@@ -1,6 +1,7 @@
 // The page: unpacks the plotting library and its record, and draws its parts.
 
 import { unpacked } from "../numerics/packed.js";
+import { drawChoice } from "./choice.js";
 import { drawCurves } from "./curve_panel.js";
 import { drawDesign } from "./design_panel.js";
 import { drawDetails } from "./details_panel.js";
@@ -28,6 +29,7 @@ async function draw() {
   document.head.append(element("script", { textContent: plotly }));
   const record = unpacked(JSON.parse(await textOf("record")));
   const explorer = new Explorer(record);
+  drawChoice(explorer);
   drawFront(explorer);
   drawLines(explorer);
   drawFilters(explorer);

@@ -1,0 +1,73 @@
+"""Which candidate to take, and why: one better than the present design in every measure, or else the knee."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple, Self
+
+from ..quantities import Real
+from ..search.problem import Minimisable, headers_of
+from ..tables.headers import name_and_unit, shown_value
+from .candidate_table import full_changes
+from .choosing import KNEE, improving
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+class Advice(NamedTuple):
+    """A candidate by its number, and sentences."""
+
+    number: int
+    said: list[str]
+
+    @classmethod
+    def of(cls, problem: Minimisable, table: "pd.DataFrame") -> Self:
+        """Return the advice of a table of `candidates`."""
+        chosen = table[table.index > 0]
+        numbers = chosen.index.tolist()
+        knee = next((n for n, name in zip(numbers, chosen.name, strict=True) if KNEE in name), numbers[0])
+        if len(table) == len(chosen):
+            return cls(knee, [f"Take {_named(chosen, knee)}, {_UNLESS}.", *_facts(problem, chosen, knee)])
+        changes, labels = chosen_changes(problem, table), list(problem.objectives)
+        better = [numbers[row] for row in improving(changes)]
+        number = better[0] if better else knee
+        told = f"against the present design {_told(labels, changes[numbers.index(number)])}"
+        others = f" No measure is worse with {_listed(better[1:])} either, but less is gained in sum."
+        if better:
+            said = [f"Take {_named(chosen, number)}: {told}.{others * (len(better) > 1)}"]
+        else:
+            said = [f"Take {_named(chosen, number)}, {_UNLESS}: {told}. {_NONE}"]
+        return cls(number, [*said, *_facts(problem, chosen, number)])
+
+
+_UNLESS = "unless one measure decides"
+_NONE = "Every design of the front is worse than the present design in some measure."
+
+
+def chosen_changes(problem: Minimisable, table: "pd.DataFrame") -> Real:
+    """Return the changes (n, m) of candidates against the present design, the first row [%]."""
+    values = table[list(headers_of(problem))[len(problem.variables) :]].to_numpy(dtype=float)
+    return full_changes(values[1:], values[0])
+
+
+def _named(table: "pd.DataFrame", number: int) -> str:
+    return f"candidate {number}, {table.name[number]}"
+
+
+def _told(labels: Sequence[str], changes: Real) -> str:
+    """Return the changes of measures (m,) in words."""
+    return ", ".join(f"{name} {change:+.1f} %" for name, change in zip(labels, changes + 0.0, strict=True))
+
+
+def _listed(numbers: Sequence[int]) -> str:
+    return " and ".join(map(str, numbers))
+
+
+def _facts(problem: Minimisable, table: "pd.DataFrame", number: int) -> list[str]:
+    """Return sentences about the values of a candidate, and the limits and bounds that it reaches."""
+    headers = list(headers_of(problem))[: len(problem.variables)]
+    values = (shown_value(table[one][number], name_and_unit(one)[1]) for one in headers)
+    said = [f"It has {', '.join(map(' '.join, zip(problem.variables, values, strict=True)))}."]
+    active = [one for one in str(table.active[number]).split("; ") if one]
+    limits, bounds = ([one for one in active if ("limit" in one) == wanted] for wanted in (True, False))
+    said += [f"It is {' and '.join(limits)}, without margin for scatter."] if limits else []
+    return [*said, *([f"Wider bounds may give more: {', '.join(bounds)}."] if bounds else [])]

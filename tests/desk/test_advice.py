@@ -1,0 +1,69 @@
+"""Which candidate to take: better than the present design in every measure, else the knee."""
+
+import pandas as pd
+import pytest
+
+from suspension_ctrl import Problem
+from suspension_ctrl.desk.advice import Advice
+
+PROBLEM = Problem(
+    evaluate=lambda designs: designs, lower=(0.0, 0.0), upper=(9.0, 9.0), objectives=("ride", "grip"),
+    variables=("spring", "damper"),
+)  # fmt: skip
+PRESENT = ("present design", 4.0, 4.0)
+
+
+def advised(*rows: tuple, active: str = "") -> Advice:
+    first = 0 if rows[0][0] == PRESENT[0] else 1
+    table = pd.DataFrame(
+        [(name, x, y, x, y, active) for name, x, y in rows],
+        columns=["name", "spring", "damper", "ride", "grip", "active"],
+        index=range(first, first + len(rows)),
+    )
+    return Advice.of(PROBLEM, table)
+
+
+def test_the_largest_gain_without_a_loss_is_taken():
+    found = advised(PRESENT, ("least ride", 1.0, 6.0), ("none worse", 3.0, 4.0), ("knee", 2.0, 2.0))
+    assert found.number == 3
+    assert found.said == [
+        "Take candidate 3, knee: against the present design ride -50.0 %, grip -50.0 %. "
+        "No measure is worse with 2 either, but less is gained in sum.",
+        "It has spring 2, damper 2.",
+    ]
+
+
+def test_a_change_that_is_not_shown_is_no_loss():
+    assert advised(PRESENT, ("least ride", 1.0, 4.0 * 1.0004), ("knee", 2.0, 5.0)).number == 1
+    assert advised(PRESENT, ("least ride", 1.0, 4.0 * 1.0006), ("knee", 2.0, 5.0)).number == 2
+
+
+def test_the_knee_is_taken_where_every_gain_has_a_price():
+    found = advised(PRESENT, ("least ride", 1.0, 6.0), ("knee", 3.0, 5.0))
+    assert found.number == 2
+    assert found.said[0] == (
+        "Take candidate 2, knee, unless one measure decides: "
+        "against the present design ride -25.0 %, grip +25.0 %. "
+        "Every design of the front is worse than the present design in some measure."
+    )
+
+
+def test_without_a_present_design_there_are_no_changes():
+    found = advised(("least ride", 1.0, 6.0), ("knee", 3.0, 5.0))
+    assert (found.number, found.said[0]) == (2, "Take candidate 2, knee, unless one measure decides.")
+
+
+def test_against_a_measure_of_zero_any_rise_is_a_loss():
+    present = ("present design", 4.0, 0.0)
+    assert advised(present, ("least ride", 1.0, 1.0), ("knee", 2.0, 0.0)).number == 2
+
+
+@pytest.mark.parametrize(
+    ("active", "said"),
+    [
+        ("at the limit ride <= 2", ["It is at the limit ride <= 2, without margin for scatter."]),
+        ("spring at its upper bound", ["Wider bounds may give more: spring at its upper bound."]),
+    ],
+)
+def test_limits_and_bounds_that_are_reached_are_told(active, said):
+    assert advised(("knee", 3.0, 5.0), active=active).said[2:] == said
