@@ -1,4 +1,6 @@
+import html
 import json
+import re
 import struct
 
 import numpy as np
@@ -31,8 +33,8 @@ def test_writes_everything(quick):
     tables = {f"{n}{e}" for n in ("table2", "table3", "table4", "hypervolume") for e in (".csv", ".md", ".tex")}
     others = ("", "_moead-dra", "_moead-dra-raw")  # the first algorithm beside each of the others
     pictures = {f"figure5{other}.{ending}" for other in others for ending in ("png", "pdf")}
-    files = {"runs.csv", "reference.csv", "environment.json", "study.toml", "reference", "fronts", "timed"}
-    assert names == tables | pictures | files
+    files = {"runs.csv", "reference.csv", "environment.json", "study.toml", "report.html"}
+    assert names == tables | pictures | files | {"reference", "fronts", "timed"}
     runs = pd.read_csv(out / "runs.csv")
     assert runs.timing.all()
     assert len(list((out / "fronts").iterdir())) == len(runs) == 2 * 2 * 2 * (4 + 2)
@@ -41,6 +43,21 @@ def test_writes_everything(quick):
     assert record["arguments"]["populations"] == "60,100"
     assert record["threads"]["numba"] == 1
     assert all(pool["num_threads"] == 1 for pool in record["threads"]["pools"])
+
+
+def test_the_page_has_the_fronts_of_all_algorithms_and_tables_1_to_5(quick):
+    page = (quick[0] / "report.html").read_text(encoding="utf-8")
+    titles = re.findall(r"<h3>(.*?)</h3>", page)
+    tables = [title[: len("Table 1")] for title in titles if title.startswith("Table ")]
+    assert tables == [f"Table {number}" for number in range(1, 6)]
+    record = json.loads(html.unescape(re.search(r'data-record="([^"]*)"', page)[1]))
+    layers = {one["name"]: one for one in record["others"]}
+    runs = [name for name, one in layers.items() if one["kind"] == "run"]
+    sizes = [(60, 5), (60, 10), (100, 5), (100, 10)]
+    algorithms = ("nsga2", "nsga2-standard-sort", "moead-dra", "moead-dra-raw")
+    assert set(runs) == {f"{one}, N = {n}, {i} iterations" for one in algorithms for n, i in sizes}
+    assert [name for name in runs if layers[name]["shown"]] == [name for name in runs if "100, 10" in name]
+    assert [one["kind"] for one in record["others"][len(runs) :]] == ["reference", "attainable"]
 
 
 def test_identical_runs_by_both_selections(quick):

@@ -41,6 +41,7 @@ def test_compare_on_another_vehicle(called, tmp_path):
     out = tmp_path / "out"
     assert {path.name for path in out.glob("[!.]*")} == TABLES | PICTURES | {
         "runs.csv", "environment.json", "study.toml", "fronts", "timed", "reference", "reference.csv",
+        "report.html",
     }  # fmt: skip
     assert_nothing_of_the_paper(done, out)
     assert "Road: ISO 8608 class C, geometric mean" in done.stdout

@@ -48,6 +48,11 @@ def test_the_knee_is_taken_where_every_gain_has_a_price():
     )
 
 
+def test_a_present_design_beyond_a_limit_is_told():
+    found = advised(PRESENT, ("knee", 3.0, 3.0), active="beyond the limit ride <= 2")
+    assert "The present design is beyond the limit ride <= 2." in found.said
+
+
 def test_without_a_present_design_there_are_no_changes():
     found = advised(("least ride", 1.0, 6.0), ("knee", 3.0, 5.0))
     assert (found.number, found.said[0]) == (2, "Take candidate 2, knee, unless one measure decides.")

@@ -7,7 +7,7 @@ from ..quantities import Real
 from ..search.problem import Minimisable, headers_of
 from ..tables.headers import name_and_unit, shown_value
 from .candidate_table import full_changes
-from .choosing import KNEE, improving
+from .choosing import EQUAL, KNEE, improving
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -36,6 +36,8 @@ class Advice(NamedTuple):
             said = [f"Take {_named(chosen, number)}: {told}.{others * (len(better) > 1)}"]
         else:
             said = [f"Take {_named(chosen, number)}, {_UNLESS}: {told}. {_NONE}"]
+        beyond = [one for one in str(table.active.iloc[0]).split("; ") if one.startswith("beyond")]
+        said += [f"The present design is {' and '.join(beyond)}."] if beyond else []
         return cls(number, [*said, *_facts(problem, chosen, number)])
 
 
@@ -55,7 +57,12 @@ def _named(table: "pd.DataFrame", number: int) -> str:
 
 def _told(labels: Sequence[str], changes: Real) -> str:
     """Return the changes of measures (m,) in words."""
-    return ", ".join(f"{name} {change:+.1f} %" for name, change in zip(labels, changes + 0.0, strict=True))
+    return ", ".join(f"{name} {shown_change(one)}" for name, one in zip(labels, changes.tolist(), strict=True))
+
+
+def shown_change(change: float) -> str:
+    """Return a change [%] with its sign, none of one that does not count."""
+    return "0.0 %" if abs(change) <= EQUAL else f"{change:+.1f} %"
 
 
 def _listed(numbers: Sequence[int]) -> str:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ...search.problem import Minimisable, headers_of
 from ...tables.headers import readable
 from ...tables.rounding import rounded
-from ..advice import chosen_changes
+from ..advice import chosen_changes, shown_change
 from ..candidate_table import PRESENT
 from ..choosing import EQUAL
 
@@ -52,4 +52,4 @@ def choice_table(problem: Minimisable, table: "pd.DataFrame") -> ChoiceTable:
 
 def _changed(cells: list[Cell], changes: list[float]) -> Iterator[Cell]:
     for (value, *_), change in zip(cells, changes, strict=True):
-        yield Cell(value, f"{change + 0.0:+.1f} %", None if abs(change) <= EQUAL else change < 0)
+        yield Cell(value, shown_change(change), None if abs(change) <= EQUAL else change < 0)
