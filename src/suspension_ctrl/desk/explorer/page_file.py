@@ -40,8 +40,8 @@ def page_of(
 ) -> str:
     """Return the page of a study and its decision as HTML, with sentences `said` and sections of tables by title.
 
-    Beside the front stands that without limits, if it was searched, and layers. Designs with certificates have their
-    simulated values.
+    Beside the front stands that without limits, if it was searched, and layers. Designs with certificates have
+    their simulated values.
 
     The policy allows the scripts of the page alone, by their hashes: no request, no `eval`. The plotting library
     is compressed; the page itself makes it a script.
