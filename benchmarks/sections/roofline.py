@@ -79,7 +79,7 @@ def _objectives(problem: sc.RideProblem, population: int) -> NDArray[np.float64]
 
 
 def _sorting(objectives: NDArray[np.float64]) -> float:
-    """Return the least time [s] in which numpy sorts each objective: no ranking takes fewer comparisons."""
+    """Return the least time [s] in which numpy sorts each objective, as a ranking does in its own way."""
     columns = np.ascontiguousarray(objectives.T)
     rows = take_turns({"sort": lambda _: lambda: np.sort(columns, axis=1)}, 5, LIMIT, least=LEAST)
     return float(min(row["seconds"] for row in rows))

@@ -30,6 +30,7 @@ def test_writes_every_timing_the_page_and_the_picture(quick):
         "target",
         "nsga2",
         "full_car",
+        "roofline",
     }
     names = {f"{section}.csv" for section in sections}
     assert {path.name for path in out.iterdir()} == names | {

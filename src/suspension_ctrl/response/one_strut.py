@@ -49,15 +49,19 @@ class OneStrut(NamedTuple):
                     gain[p, i], gain[p, half + i] = inverse * other, inverse * one
                 if 2 * half < n:
                     gain[p, 2 * half] = 1.0 / polynomial(self.denominator, powers, 2 * half)
-            for q in range(self.power.size):
+            for q in range(0, self.power.size, 2):
+                r = min(q + 1, self.power.size - 1)
                 a, b, c, d = 0.0, 0.0, 0.0, 0.0
-                for i in range(n):  # a numerator is loaded once for four designs
-                    factor = self.numerators[q, i]
-                    a, b = a + gain[0, i] * factor, b + gain[1, i] * factor
-                    c, d = c + gain[2, i] * factor, d + gain[3, i] * factor
-                integrals = (a, b, c, d)
+                e, f, g, h = 0.0, 0.0, 0.0, 0.0
+                for i in range(n):  # two numerators are loaded once for four designs
+                    x, y = self.numerators[q, i], self.numerators[r, i]
+                    a, b, c, d = a + gain[0, i] * x, b + gain[1, i] * x, c + gain[2, i] * x, d + gain[3, i] * x
+                    e, f, g, h = e + gain[0, i] * y, f + gain[1, i] * y, g + gain[2, i] * y, h + gain[3, i] * y
+                ones, others = (a, b, c, d), (e, f, g, h)
                 for p in range(count):
-                    result[first + p, self.term[q]] += integrals[p] * power[p, self.power[q]]
+                    result[first + p, self.term[q]] += ones[p] * power[p, self.power[q]]
+                    if r > q:
+                        result[first + p, self.term[r]] += others[p] * power[p, self.power[r]]
         return result
 
     @classmethod

@@ -179,8 +179,12 @@ class Scores:
         squares = [mean_squares_of(case, designs) for case in kernel.cases]
         if self._simple:
             which, factor = self._simple
-            found = reached(squares[0], designs).T[which]
-            return np.asarray(kernel.scale * np.sqrt(factor * found).T + kernel.offset), squares
+            found = reached(squares[0], designs).T[which]  # a copy, which stays in the cache
+            found *= factor
+            np.sqrt(found, out=found)
+            found *= kernel.scale[:, None]
+            found += kernel.offset[:, None]
+            return found.T, squares
         return reached(kernel.scores(squares), designs), squares
 
     def fill_functions(
