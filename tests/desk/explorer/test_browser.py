@@ -356,3 +356,34 @@ def test_a_filter_hides_exactly_the_designs_beyond_it(paper):
         limit,
     )
     np.testing.assert_array_equal(data_of(page, FRONT), before[before <= limit])
+
+
+@pytest.mark.parametrize(("width", "media"), [(1400, "screen"), (1280, "screen"), (390, "screen"), (794, "print")])
+def test_nothing_is_wider_than_the_page(paper, tmp_path, width, media):
+    """Of a desk, a projector, a phone and paper, A4 at 96 dpi."""
+    page = paper.page
+    page.emulate_media(media=media)
+    page.set_viewport_size({"width": width, "height": 900})
+    page.wait_for_timeout(200)
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    page.screenshot(path=tmp_path / f"{media}-{width}.png")
+    assert (tmp_path / f"{media}-{width}.png").stat().st_size > 10_000
+    page.emulate_media(media="screen")
+
+
+def test_a_candidate_is_taken_by_the_keyboard(paper):
+    button = paper.page.locator("#candidates button").nth(1)
+    button.focus()
+    paper.page.keyboard.press("Enter")
+    row = paper.page.locator("#candidates tr[aria-current=true]")
+    assert row.locator("button").inner_text() == button.inner_text()
+    assert paper.page.locator("[tabindex]:not([tabindex='0'])").count() == 0
+
+
+def test_a_layer_is_switched_off_and_on(paper):
+    box = paper.page.get_by_label("front without limits")
+    names = 'document.querySelector("#projections .plot").data.map(one => one.name)'
+    box.uncheck()
+    assert "front without limits" not in paper.page.evaluate(names)
+    box.check()
+    assert "front without limits" in paper.page.evaluate(names)

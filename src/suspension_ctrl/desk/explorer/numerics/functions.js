@@ -15,17 +15,6 @@ import { matricesAt } from "./state_matrix.js";
 const EULER = 0.5772156649015329;
 const KM = 1000; // m
 
-/**
- * Return the value of a measure in a load case; `numbers` are those of `functions.py`.
- * @param {string} word
- * @param {any} numbers
- * @param {State} state
- * @returns {number}
- */
-export function valueOf(word, numbers, state) {
-  return OF_WORD[word](numbers, state);
-}
-
 /** @type {Record<string, (numbers: any, state: State) => number>} */
 const OF_WORD = {
   VDV: ({ terms, factors }, { squares }) =>
@@ -66,6 +55,17 @@ const OF_WORD = {
   roll_gradient: (numbers, state) => rollGradient(state, numbers),
   front_load_transfer: (numbers, state) => frontLoadTransfer(state, numbers),
 };
+
+/**
+ * Return the value of a measure in a load case; `numbers` are those of `functions.py`.
+ * @param {string} word
+ * @param {any} numbers
+ * @param {State} state
+ * @returns {number}
+ */
+export function valueOf(word, numbers, state) {
+  return OF_WORD[word](numbers, state);
+}
 
 /**
  * Return the largest of values.

@@ -48,8 +48,8 @@ export function networksOf(packed) {
     kind, parts: [one, other], coefficient: [first, second], law,
     ratio: packed.ratio.data[i], row: packed.row.data[i],
   }));
-  const laws = rowsIn(packed.law).map(([ofRate, inSeries, network, factor, exponent], i) => ({
-    ofRate: ofRate > 0, inSeries: inSeries > 0, network, power: [factor, exponent], square: packed.square.data[i],
+  const laws = rowsIn(packed.law).map(([ofRate, chained, network, factor, exponent], i) => ({
+    ofRate: ofRate > 0, inSeries: chained > 0, network, power: [factor, exponent], square: packed.square.data[i],
   }));
   return {
     nodes, laws, curves: packed.laws, root: Array.from(packed.root.data), measured: complexRows(packed.measured),

@@ -143,8 +143,8 @@ function axisOf(explorer, column) {
  * @param {Column} column
  */
 function clipped(explorer, column) {
-  const values = explorer.points.map((point) => explorer.valueAt(column, point)), here = explorer.valueHere(column);
-  const known = [...values, here ?? NaN].filter(Number.isFinite);
+  const values = explorer.points.map((point) => explorer.valueAt(column, point)), own = explorer.valueHere(column);
+  const known = [...values, own ?? NaN].filter(Number.isFinite);
   const [least, largest] = [Math.min(...known), Math.max(...known)], room = ROOM * (largest - least);
   return room ? { clipmin: least - room, clipmax: largest + room } : {};
 }
