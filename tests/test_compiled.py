@@ -16,7 +16,7 @@ from numba.extending import register_jitable
 import suspension_ctrl
 from functions import dtlz2, srn
 from suspension_ctrl import MoeadDra, Nsga2, minimise
-from suspension_ctrl.compiled import Linked, call, call_compiled, linked, storable, verb_of
+from suspension_ctrl.compiled import Linked, call, call_compiled, compilable, linked, storable, verb_of
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.kinds import Coding
 from suspension_ctrl.search.operators import DifferentialChild, MutateDesign
@@ -39,6 +39,18 @@ class Doubled(NamedTuple):
     @register_jitable
     def __call__(self, x):
         return 2.0 * call(self.inner, (x,))
+
+
+@compilable()
+def halved(x):
+    if x < 0:
+        raise ValueError("x must be >= 0")
+    return 0.5 * x
+
+
+@njit
+def quarter_of(x):
+    return halved(halved(x))
 
 
 @njit
@@ -180,6 +192,13 @@ def test_verbs_are_storable_where_every_process_finds_their_class():
     mixed = paper.ride_problem().replace(kinds={"spring": "log"})
     for kernel, expected in ((mixed.kernel, True), (verb_of((square, ())), False)):
         assert storable(Coding(mixed).kernel(kernel)) == expected
+
+
+def test_an_error_of_a_part_reaches_its_caller():
+    """Without machine code or an environment of its own."""
+    assert quarter_of(3.0) == 0.75
+    with pytest.raises(ValueError, match="x must be >= 0"):
+        quarter_of(-1.0)
 
 
 WATCH = """

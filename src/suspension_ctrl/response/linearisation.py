@@ -18,10 +18,10 @@ from .bands import band_of
 from .load_case import LoadCase, Road
 from .mean_squares import AnyCase, case_of
 from .measures.terms import Term
-from .network_rows import DEVIATION, FORCE, MEAN, NETWORK, OF_RATE, SLOPE, STATES
+from .network_rows import DEVIATION, FORCE, MEAN, NETWORK, OF_RATE, SLOPE
 from .one_port import OnePort
 from .strut_data import apart
-from .working_point import Points
+from .working_point import Points, room_for_points
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -154,8 +154,7 @@ def linear_at(case: LoadCase, setting: Setting, band: tuple[float, float]) -> tu
 
 def working_points(case: AnyCase, designs: Real) -> Points:
     """Return the working points of designs (p, v); ValueError that names the first design without one."""
-    p, laws, ports = len(designs), len(case.networks.law), case.networks.sag.size
-    points = Points(np.empty((p, laws, STATES)), np.zeros((p, ports)), np.empty(p, dtype=np.int64))
+    points = room_for_points(case.networks, len(designs))
     if isinstance(case, OnePort):
         one_port.solve(case, designs, points)
     else:

@@ -3,6 +3,8 @@
 from math import exp, log, sqrt
 from typing import NamedTuple
 
+import numpy as np
+
 from ..compiled import compilable
 from ..quantities import Integer, Real
 from ..vehicles.networks import Laws, fill_curve
@@ -40,6 +42,12 @@ class Points(NamedTuple):
     state: Real  # (p, l, 8), of every law
     position: Real  # (p, q), mean deflection of every port [m]
     iterations: Integer  # (p,), -1 where the point is not reached
+
+
+def room_for_points(networks: Networks, p: int) -> Points:
+    """Return room for the working points of p designs."""
+    laws, ports = len(networks.law), networks.sag.size
+    return Points(np.empty((p, laws, STATES)), np.zeros((p, ports)), np.empty(p, dtype=np.int64))
 
 
 @compilable(error_model="numpy")

@@ -11,13 +11,12 @@ from ..network_rows import (
     IN_SERIES,
     NETWORK,
     OF_RATE,
-    STATES,
     STIFFNESS,
     fill,
     fill_rows,
     fill_share,
 )
-from ..working_point import Points
+from ..working_point import room_for_points
 from .many_struts import ENTRY, Loops, close, fill_force, fill_values, fold, loops_of, moments, set_to
 from .network_rows import Adjoint, adjoint_of, clear, fill_joints, pull, pull_share
 from .one_port import total_of
@@ -35,23 +34,33 @@ from .working_point import (
 )
 
 
-@compiled(nogil=True, error_model="numpy")
 def with_slopes(any_struts: AnyStruts, wanted: Wanted, designs: Real) -> tuple[Real, Real]:
     """Return the mean squares (p, k) of designs (p, v), and the derivatives (p, s, v) of what is wanted.
 
     NaN without a working point.
     """
+    networks, squares = any_struts.networks, np.zeros((len(designs), any_struts.struts.channel.size))
+    points = room_for_points(networks, len(designs))
+    if len(networks.law) > 0:
+        squares = solve(any_struts, designs, points)
+    return squares, differentiated(any_struts, wanted, designs, points.state, squares)
+
+
+@compiled(nogil=True, error_model="numpy")
+def differentiated(any_struts: AnyStruts, wanted: Wanted, designs: Real, state: Real, squares: Real) -> Real:
+    """Return the derivatives (p, s, v) of what is wanted, at states (p, l, 8) of laws with mean squares (p, k).
+
+    Without laws the mean squares are filled in.
+    """
     struts, networks, count = any_struts.struts, any_struts.networks, designs.shape[0]
-    laws, q, n = networks.law.shape[0], networks.sag.size, struts.omega.size
-    points = Points(np.empty((count, laws, STATES)), np.empty((count, q)), np.empty(count, dtype=np.int64))
-    squares = solve(any_struts, designs, points) if laws > 0 else np.empty((count, struts.channel.size))
+    laws, n = networks.law.shape[0], struts.omega.size
     settled, loops, added = settled_of(networks, n), loops_of(struts), np.empty(designs.shape[1])
     adjoint, point = adjoint_of(networks, n, True), point_of(networks)
     slopes, weight = np.empty((count, wanted.largest.size, designs.shape[1])), np.empty(wanted.factor.shape)
     for p in range(count):
         for v in range(added.size):
             added[v] = designs[p, v] - struts.origin[v]
-        settle(networks, designs, p, points.state, settled)
+        settle(networks, designs, p, state, settled)
         close_networks(any_struts, loops, added, settled, adjoint)
         for term in range(struts.channel.size if laws == 0 else 0):
             squares[p, term] = loops.found[struts.channel[term]]
@@ -66,7 +75,7 @@ def with_slopes(any_struts: AnyStruts, wanted: Wanted, designs: Real) -> tuple[R
             fold(struts.channel, weight[s], loops.weight)
             differentiate(any_struts, loops, adjoint)
             fill_slopes(networks, adjoint, point, slopes[p, s])
-    return squares, slopes
+    return slopes
 
 
 @uncounted()

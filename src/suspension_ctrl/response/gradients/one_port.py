@@ -11,14 +11,13 @@ from ..network_rows import (
     INERTANCE,
     LOSS,
     OF_RATE,
-    STATES,
     STIFFNESS,
     fill,
     fill_rows,
     fill_share,
 )
 from ..one_port import OnePort, add_terms, fill_gain, solve
-from ..working_point import Points
+from ..working_point import room_for_points
 from .network_rows import Adjoint, add_moments, adjoint_of, clear, fill_joints, pull, pull_share
 from .wanted import Wanted, fill_weights
 from .working_point import (
@@ -34,20 +33,30 @@ from .working_point import (
 )
 
 
-@compiled(nogil=True, error_model="numpy")
 def with_slopes(port: OnePort, wanted: Wanted, designs: Real) -> tuple[Real, Real]:
     """Return the mean squares (p, k) of designs (p, v), and the derivatives (p, s, v) of what is wanted.
 
-    NaN without a working point. Outputs are the mean squares of laws, then what is wanted.
+    NaN without a working point.
+    """
+    networks, squares = port.networks, np.zeros((len(designs), port.terms))
+    points = room_for_points(networks, len(designs))
+    if len(networks.law) > 0:
+        squares = solve(port, designs, points)
+    return squares, differentiated(port, wanted, designs, points.state, squares)
+
+
+@compiled(nogil=True, error_model="numpy")
+def differentiated(port: OnePort, wanted: Wanted, designs: Real, state: Real, squares: Real) -> Real:
+    """Return the derivatives (p, s, v) of what is wanted, at states (p, l, 8) of laws with mean squares (p, k).
+
+    Without laws the mean squares are filled in. Outputs are the mean squares of laws, then what is wanted.
     """
     networks, n, count, laws = port.networks, port.omega.size, designs.shape[0], port.networks.law.shape[0]
-    points = Points(np.empty((count, laws, STATES)), np.empty((count, 1)), np.empty(count, dtype=np.int64))
-    squares = solve(port, designs, points) if laws > 0 else np.zeros((count, port.terms))
     settled, adjoint, point = settled_of(networks, n), adjoint_of(networks, n, False), point_of(networks)
     gain, beside, numerators = np.empty((4, n)), np.empty(DIRECT), numerators_of(port, wanted)
     slopes, weight = np.empty((count, wanted.largest.size, designs.shape[1])), np.empty(wanted.factor.shape)
     for p in range(count):
-        settle(networks, designs, p, points.state, settled)
+        settle(networks, designs, p, state, settled)
         close(port, settled, gain)
         fill_joints(networks, port.omega, settled.direct, settled.rows, adjoint)
         if laws == 0:
@@ -68,7 +77,7 @@ def with_slopes(port: OnePort, wanted: Wanted, designs: Real) -> tuple[Real, Rea
                 keep_law(output, adjoint, point)
             else:
                 fill_slopes(networks, adjoint, point, slopes[p, s])
-    return squares, slopes
+    return slopes
 
 
 @compilable()
