@@ -31,7 +31,7 @@ class End(NamedTuple):
     @property
     def feasible(self) -> bool:
         """Whether all rows are held."""
-        return _excess(self.program, self.z) <= HELD
+        return excess_of(self.program, self.z) <= HELD
 
     @property
     def value(self) -> float:
@@ -45,11 +45,11 @@ def descended(program: Program) -> End:
     It ends early where all rows are held with a residual of an optimum, or where rows come no nearer to 0.
     """
     z = program.start
-    excess, best = _excess(program, z), None
+    excess, best = excess_of(program, z), None
     for _ in range(_ROUNDS):
         z = _slsqp(program, z)
         program.resize(z)
-        before, excess = excess, _excess(program, z)
+        before, excess = excess, excess_of(program, z)
         if excess <= _NEAR:
             z, found = polished(program, z)
         else:
@@ -62,7 +62,7 @@ def descended(program: Program) -> End:
     return best
 
 
-def _excess(program: Program, z: Real) -> float:
+def excess_of(program: Program, z: Real) -> float:
     """Return the largest row above 0 at a point (n,), or beside 0 if it is `equal`."""
     rows = program.at(z).rows[1:]
     return float(np.where(program.equal[1:], np.abs(rows), rows).max(initial=0.0))

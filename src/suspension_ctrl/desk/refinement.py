@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +14,7 @@ from ..response.problem import RideProblem
 from ..tables.headers import shown_unit, shown_value
 from .candidate_table import Present, design_of
 from .choosing import Within, interval
+from .crossing import crossed
 from .descent import End, descended
 from .programs import Named, Program, Row, Writer
 from .smooth import atoms_of
@@ -66,7 +68,8 @@ def refine(problem: RideProblem, design: Present, *, minimise: str, within: With
     r"""Return the optimum of one objective that a descent reaches from a design, within limits and bounds.
 
     SLSQP descends with exact slopes; Newton's method on the active limits and bounds then solves the conditions of
-    an optimum [1]_. The optimum is local: from another design a descent may reach another.
+    an optimum [1]_. From an optimum with variables on bounds it descends again with each on the opposite bound,
+    where that is hardly worse. The optimum is local: from another design a descent may reach another.
 
     Parameters
     ----------
@@ -131,9 +134,10 @@ def refine(problem: RideProblem, design: Present, *, minimise: str, within: With
     """
     checks.of_kind("problem", problem, RideProblem)
     checks.one_of("minimise", minimise, problem.objectives)
-    end = descended(program_of(problem, design_of(problem, design, "design"), minimise, within or {}))
+    at = partial(program_of, problem, minimise=minimise, within=within or {})
+    end = descended(at(design_of(problem, design, "design")))
     check_limits([end])
-    return refined_at(end, minimise)
+    return refined_at(crossed(end, at), minimise)
 
 
 def least_of(problem: RideProblem, minimise: str, starts: Real, within: Within | None = None) -> Refined:
@@ -141,11 +145,13 @@ def least_of(problem: RideProblem, minimise: str, starts: Real, within: Within |
 
     Of optima that are equal but for rounding it is the first, for all last bits of sums the same.
     """
-    ends = [descended(program_of(problem, start, minimise, within or {})) for start in starts]
+    at = partial(program_of, problem, minimise=minimise, within=within or {})
+    ends = [descended(at(start)) for start in starts]
     check_limits(ends)
     held = [end for end in ends if end.feasible]
     best = min(end.value for end in held)
-    return refined_at(next(end for end in held if end.value <= best + _EQUAL * abs(best)), minimise)
+    first = next(end for end in held if end.value <= best + _EQUAL * abs(best))
+    return refined_at(crossed(first, at), minimise)
 
 
 def check_limits(ends: Sequence[End]) -> None:
