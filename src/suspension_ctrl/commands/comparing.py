@@ -20,7 +20,7 @@ from ..study.campaign import Campaign
 from ..study.findings import findings, last_rows
 from ..study.reference import Reference
 from ..study.reference_files import load_reference
-from ..study.store import FolderStore, keeping
+from ..study.store import StoredRun, keeping
 from ..tables import write_csv, write_json, write_text
 from . import quality, reports, results, stages, studies, terminal
 from .comparison_page import Outcome, page
@@ -102,7 +102,7 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
         with machine.single_thread():
             write_json(record, machine.describe(texts))
     with terminal.compiling():
-        store = campaign.time()
+        store = dict(campaign.time())  # each run is read once
     if resumed:  # by settings with which the runs in the folder agree
         studies.save_resolved(campaign.folder, settled(request, judged=judged))
     timed = timing.tidy(campaign.comparison, store).assign(timing=True)
@@ -125,7 +125,7 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
     return 0 if cluster is None else _judge(request, cluster, store, outcome, reference.front)
 
 
-def write_page(request: Request, store: FolderStore, outcome: Outcome) -> None:
+def write_page(request: Request, store: Mapping[str, StoredRun], outcome: Outcome) -> None:
     """Write the page of a comparison, if a run found a design within the limits."""
     with stages.stage("page"):
         if (text := page(request, store, outcome)) is not None:
@@ -145,7 +145,7 @@ def settled(request: Request, *, judged: bool) -> StudyFile:
 def _judge(
     request: Request,
     cluster: AbstractContextManager[Any],
-    store: FolderStore,
+    store: Mapping[str, StoredRun],
     outcome: Outcome,
     front: ReferenceFront,
 ) -> int:

@@ -15,7 +15,7 @@ def without_parameters(problem: RideProblem, design: Real) -> tuple[RideProblem,
     Bounds are as close as numbers are; without parameters it is the problem as it is.
     """
     scoring = problem.scoring
-    if all(one is given for one, given in zip(scoring.ported, problem.cases, strict=True)):
+    if all(one.vehicle is given.vehicle for one, given in zip(scoring.ported, problem.cases, strict=True)):
         return problem, design
     given = {**scoring.fixed, **dict(zip(problem.variables, design.tolist(), strict=True))}
     values = plain_values(problem.cases[0].vehicle, given)

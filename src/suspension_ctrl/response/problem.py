@@ -21,12 +21,12 @@ from .gradients.robust_scores import over_scatter
 from .gradients.scores import with_jacobian
 from .load_case import LoadCase, Road, load_cases
 from .measures.limits import Limit
-from .measures.measure import Measure, MeasureLike, measure_of
+from .measures.measure import Measure, MeasureLike
 from .problem_texts import representation, sentences, sentences_of_cases
 from .robust_scores import RobustKernel
 from .scatter import Scatter, Tolerance, scatter_of
 from .scores import Kernel, Scores
-from .scoring import Scoring
+from .scoring import Scoring, judged_by
 from .weightings import Weighting, checked
 
 
@@ -141,26 +141,23 @@ class RideProblem(Record):
         events: Mapping[str, Any] | None = None,
         nodes: int | None = None,
     ) -> None:
-        checks.listed("measures", measures)
-        checks.listed("constraints", constraints)
         fixed = _fixed(struts or {})
         every = load_cases(cases, events, vehicle=vehicle, road=road, speed=speed)
+        objectives, limits = judged_by(measures, constraints)
         self._keep(
             cases=every,
             bounds=checked_bounds(every[0].vehicle, bounds, lower, upper, fixed),
             struts=FrozenMapping(fixed),
             weighting=checked(weighting),
             band=band_of(None if isinstance(band, OwnBand) else band, ((one.road, one.speed) for one in every)),
-            measures=tuple(map(measure_of, measures)),
+            measures=objectives,
+            constraints=limits,
             worst_case=bool(worst_case),
             scatter=scatter_of(scatter),
         )
-        limits = (one if isinstance(one, Limit) else Limit.parse(one, self.measures) for one in constraints)
-        self._keep(constraints=tuple(limits))
         self._keep(kinds=FrozenMapping(checks.kinds(kinds or {}, self.variables, self.lower, self.upper)))
         self._warn_of_slips()
-        given = None if isinstance(nodes, _Found) else nodes
-        taken = self.scoring.resolving(given)
+        taken = self.scoring.resolving(given := None if isinstance(nodes, _Found) else nodes)
         self._keep(nodes=_Found(taken) if given is None else taken)
 
     def replace(self, **changes: Any) -> "RideProblem":

@@ -13,7 +13,7 @@ from ..vehicles.varied import Varied, ported, setting_of
 from ..vehicles.vehicle import Struts, coefficients_by_name
 from .load_case import LoadCase
 from .measures.limits import Limit
-from .measures.measure import Measure
+from .measures.measure import Measure, MeasureLike, measure_of
 from .measures.robust import Robust
 from .measures.terms import CaseMeasure
 from .robust_scores import RobustScores, ScatteredScores, Statistics
@@ -142,6 +142,16 @@ class Scoring:
     def _corners(self) -> Real:
         """Corners (k, d) of the box, some of many."""
         return np.random.default_rng(0).permutation(list(product(*self.bounds.values())))[:_CORNERS]
+
+
+def judged_by(
+    measures: Sequence[MeasureLike], constraints: Sequence[Limit | str]
+) -> tuple[tuple[Measure, ...], tuple[Limit, ...]]:
+    """Return measures and limits, also of texts; ValueError for others."""
+    checks.listed("measures", measures)
+    checks.listed("constraints", constraints)
+    found = tuple(map(measure_of, measures))
+    return found, tuple(one if isinstance(one, Limit) else Limit.parse(one, found) for one in constraints)
 
 
 def _measure(one: Measure | Limit) -> Measure:

@@ -2,7 +2,7 @@
 
 import platform
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,7 +15,7 @@ from ..search.indicators import ReferenceFront
 from . import lock, machine, plans, reference, timing
 from .comparison import Comparison
 from .reference import Reference
-from .store import FolderStore, count_runs
+from .store import FolderStore, StoredRun, count_runs
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -75,7 +75,10 @@ class Campaign:
             plans.agree(self.folder / QUALITY / plans.FILE, {"seeds": self.comparison.seeds}, "to resume there")
 
     def reference(
-        self, store: FolderStore, given: Reference | None = None, known: Callable[[], Real] | None = None
+        self,
+        store: Mapping[str, StoredRun],
+        given: Reference | None = None,
+        known: Callable[[], Real] | None = None,
     ) -> Reference | None:
         """Return the reference front, stored in the folder: the given one or that of `reference.sought`."""
         of_given = {"given": given and reference.summary(given.front)}
