@@ -1,4 +1,4 @@
-"""The benchmark in its short form, where other libraries are installed: `make bench` does that, and CI after it."""
+"""The benchmark in its short form, where other libraries are: `make bench` installs them, and CI runs it after."""
 
 import json
 import struct
