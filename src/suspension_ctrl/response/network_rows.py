@@ -102,15 +102,21 @@ def fill_direct(networks: Networks, values: Real, state: Real, direct: Real) -> 
 @compilable(error_model="numpy", forceinline=True)
 def fill_rows(networks: Networks, omega: Real, values: Real, direct: Real, rows: Real) -> None:
     """Fill in the rows (1 + x, 2, n) of all nodes by their direct elements; the first is 0."""
+    for i in range(networks.row.size):
+        fill_row(networks, omega, values, direct, i, rows)
+
+
+@compilable(error_model="numpy", forceinline=True)
+def fill_row(networks: Networks, omega: Real, values: Real, direct: Real, i: int, rows: Real) -> None:
+    """Fill in the row of a node, if it has one, by those of its parts."""
     node, ratio, row, measured = networks.node, networks.ratio, networks.row, networks.measured
-    for i in range(row.size):
-        kind, square, one, other = node[i, KIND], ratio[i] * ratio[i], node[i, PART], node[i, PART + 1]
-        if row[i] > 0 and kind == MEASURED:
-            scale(square * values[node[i, COEFFICIENT]], measured[node[i, COEFFICIENT + 1]], rows[row[i]])
-        elif row[i] > 0 and kind == PARALLEL:
-            add(square, rows[row[one]], rows[row[other]], rows[row[i]])
-        elif row[i] > 0:
-            join(square, omega, direct, one, other, rows[row[one]], rows[row[other]], rows[row[i]])
+    kind, square, one, other = node[i, KIND], ratio[i] * ratio[i], node[i, PART], node[i, PART + 1]
+    if row[i] > 0 and kind == MEASURED:
+        scale(square * values[node[i, COEFFICIENT]], measured[node[i, COEFFICIENT + 1]], rows[row[i]])
+    elif row[i] > 0 and kind == PARALLEL:
+        add(square, rows[row[one]], rows[row[other]], rows[row[i]])
+    elif row[i] > 0:
+        join(square, omega, direct, one, other, rows[row[one]], rows[row[other]], rows[row[i]])
 
 
 @compilable(fastmath={"contract", "nsz"})

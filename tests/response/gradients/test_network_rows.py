@@ -5,7 +5,8 @@ import pytest
 
 import suspension_ctrl as sc
 from complex_step import STEP, Apart, Placed
-from suspension_ctrl.response.gradients.network_rows import adjoint_of, clear, fill_joints, pull, pull_share
+from suspension_ctrl.response.gradients.joints import fill_rows_and_joints
+from suspension_ctrl.response.gradients.network_rows import adjoint_of, clear, pull, pull_share
 from suspension_ctrl.response.network_rows import (
     DIRECT,
     SLOPE,
@@ -72,7 +73,7 @@ def test_stiffness_by_every_coefficient_and_slope(filled):
     adjoint = adjoint_of(NETWORKS, F.size, True)
     clear(adjoint)
     adjoint.rows[adjoint.place[NETWORKS.root[0]]] = m
-    fill_joints(NETWORKS, OMEGA, *filled, adjoint)
+    fill_rows_and_joints(NETWORKS, OMEGA, VALUES, *filled, adjoint.joints)
     pull(NETWORKS, OMEGA, adjoint)
 
     def output(one: Placed) -> complex:
@@ -88,7 +89,7 @@ def test_the_share_of_a_law_by_every_coefficient_and_slope(filled):
     clear(adjoint)
     fill_share(NETWORKS, OMEGA, 0, *filled, share)
     pull_share(NETWORKS, OMEGA, 0, *filled, share, adjoint)
-    fill_joints(NETWORKS, OMEGA, *filled, adjoint)
+    fill_rows_and_joints(NETWORKS, OMEGA, VALUES, *filled, adjoint.joints)
     pull(NETWORKS, OMEGA, adjoint)
 
     def output(one: Placed) -> complex:

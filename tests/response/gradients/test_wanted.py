@@ -17,8 +17,15 @@ def test_a_sum_has_its_factors_and_the_largest_that_of_one():
 def test_derivatives_are_combined_by_weights():
     weight, slopes, result = (
         np.array([[1.0, 2.0, 0.0]]),
-        np.array([[1.0, 5.0], [3.0, 1.0], [7.0, 7.0]]),
+        np.array([[1.0, 3.0, 7.0], [5.0, 1.0, 7.0]]),
         np.empty((1, 1, 2)),
     )
     combine(weight, slopes, 0, result)
-    np.testing.assert_array_equal(result[0], weight @ slopes)
+    np.testing.assert_array_equal(result[0], weight @ slopes.T)
+
+
+def test_of_equal_ones_the_first_is_the_largest_whatever_rounding_says():
+    weight = np.empty((1, 3))
+    for squares in ([1.0, 2.0, 2.0 * (1 + 1e-12)], [1.0, 2.0 * (1 + 1e-12), 2.0]):
+        fill_weights(Wanted(np.ones((1, 3)), np.array([True])), np.array([squares]), 0, weight)
+        np.testing.assert_array_equal(weight, [[0.0, 1.0, 0.0]])

@@ -13,12 +13,12 @@ from ..network_rows import (
     OF_RATE,
     STIFFNESS,
     fill,
-    fill_rows,
     fill_share,
 )
 from ..working_point import room_for_points
+from .joints import fill_rows_and_joints
 from .many_struts import ENTRY, Loops, close, fill_force, fill_values, fold, loops_of, moments, set_to
-from .network_rows import Adjoint, adjoint_of, clear, fill_joints, pull, pull_share
+from .network_rows import Adjoint, adjoint_of, clear, pull, pull_share
 from .one_port import total_of
 from .wanted import Wanted, fill_weights
 from .working_point import (
@@ -82,8 +82,7 @@ def differentiated(any_struts: AnyStruts, wanted: Wanted, designs: Real, state: 
 def close_networks(any_struts: AnyStruts, loops: Loops, added: Real, settled: Settled, adjoint: Adjoint) -> None:
     """Solve the loops of all blocks for variables with values `added` (v,), and fill in responses."""
     struts, networks, direct = any_struts.struts, any_struts.networks, settled.direct
-    fill_rows(networks, struts.omega, settled.values, direct, settled.rows)
-    fill_joints(networks, struts.omega, direct, settled.rows, adjoint)
+    fill_rows_and_joints(networks, struts.omega, settled.values, direct, settled.rows, adjoint.joints)
     fill(loops.found, 0.0)
     for t in range(networks.root.size):
         direct[networks.root[t], STIFFNESS] -= any_struts.nominal[t, 0]

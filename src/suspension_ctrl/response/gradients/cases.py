@@ -12,13 +12,20 @@ from ..mapped import Mapped, slopes_of, unmapped
 from ..mean_squares import Case
 from ..one_port import OnePort
 from ..one_strut import OneStrut
-from . import any_struts, many_struts, one_port, one_strut
+from . import any_struts, linear_port, many_struts, one_port, one_strut
 from .wanted import Wanted
+
+
+def _of_port(port: OnePort, wanted: Wanted, designs: Real) -> tuple[Real, Real]:
+    """Return these around one strut, by the derivatives of its network where it has no force laws."""
+    method = one_port.with_slopes if port.networks.law.size else linear_port.with_slopes
+    return method(port, wanted, designs)
+
 
 _BY_CLASS: dict[type, Callable[[Any, Wanted, Real], tuple[Real, Real]]] = {
     OneStrut: one_strut.with_slopes,
     ManyStruts: many_struts.with_slopes,
-    OnePort: one_port.with_slopes,
+    OnePort: _of_port,
     AnyStruts: any_struts.with_slopes,
 }
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...compiled import compilable, uncounted
-from ...quantities import Bool, Integer, Real
+from ...quantities import Integer, Real
 from ...vehicles.networks import INERTER, LAW, MEASURED, PARALLEL, RUBBER, SERIES
 from ..many_struts import add_product
 from ..network_rows import (
@@ -28,17 +28,13 @@ from ..network_rows import (
     elements,
     stiffness_at,
 )
-
-Elements = tuple[float, float, float, float]
-"""Direct elements of a node."""
+from .joints import Joints, joints_of
 
 
 class Adjoint(NamedTuple):
     """Work arrays of one output at a time, over m nodes, c coefficients and l laws."""
 
-    joint: Integer  # (m,), row of a part in series
-    joints: Real  # (y, 2, n), r^2 (b/(a + b))^2 of these, once for a design
-    needed: Bool  # (m,), whether a variable or a law stands below a node
+    joints: Joints  # of a design
     place: Integer  # (m,), row of the adjoint of a node, 0 of a node below direct elements alone
     rows: Real  # (1 + x, 2, n), the first for any use
     moment: Real  # (m, 4), derivatives by the direct elements of a node
@@ -49,52 +45,18 @@ class Adjoint(NamedTuple):
 @compilable()
 def adjoint_of(networks: Networks, n: int, roots: bool) -> Adjoint:
     """Return work arrays at n frequencies, with a row for every root or for those with parts in series alone."""
-    nodes, last, parts = networks.row.size, 0, 0
-    place, joint = np.empty(nodes, dtype=np.int64), np.zeros(nodes, dtype=np.int64)
+    nodes, last = networks.row.size, 0
+    place = np.empty(nodes, dtype=np.int64)
     for i in range(nodes):
         place[i] = networks.row[i]
         last = max(last, place[i])
-        for j in range(2 if networks.node[i, KIND] == SERIES else 0):
-            joint[networks.node[i, PART + j]] = parts
-            parts += 1
     for t in range(networks.root.size if roots else 0):
         if place[networks.root[t]] == 0:
             last += 1
             place[networks.root[t]] = last
-    rows, moment, joints = np.empty((1 + last, 2, n)), np.empty((nodes, DIRECT)), np.empty((parts, 2, n))
+    rows, moment = np.empty((1 + last, 2, n)), np.empty((nodes, DIRECT))
     by_value, by_slope = np.empty(networks.setting.size), np.empty(networks.law.shape[0])
-    needed = np.zeros(nodes, dtype=np.bool_)
-    fill_needed(networks, needed)
-    return Adjoint(joint, joints, needed, place, rows, moment, by_value, by_slope)
-
-
-@uncounted()
-def fill_needed(networks: Networks, needed: Bool) -> None:
-    """Fill in below which nodes a variable or a law stands."""
-    node = networks.node
-    for i in range(needed.size):
-        needed[i] = node[i, KIND] == LAW
-        if node[i, KIND] >= PARALLEL:
-            needed[i] = needed[node[i, PART]] or needed[node[i, PART + 1]]
-        for v in range(networks.variable.size):
-            for j in range(2):
-                needed[i] |= node[i, COEFFICIENT + j] == networks.variable[v]
-
-
-@uncounted(error_model="numpy")
-def fill_joints(networks: Networks, omega: Real, direct: Real, rows: Real, adjoint: Adjoint) -> None:
-    """Fill in by what the adjoint of a node in series is multiplied for its parts."""
-    node, row = networks.node, networks.row
-    for i in range(row.size):
-        for j in range(2 if node[i, KIND] == SERIES else 0):
-            part, other = node[i, PART + j], node[i, PART + 1 - j]
-            joint, square = adjoint.joints[adjoint.joint[part]], networks.ratio[i] * networks.ratio[i]
-            if not adjoint.needed[part]:
-                continue
-            if row[part] == 0 and row[other] == 0:
-                fill_direct_joint(square, omega, elements(direct, part), elements(direct, other), joint)
-            else:
-                fill_joint(square, omega, direct, part, other, rows[row[part]], rows[row[other]], joint)
+    return Adjoint(joints_of(networks, n), place, rows, moment, by_value, by_slope)
 
 
 @uncounted(forceinline=True)
@@ -120,7 +82,7 @@ def pull(networks: Networks, omega: Real, adjoint: Adjoint) -> None:
         kind, square, one, other = node[i, KIND], ratio[i] * ratio[i], node[i, PART], node[i, PART + 1]
         if kind == SERIES:
             for j in range(2):
-                if adjoint.needed[node[i, PART + j]]:
+                if adjoint.joints.needed[node[i, PART + j]]:
                     pull_part(omega, i, node[i, PART + j], adjoint)
         elif kind == MEASURED:
             own = networks.measured[node[i, COEFFICIENT + 1]]
@@ -165,40 +127,12 @@ def pull_beside(square: float, i: int, part: int, adjoint: Adjoint) -> None:
 @uncounted()
 def pull_part(omega: Real, i: int, part: int, adjoint: Adjoint) -> None:
     """Hand the adjoint of a node on to one of its parts in series."""
-    above, joint = adjoint.rows[adjoint.place[i]], adjoint.joints[adjoint.joint[part]]
+    joints = adjoint.joints
+    above, joint = adjoint.rows[adjoint.place[i]], joints.rows[joints.row[part]]
     if adjoint.place[part] > 0:
         add_product(1.0, above, joint, adjoint.rows[adjoint.place[part]])
     else:
         add_product_moments(above, joint, omega, adjoint.moment[part])
-
-
-# Fewer rows in a loop than below: the compiler can tell them apart, and vectorises it.
-@compilable(fastmath={"contract", "nsz"}, error_model="numpy")
-def fill_direct_joint(square: float, omega: Real, part: Elements, other: Elements, joint: Real) -> None:
-    """Fill in (b/(a + b))^2 times a squared ratio (2, n), of direct elements a in series with others b."""
-    (k, c, b, h), (k_2, c_2, b_2, h_2) = part, other
-    for t in range(omega.size):
-        w = omega[t]
-        re_2, im_2 = k_2 - b_2 * (w * w), h_2 + c_2 * w
-        x, y = k - b * (w * w) + re_2, h + c * w + im_2
-        inverse = 1.0 / (x * x + y * y)
-        re, im = (re_2 * x + im_2 * y) * inverse, (im_2 * x - re_2 * y) * inverse
-        joint[0, t], joint[1, t] = square * (re * re - im * im), 2.0 * square * re * im
-
-
-@compilable(fastmath={"contract", "nsz"}, error_model="numpy")
-def fill_joint(
-    square: float, omega: Real, direct: Real, part: int, other: int, upper: Real, lower: Real, joint: Real
-) -> None:
-    """Fill in (b/(a + b))^2 times a squared ratio (2, n), of a part a in series with b."""
-    first, second = elements(direct, part), elements(direct, other)
-    for t in range(omega.size):
-        a, b = stiffness_at(first, omega[t], upper, t)
-        c, d = stiffness_at(second, omega[t], lower, t)
-        x, y = a + c, b + d
-        inverse = 1.0 / (x * x + y * y)
-        re, im = (c * x + d * y) * inverse, (d * x - c * y) * inverse
-        joint[0, t], joint[1, t] = square * (re * re - im * im), 2.0 * square * re * im
 
 
 @compilable(fastmath={"reassoc", "contract", "nsz"})

@@ -1,4 +1,4 @@
-"""Derivatives of mean squares around one strut of any kind, by the adjoint of its dynamic stiffness."""
+"""Derivatives of mean squares around one strut with force laws, by the adjoint of its dynamic stiffness."""
 
 import numpy as np
 
@@ -13,12 +13,12 @@ from ..network_rows import (
     OF_RATE,
     STIFFNESS,
     fill,
-    fill_rows,
     fill_share,
 )
-from ..one_port import OnePort, add_terms, fill_gain, solve
+from ..one_port import OnePort, add_beside, fill_gain, solve
 from ..working_point import room_for_points
-from .network_rows import Adjoint, add_moments, adjoint_of, clear, fill_joints, pull, pull_share
+from .joints import Joints, fill_rows_and_joints
+from .network_rows import Adjoint, add_moments, adjoint_of, clear, pull, pull_share
 from .wanted import Wanted, fill_weights
 from .working_point import (
     Point,
@@ -38,10 +38,8 @@ def with_slopes(port: OnePort, wanted: Wanted, designs: Real) -> tuple[Real, Rea
 
     NaN without a working point.
     """
-    networks, squares = port.networks, np.zeros((len(designs), port.terms))
-    points = room_for_points(networks, len(designs))
-    if len(networks.law) > 0:
-        squares = solve(port, designs, points)
+    points = room_for_points(port.networks, len(designs))
+    squares = solve(port, designs, points)
     return squares, differentiated(port, wanted, designs, points.state, squares)
 
 
@@ -49,7 +47,7 @@ def with_slopes(port: OnePort, wanted: Wanted, designs: Real) -> tuple[Real, Rea
 def differentiated(port: OnePort, wanted: Wanted, designs: Real, state: Real, squares: Real) -> Real:
     """Return the derivatives (p, s, v) of what is wanted, at states (p, l, 8) of laws with mean squares (p, k).
 
-    Without laws the mean squares are filled in. Outputs are the mean squares of laws, then what is wanted.
+    Outputs are the mean squares of laws, then what is wanted.
     """
     networks, n, count, laws = port.networks, port.omega.size, designs.shape[0], port.networks.law.shape[0]
     settled, adjoint, point = settled_of(networks, n), adjoint_of(networks, n, False), point_of(networks)
@@ -57,12 +55,8 @@ def differentiated(port: OnePort, wanted: Wanted, designs: Real, state: Real, sq
     slopes, weight = np.empty((count, wanted.largest.size, designs.shape[1])), np.empty(wanted.factor.shape)
     for p in range(count):
         settle(networks, designs, p, state, settled)
-        close(port, settled, gain)
-        fill_joints(networks, port.omega, settled.direct, settled.rows, adjoint)
-        if laws == 0:
-            add_terms(port.numerators, port.term, port.power, gain, p, squares)
-        else:
-            fill_rise(networks, settled, point)
+        close(port, settled, adjoint.joints, gain)
+        fill_rise(networks, settled, point)
         fill_weights(wanted, squares, p, weight)
         for output in range(laws + wanted.largest.size):
             clear(adjoint)
@@ -70,7 +64,7 @@ def differentiated(port: OnePort, wanted: Wanted, designs: Real, state: Real, sq
             which = numerators.shape[0] - 1 if s < 0 else row_of(wanted, weight, s)
             if s < 0:
                 fill_law(port, settled, gain, output, numerators[which, 0], adjoint, point)
-            elif s == 0 and laws > 0:
+            elif s == 0:
                 settle_slopes(point)
             differentiate(port, gain, numerators[which], settled.share[1], beside, adjoint)
             if s < 0:
@@ -101,14 +95,12 @@ def row_of(wanted: Wanted, weight: Real, s: int) -> int:
     return s * terms + best
 
 
-@uncounted(error_model="numpy")
-def close(port: OnePort, settled: Settled, gain: Real) -> None:
-    """Fill in the rows of the network, and the gains (4, n) of the loop with it and with what stands beside it."""
-    networks, direct = port.networks, settled.direct
-    last = networks.root[0]
-    for c in range(networks.order.size):
-        direct[last, networks.order[c]] += networks.gain[c, 0, 0] * settled.values[c]
-    fill_rows(networks, port.omega, settled.values, direct, settled.rows)
+@uncounted(error_model="numpy", forceinline=True)
+def close(port: OnePort, settled: Settled, joints: Joints, gain: Real) -> None:
+    """Fill in the rows and joints of the network, and the gains (4, n) of the loop with what stands beside it."""
+    networks, direct, last = port.networks, settled.direct, port.networks.root[0]
+    add_beside(networks, settled.values, direct)
+    fill_rows_and_joints(networks, port.omega, settled.values, direct, settled.rows, joints)
     fill_gain(port.denominator, port.omega, direct, last, settled.rows, networks.row[last], gain)
 
 

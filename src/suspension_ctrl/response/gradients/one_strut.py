@@ -17,7 +17,7 @@ def with_slopes(strut: OneStrut, wanted: Wanted, designs: Real) -> tuple[Real, R
     """
     count, terms = designs.shape[0], strut.terms
     squares, result = np.empty((count, terms)), np.empty((count, wanted.largest.size, 2))
-    weight, slopes = np.empty((wanted.largest.size, terms)), np.empty((terms, 2))
+    weight, slopes = np.empty((wanted.largest.size, terms)), np.empty((2, terms))
     n = strut.denominator.shape[1]
     gain, by_k, by_c = np.empty(n), np.empty(n), np.empty(n)
     for p in range(count):
@@ -31,7 +31,7 @@ def with_slopes(strut: OneStrut, wanted: Wanted, designs: Real) -> tuple[Real, R
             by_k[i] = one * one * polynomial(strut.denominator, rise_k, i)
             by_c[i] = one * one * polynomial(strut.denominator, rise_c, i)
         for term in range(terms):
-            squares[p, term] = slopes[term, 0] = slopes[term, 1] = 0.0
+            squares[p, term] = slopes[0, term] = slopes[1, term] = 0.0
         for q in range(strut.power.size):
             integral, less_k, less_c = 0.0, 0.0, 0.0
             for i in range(gain.size):
@@ -40,8 +40,8 @@ def with_slopes(strut: OneStrut, wanted: Wanted, designs: Real) -> tuple[Real, R
                 less_c += by_c[i] * strut.numerators[q, i]
             term, power = strut.term[q], strut.power[q]
             squares[p, term] += integral * powers[power]
-            slopes[term, 0] += integral * rise_k[power] - less_k * powers[power]
-            slopes[term, 1] += integral * rise_c[power] - less_c * powers[power]
+            slopes[0, term] += integral * rise_k[power] - less_k * powers[power]
+            slopes[1, term] += integral * rise_c[power] - less_c * powers[power]
         fill_weights(wanted, squares, p, weight)
         combine(weight, slopes, p, result)
     return squares, result

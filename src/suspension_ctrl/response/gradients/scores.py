@@ -9,13 +9,13 @@ from ...quantities import Integer, Real
 from ..scores import Kernel, Scores, reached
 from . import functions
 from .cases import with_slopes
-from .wanted import Wanted
+from .wanted import TIED, Wanted
 
 
 def with_jacobian(scores: Scores, designs: Real, nodes: int, bounds: tuple[Real, Real]) -> tuple[Real, Real]:
     """Return the scores (p, s) of designs (p, v), and their derivatives (p, s, v) by the variables.
 
-    Of the largest of terms or load cases it is that of the largest one, of a mean square of 0 it is 0. Measures by
+    Of the largest of terms or load cases it is that of the largest one, of equal ones that of the first, of a mean square of 0 it is 0. Measures by
     a function are differentiated by `functions` within the lower and upper bounds (v,).
     """
     kernel, (wanted, row, alone) = scores.kernel(nodes), _plan(scores, nodes)
@@ -23,14 +23,19 @@ def with_jacobian(scores: Scores, designs: Real, nodes: int, bounds: tuple[Real,
     squares = [reached(found, designs) for found, _ in pairs]
     values = kernel.scores(squares)
     root = (values - kernel.offset) / kernel.scale
-    half = np.divide(0.5 * kernel.scale, root, out=np.zeros_like(root), where=root > 0)
-    jacobian = half[:, :, None] * _total(kernel, squares, [slopes[:, row] for _, slopes in pairs])
+    half = 0.5 * kernel.scale / np.where(root > 0, root, np.inf)
+    jacobian = half[:, :, None] * _total(kernel, squares, [_rows(slopes, row) for _, slopes in pairs])
     if not scores.compiled:
         tangents = [np.zeros((*found.shape, designs.shape[1])) for found in squares]
         for tangent, own, (_, slopes) in zip(tangents, alone, pairs, strict=True):
             tangent[:, own] = slopes[:, slopes.shape[1] - len(own) :]
         functions.fill(scores, values, jacobian, designs, nodes, squares, tangents, bounds)
     return values, jacobian
+
+
+def _rows(slopes: Real, row: Integer) -> Real:
+    """Return rows (p, s, v) of derivatives, as they are where these are the first in order."""
+    return slopes[:, : row.size] if (row == np.arange(row.size)).all() else slopes[:, row]
 
 
 @lru_cache(maxsize=32)
@@ -45,7 +50,9 @@ def _combinations(kernel: Kernel) -> tuple[list[Wanted], Integer]:
     """Return the different combinations of mean squares in scores by case, and the one (s,) of each score."""
     keys = np.concatenate([*kernel.squares, kernel.worst_term[:, None]], axis=1)
     _, first, row = np.unique(keys, axis=0, return_index=True, return_inverse=True)
-    return [Wanted(squares[first], kernel.worst_term[first]) for squares in kernel.squares], row.ravel()
+    order = first.argsort()  # as they come: derivatives of different scores need no copy
+    first, row = first[order], order.argsort()[row.ravel()]
+    return [Wanted(squares[first], kernel.worst_term[first]) for squares in kernel.squares], row
 
 
 def _of_functions(scores: Scores, case: int) -> list[int]:
@@ -70,5 +77,5 @@ def _total(kernel: Kernel, squares: list[Real], slopes: list[Real]) -> Real:
     if not kernel.worst_case.any():
         return np.asarray(mean)
     by_case = np.array([kernel.squares_in(c, found) for c, found in enumerate(squares)])
-    worst = by_case.argmax(axis=0).T[None, :, :, None]
+    worst = (by_case >= (1.0 - TIED) * by_case.max(axis=0)).argmax(axis=0).T[None, :, :, None]
     return np.where(kernel.worst_case[:, None], np.take_along_axis(np.array(slopes), worst, 0)[0], mean)

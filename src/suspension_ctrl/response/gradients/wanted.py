@@ -6,6 +6,10 @@ from ...compiled import compilable
 from ...quantities import Bool, Real
 
 
+TIED = 1e-9
+"""Share by which a mean square must be larger than one before it: of equal ones the first is the largest."""
+
+
 class Wanted(NamedTuple):
     """Sums of mean squares times factors, or the largest of these products."""
 
@@ -21,7 +25,7 @@ def fill_weights(wanted: Wanted, squares: Real, p: int, weight: Real) -> None:
         for k in range(squares.shape[1]):
             product = wanted.factor[s, k] * squares[p, k]
             weight[s, k] = 0.0 if wanted.largest[s] else wanted.factor[s, k]
-            if product > most:
+            if product > most * (1.0 + TIED):
                 best, most = k, product
         if wanted.largest[s]:
             weight[s, best] = wanted.factor[s, best]
@@ -29,9 +33,9 @@ def fill_weights(wanted: Wanted, squares: Real, p: int, weight: Real) -> None:
 
 @compilable()
 def combine(weight: Real, slopes: Real, p: int, result: Real) -> None:
-    """Fill in the derivatives of the combinations of a design (p, s, v) by those of its mean squares (k, v)."""
+    """Fill in the derivatives of the combinations of a design (p, s, v) by those of its mean squares (v, k)."""
     for s in range(weight.shape[0]):
-        for v in range(slopes.shape[1]):
+        for v in range(slopes.shape[0]):
             result[p, s, v] = 0.0
             for k in range(weight.shape[1]):
-                result[p, s, v] += weight[s, k] * slopes[k, v]
+                result[p, s, v] += weight[s, k] * slopes[v, k]

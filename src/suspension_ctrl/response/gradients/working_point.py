@@ -69,7 +69,7 @@ def point_of(networks: Networks) -> Point:
     return Point(slopes, yielding, means, rise, square, by_value, by_slope, equations, deviation, total)
 
 
-@uncounted(error_model="numpy")
+@uncounted(error_model="numpy", forceinline=True)
 def settle(networks: Networks, designs: Real, p: int, states: Real, settled: Settled) -> None:
     """Linearise one of the designs (p, v) at the deviations and means of its working point, of states (p, l, 8).
 
