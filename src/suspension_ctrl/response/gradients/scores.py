@@ -15,8 +15,9 @@ from .wanted import TIED, Wanted
 def with_jacobian(scores: Scores, designs: Real, nodes: int, bounds: tuple[Real, Real]) -> tuple[Real, Real]:
     """Return the scores (p, s) of designs (p, v), and their derivatives (p, s, v) by the variables.
 
-    Of the largest of terms or load cases it is that of the largest one, of equal ones that of the first, of a mean square of 0 it is 0. Measures by
-    a function are differentiated by `functions` within the lower and upper bounds (v,).
+    Of the largest of terms or load cases it is that of the largest one, of equal ones that of the first, of a mean
+    square of 0 it is 0. Measures by a function are differentiated by `functions` within the lower and upper bounds
+    (v,).
     """
     kernel, (wanted, row, alone) = scores.kernel(nodes), _plan(scores, nodes)
     pairs = [with_slopes(case, each, designs) for case, each in zip(kernel.cases, wanted, strict=True)]

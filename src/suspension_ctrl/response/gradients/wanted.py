@@ -5,7 +5,6 @@ from typing import NamedTuple
 from ...compiled import compilable
 from ...quantities import Bool, Real
 
-
 TIED = 1e-9
 """Share by which a mean square must be larger than one before it: of equal ones the first is the largest."""
 
