@@ -5,8 +5,8 @@ import pytest
 
 from garage import QUARTER
 from suspension_ctrl import PowerLawRoad, RideProblem, attainable
-from suspension_ctrl.desk.attaining import with_sky
 from suspension_ctrl.desk.bound import LEAST, LQR, SKYHOOK, WITHIN, criterion, edge
+from suspension_ctrl.desk.skyhook_problems import with_sky
 
 MEASURES = ["ACC [m/s^2]", "SWS [m]", "DTL [N]"]
 

@@ -13,11 +13,10 @@ from ..response.measures.limits import Limit
 from ..response.problem import RideProblem
 from ..search.driver import minimise as search
 from ..search.nsga2 import Nsga2
-from ..vehicles.sky_dampers import SKY, skyhook
-from ..vehicles.vehicle import AssembledVehicle
 from .bound import LEAST, LQG, LQR, SKYHOOK, WITHIN
 from .candidate_table import PRESENT, Present, design_of, reaching
 from .refinement import least_of
+from .skyhook_problems import takes_sky, with_sky
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -188,7 +187,7 @@ def attained(problem: RideProblem, present: Present, *, minimise: str | None = N
     limited = problem.replace(constraints=limits)
     passive = np.array(list(least_of(limited, names[j], _inside(problem, design)[None]).design.values()))
     rows = {PRESENT: own, PASSIVE: problem.evaluate(passive[None])[0]}
-    if _takes_sky(problem):
+    if takes_sky(problem):
         sky = with_sky(limited)
         more = len(sky.variables) - design.size
         starts = np.array([[*passive, *[0.0] * more], [*passive, *(0.3 * np.array(sky.upper[-more:]))]])
@@ -202,18 +201,6 @@ def attained(problem: RideProblem, present: Present, *, minimise: str | None = N
     return table.assign(**{SHARE: 100 * reduced / reduced[ACTIVE]}).rename_axis("suspension")
 
 
-def with_sky(problem: RideProblem) -> RideProblem:
-    """Return the problem with sky dampers up to the largest bound of a damper."""
-    dampers = [problem.bounds[name][1] for name in problem.variables if problem.units[name] == "N s/m"]
-    if not dampers:
-        raise ValueError(f"variables must hold a damper for skyhook, got {', '.join(problem.variables)}")
-    vehicle = skyhook(problem.vehicle)
-    names = [one.name for one in vehicle.strut_coefficients if one.name.rpartition(".")[2] == SKY]
-    return problem.replace(
-        vehicle=vehicle, bounds={**problem.bounds, **{name: (0.0, max(dampers)) for name in names}}
-    )
-
-
 def _checked_sensors(problem: RideProblem, sensors: Mapping[str, float]) -> Real:
     """Return the noises (s,) of sensors; ValueError unless they are responses with positive numbers."""
     checks.mapped("sensors", sensors)
@@ -221,11 +208,6 @@ def _checked_sensors(problem: RideProblem, sensors: Mapping[str, float]) -> Real
         checks.one_of("sensors", name, problem.vehicle.meanings)
         checks.positive(f"noise of {name}", value, signal_unit(name))
     return np.array(list(sensors.values()), dtype=float)
-
-
-def _takes_sky(problem: RideProblem) -> bool:
-    """Whether the vehicle can have sky dampers, see `skyhook`."""
-    return isinstance(problem.vehicle, AssembledVehicle) and not problem.vehicle.networks
 
 
 def _weights(m: int, points: int) -> Real:

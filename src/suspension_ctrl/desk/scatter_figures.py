@@ -3,13 +3,13 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from .. import checks, escaping
+from .. import escaping
 from ..response.measures.limits import Limit
 from ..response.problem import RideProblem
 from ..response.scatter import Scatter, Tolerance
 from ..tables.headers import shown_unit, shown_value
-from .candidate_table import Present, design_of
-from .scatter_table import Sampled, sampled, scatter_in
+from .candidate_table import Present
+from .scatter_table import Sampled, samples_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -56,9 +56,7 @@ def robustness_figure(
     """
     import matplotlib.pyplot as plt
 
-    checks.of_kind("problem", problem, RideProblem)
-    x, chosen = design_of(problem, design, "design"), scatter_in(problem, scatter, samples, seed)
-    found = sampled(problem, x[None], chosen)
+    found = samples_of(problem, design, scatter, samples, seed)
     limited = {found.measure(k) for k, one in enumerate(found.judged) if isinstance(one, Limit)}
     drawn = [k for k, one in enumerate(found.judged) if one not in limited]
     rows = -(-len(drawn) // _COLUMNS)
@@ -72,7 +70,7 @@ def robustness_figure(
         _draw(ax, found, k)
     known = {str(one.get_label()): one for ax in axes for one in ax.get_legend_handles_labels()[0]}
     figure.legend(list(known.values()), list(known), loc="outside upper center", ncols=len(known), frameon=False)
-    axes[0].set_ylabel(f"of {chosen.samples} samples [-]")
+    axes[0].set_ylabel(f"of {found.scatter.samples} samples [-]")
     return figure
 
 

@@ -106,14 +106,26 @@ def robustness(
     """
     import pandas as pd
 
-    checks.of_kind("problem", problem, RideProblem)
-    x, chosen = design_of(problem, design, "design"), scatter_in(problem, scatter, samples, seed)
-    found = sampled(problem, x[None], chosen)
+    found = samples_of(problem, design, scatter, samples, seed)
+    chosen = found.scatter
     rows = [_row(found, k) for k in range(len(found.judged))]
     table = pd.DataFrame(rows, index=pd.Index(found.labels, name="name"))
     table.columns.name = f"{chosen.samples} samples, seed {chosen.seed}"
     table.attrs |= {"samples": chosen.samples, "seed": chosen.seed}
     return table
+
+
+def samples_of(
+    problem: RideProblem,
+    design: Present,
+    scatter: Scatter | Mapping[str, Tolerance] | None,
+    samples: int | None,
+    seed: int | None,
+) -> Sampled:
+    """Return the measures and limits of one design, of arguments as of `robustness`."""
+    checks.of_kind("problem", problem, RideProblem)
+    x = design_of(problem, design, "design")
+    return sampled(problem, x[None], scatter_in(problem, scatter, samples, seed))
 
 
 def sampled(problem: RideProblem, designs: Real, scatter: Scatter) -> Sampled:

@@ -254,8 +254,8 @@ class RideProblem(Record):
         load case, those of the largest, of equal ones of the first; of a root mean square of 0 they are 0. Force
         laws have their slopes at the working point of each design, which is differentiated as an implicit
         function. Roll gradient and load transfer are differentiated exactly where coefficients alone vary. Roll
-        damping, modes, doses, events and measures of your own are differentiated by differences of fourth order, of
-        0.2 % of a variable within its bounds; their mean squares have exact derivatives. Over a scatter samples
+        damping, modes, doses, events and measures of your own are differentiated by differences of fourth order,
+        of 0.2 % of a variable within its bounds; their mean squares have exact derivatives. Over a scatter samples
         keep their ranks.
 
         Parameters

@@ -5,14 +5,9 @@ import pytest
 
 import suspension_ctrl as sc
 from complex_step import STEP, Placed
-from suspension_ctrl.response.gradients.joints import (
-    fill_direct_joint,
-    fill_rows_and_joints,
-    join_directly,
-    joints_of,
-)
+from suspension_ctrl.response.gradients.joints import fill_rows_and_joints, joints_of
 from suspension_ctrl.response.gradients.tangents import fill_tangents, tangents_of
-from suspension_ctrl.response.network_rows import DIRECT, STATES, elements, fill_direct, join, rows_of
+from suspension_ctrl.response.network_rows import DIRECT, STATES, fill_direct, rows_of
 from suspension_ctrl.response.one_port import add_beside
 from suspension_ctrl.response.strut_data import networks_of
 
@@ -57,13 +52,3 @@ def test_stiffness_by_every_coefficient(names):
         whole = Placed(network.strut, 0, values).stiffness(network.strut, OMEGA)
         expected = BESIDE.get(name, np.array([whole.re.imag, whole.im.imag]) / (STEP * SETTING[name]))
         np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
-
-
-def test_two_direct_elements_in_series_in_one_pass_are_those_in_two():
-    direct = np.array([[2e4, 1500.0, 3.0, 50.0], [2e5, 30.0, 1.0, 4e3]])
-    row, joint, zero, expected, factor = np.zeros((5, 2, F.size))
-    join_directly(0.64, OMEGA, elements(direct, 0), elements(direct, 1), row, joint)
-    join(0.64, OMEGA, direct, 0, 1, zero, zero, expected)
-    fill_direct_joint(0.64, OMEGA, elements(direct, 0), elements(direct, 1), factor)
-    np.testing.assert_allclose(row, expected, rtol=1e-12)
-    np.testing.assert_allclose(joint, factor, rtol=1e-12)
