@@ -173,8 +173,8 @@ def _about_derivatives(found: Measurements, settings: dict[str, Any]) -> list[st
         f"Least processor time per design of {settings['repeats']} calls: values alone, and values with the "
         "derivatives of all objectives and limits by all variables, of the designs of the section above at "
         f"{settings['strut_nodes']} nodes; of the study `full_car` at its own. A ratio is to be at most "
-        f"{derivatives.BAR:g}. A damper on a mount exceeds it, as its values cost less than one adjoint, and so "
-        "does a limit by a function, which is evaluated four times by each variable.",
+        f"{derivatives.BAR:g}. The limit on roll has exact derivatives; one by a function of your own is "
+        "evaluated four times by each variable.",
         markdown(derivative_table(found)),
     ]
 

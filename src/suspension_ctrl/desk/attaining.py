@@ -98,7 +98,7 @@ def attainable(
     checks.of_kind("problem", problem, RideProblem)
     problem = problem.nominal.replace(constraints=())
     table = optimal_controllers(problem, present, points, sensors or {})
-    if _takes_sky(problem):
+    if takes_sky(problem):
         front = search(with_sky(problem), Nsga2(population=_POPULATION), iterations=_ITERATIONS, seed=1).front()
         sky = front[table.attrs["measures"]].assign(controller=SKYHOOK)
         attributes, table = table.attrs, pd.concat([table, sky], ignore_index=True)
