@@ -40,7 +40,7 @@ def room_for(port: OnePort, wanted: Wanted, variables: int) -> Room:
     return Room(settled, joints, tangents, gain, change, np.empty((variables, port.terms)), weight)
 
 
-@compiled(error_model="numpy")
+@compiled(nogil=True, error_model="numpy")
 def with_slopes(port: OnePort, wanted: Wanted, designs: Real) -> tuple[Real, Real]:
     """Return the mean squares (p, k) of designs (p, v), and the derivatives (p, s, v) of what is wanted."""
     (count, variables), measures = designs.shape, wanted.largest.size
