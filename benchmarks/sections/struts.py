@@ -135,7 +135,7 @@ def measure(nodes: int, designs: dict[str, int], repeats: int) -> pd.DataFrame:
 
 def _entry(problem: sc.RideProblem, count: int) -> Prepare:
     """Return the mean squares of designs from the bounds, to be timed."""
-    kernel: Any = problem.kernel
+    kernel = problem.scores.kernel(problem.nodes)
     drawn = np.random.default_rng(1).uniform(problem.lower, problem.upper, (count, len(problem.lower)))
     return lambda _: lambda: kernel.cases[0](drawn)
 

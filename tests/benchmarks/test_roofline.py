@@ -38,7 +38,7 @@ def test_a_machine_of_one_processor_has_no_time_of_two_threads():
 
 def test_operations_are_counted_by_node_and_block(table1_problem):
     """Table 1's car: 7 numerators. Two blocks of two struts with 2 and 1 responses of one source."""
-    one = arithmetic.work_of(table1_problem.kernel.cases[0], np.empty((0, 2)))
+    one = arithmetic.work_of(table1_problem.scores.kernel(256).cases[0], np.empty((0, 2)))
     assert one == (256 * 12.5, 128, 40)
     blocks = ManyStruts(
         omega=np.ones(8), rows=np.ones((1, 2, 8)), sizes=np.array([[2, 1, 2], [2, 1, 1]]), response=np.arange(3),

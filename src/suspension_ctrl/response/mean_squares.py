@@ -5,6 +5,7 @@ A case is a compiled function from designs (p, v) to mean squares (p, k): `OneSt
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from .many_struts import ManyStruts
 from .mapped import Mapped
 from .measures.terms import Term
 from .one_port import OnePort
-from .one_strut import OneStrut
+from .one_strut import OneDesign, OneStrut
 from .ports import Ports
 from .quadrature import frequency_nodes, in_lanes
 from .strut_data import any_struts, networks_of
@@ -44,6 +45,13 @@ def cases_of(
 def _mapped(vehicle: Vehicle, case: Case) -> Case:
     """Return a case over the variables of a vehicle."""
     return Mapped(vehicle.formulas, case) if isinstance(vehicle, Varied) else case
+
+
+def one_by_one(case: Any) -> Any:
+    """Return a case for compiled loops that have one design after the other."""
+    if isinstance(case, Mapped):
+        return Mapped(case.formulas, one_by_one(case.case))
+    return OneDesign(case) if isinstance(case, OneStrut) else case
 
 
 def varying(vehicle: Vehicle, variables: Sequence[str]) -> Sequence[str]:

@@ -1,6 +1,6 @@
 """Mean squares over designs of one spring and one damper: integrands are ratios of polynomials in both."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -10,6 +10,9 @@ from .ports import Ports
 
 _TOGETHER = 4
 """Designs that are summed at once: a sum has the same order whether they are four or one."""
+# The sums over frequencies may be taken in whatever order suits the processor, the same one for every design;
+# numpy's error model leaves out a check for division by zero that would keep the loop from being vectorised.
+_LOOPS: dict[str, Any] = {"nogil": True, "fastmath": {"reassoc", "contract", "nsz"}, "error_model": "numpy"}
 
 
 class OneStrut(NamedTuple):
@@ -25,34 +28,16 @@ class OneStrut(NamedTuple):
     power: Integer  # (q,), its power of a design
     terms: int
 
-    # The sums over frequencies may be taken in whatever order suits the processor, the same one for every design;
-    # numpy's error model leaves out a check for division by zero that would keep the loop from being vectorised.
-    @compiled(nogil=True, fastmath={"reassoc", "contract", "nsz"}, error_model="numpy")
+    @compiled(**_LOOPS)
     def __call__(self, designs: Real) -> Real:
         """Return the mean squares (p, k) of designs (p, 2), K [N/m] and C [N s/m], each as if alone."""
-        result, n = np.zeros((designs.shape[0], self.terms)), self.denominator.shape[1]
-        rows = _TOGETHER if designs.shape[0] > 1 else 1
-        gain, power, half = np.zeros((rows, n)), np.empty((rows, 5)), n // 2
+        last, n = designs.shape[0] - 1, self.denominator.shape[1]
+        result = np.zeros((designs.shape[0], self.terms))
+        gain, power = np.empty((_TOGETHER, n)), np.empty((_TOGETHER, 5))
         for first in range(0, designs.shape[0], _TOGETHER):
-            count = min(_TOGETHER, designs.shape[0] - first)
-            for p in range(count):
-                k, c = designs[first + p, 0], designs[first + p, 1]
-                scale = 1.0 / (1.0 + k * k + c * c)  # keeps the products of two denominators in range
-                powers = (scale, scale * k, scale * c, scale * k * k, scale * c * c)
-                for i in range(5):
-                    power[p, i] = powers[i]
-                for i in range(half):  # one division for two frequencies: it takes as long as ten multiplications
-                    one, other = (
-                        polynomial(self.denominator, powers, i),
-                        polynomial(self.denominator, powers, half + i),
-                    )
-                    inverse = 1.0 / (one * other)
-                    gain[p, i], gain[p, half + i] = inverse * other, inverse * one
-                if 2 * half < n:
-                    gain[p, 2 * half] = 1.0 / polynomial(self.denominator, powers, 2 * half)
-            if count == 1:
-                add_alone(self.numerators, self.term, self.power, gain, power, result[first])
-                continue
+            for p in range(_TOGETHER):
+                each = min(first + p, last)
+                fill_gains(self.denominator, designs[each, 0], designs[each, 1], p, gain, power)
             for q in range(0, self.power.size, 2):
                 r = min(q + 1, self.power.size - 1)
                 a, b, c, d = 0.0, 0.0, 0.0, 0.0
@@ -62,7 +47,7 @@ class OneStrut(NamedTuple):
                     a, b, c, d = a + gain[0, i] * x, b + gain[1, i] * x, c + gain[2, i] * x, d + gain[3, i] * x
                     e, f, g, h = e + gain[0, i] * y, f + gain[1, i] * y, g + gain[2, i] * y, h + gain[3, i] * y
                 ones, others = (a, b, c, d), (e, f, g, h)
-                for p in range(count):
+                for p in range(min(_TOGETHER, last + 1 - first)):
                     result[first + p, self.term[q]] += ones[p] * power[p, self.power[q]]
                     if r > q:
                         result[first + p, self.term[r]] += others[p] * power[p, self.power[r]]
@@ -81,6 +66,39 @@ class OneStrut(NamedTuple):
         term, power = map(np.ascontiguousarray, np.nonzero(numerators.any(axis=2)))  # as pickles hold them
         denominator = _square_of_line(np.ones_like(p22), -p22, omega)
         return cls(denominator[1:], numerators[term, power], term, power, ports.m)
+
+
+class OneDesign(NamedTuple):
+    """`OneStrut` in compiled loops that have one design after the other: the same bits by another loop."""
+
+    strut: OneStrut
+
+    @compiled(**_LOOPS)
+    def __call__(self, designs: Real) -> Real:
+        """Return the mean squares (p, k) of designs (p, 2)."""
+        numerators, terms, exponents = self.strut.numerators, self.strut.term, self.strut.power
+        result = np.zeros((designs.shape[0], self.strut.terms))
+        gain, power = np.empty((1, numerators.shape[1])), np.empty((1, 5))
+        for first in range(designs.shape[0]):
+            fill_gains(self.strut.denominator, designs[first, 0], designs[first, 1], 0, gain, power)
+            add_alone(numerators, terms, exponents, gain, power, result[first])
+        return result
+
+
+@compiled(inline="always")
+def fill_gains(denominator: Real, k: float, c: float, p: int, gain: Real, power: Real) -> None:
+    """Fill in row p of the scaled gains 1 / |1 + c D|^2 (4, n) and of the powers of a design (4, 5)."""
+    n, half = gain.shape[1], gain.shape[1] // 2
+    scale = 1.0 / (1.0 + k * k + c * c)  # keeps the products of two denominators in range
+    powers = (scale, scale * k, scale * c, scale * k * k, scale * c * c)
+    for i in range(5):
+        power[p, i] = powers[i]
+    for i in range(half):  # one division for two frequencies: it takes as long as ten multiplications
+        one, other = polynomial(denominator, powers, i), polynomial(denominator, powers, half + i)
+        inverse = 1.0 / (one * other)
+        gain[p, i], gain[p, half + i] = inverse * other, inverse * one
+    if 2 * half < n:
+        gain[p, 2 * half] = 1.0 / polynomial(denominator, powers, 2 * half)
 
 
 @compiled(inline="always")

@@ -317,7 +317,7 @@ class RideProblem(Record):
         """The compiled evaluation of one design; None with measures of handling or of a user's own."""
         if not self.scores.compiled:
             return None
-        nominal = self.scores.kernel(self.nodes)
+        nominal = self.scores.kernel(self.nodes).one_by_one()
         return self.scoring.robust.kernel(nominal, self.nodes) if self.scoring.robust else nominal
 
     @property

@@ -121,4 +121,4 @@ class RobustScores:
         """Return the scores of one design as data of compiled loops."""
         own = self.scattered
         formulas, factors = own.scattered.formulas, own.scattered.factors
-        return RobustKernel(nominal, own.scores.kernel(nodes), formulas, factors, self.statistics)
+        return RobustKernel(nominal, own.scores.kernel(nodes).one_by_one(), formulas, factors, self.statistics)

@@ -16,7 +16,7 @@ from ..vehicles.vehicle import Vehicle, assembled
 from .linearisation import check_reached, linear_vehicles, powers_of_laws, working_points
 from .load_case import LoadCase
 from .mapped import mean_squares_of, unmapped
-from .mean_squares import AnyCase, Case, cases_of, varying
+from .mean_squares import AnyCase, Case, cases_of, one_by_one, varying
 from .measures.terms import CaseMeasure, Designs, Term
 from .ports import Ports, dynamic_stiffness, paths
 from .quadrature import middles
@@ -54,6 +54,10 @@ class Kernel(NamedTuple):
     worst_case: Bool  # (s,), whether the largest of the cases counts, or their mean
     scale: Real  # (s,), factor of the root of that
     offset: Real  # (s,), added last
+
+    def one_by_one(self) -> "Kernel":
+        """Return the kernel for compiled loops that have one design after the other."""
+        return self._replace(cases=tuple(map(one_by_one, self.cases)))
 
     def scores(self, mean_squares: Sequence[Real]) -> Real:
         """Return the scores (p, s) by mean squares (p, k) in c cases, bit by bit those of each design alone.

@@ -67,8 +67,8 @@ def chosen_by(draws: Real, utility: Real, corners: Integer, open_: Integer, chos
                 best += 1
         else:
             best = np.int64(draws[c - corners.size, 0] * left)
-            for draw in draws[c - corners.size]:
-                rival = np.int64(draw * left)
+            for t in range(1, draws.shape[1]):
+                rival = np.int64(draws[c - corners.size, t] * left)
                 if utility[open_[rival]] > utility[open_[best]]:
                     best = rival
         chosen[c] = open_[best]

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compilable, compiled, uncounted
+from ..compiled import compilable, uncounted
 from ..quantities import Integer, Real
 from .constraints import violation_of
 from .operators import draw_below
@@ -138,7 +138,7 @@ def find_worse(violation: float, partners: Integer, values: Real, weights: Real,
     return count
 
 
-@compiled(inline="always")
+@uncounted()
 def lower_ideal(ideal: Real, child: Real, feasible: bool, values: Real) -> None:
     """Update the ideal point (m,) by a child's values (m + c,), in place, as `ideal_with` does."""
     has_feasible, i = False, 0
@@ -150,7 +150,7 @@ def lower_ideal(ideal: Real, child: Real, feasible: bool, values: Real) -> None:
             ideal[j] = child[j]
 
 
-@compiled(inline="always")
+@uncounted()
 def cost_of(value: Real, weight: Real, ideal: Real) -> float:
     """Return g(F | lambda) of values (m + c,) by a weight (m,), as `tchebycheff` does; infinite if infeasible."""
     if violation_of(value, ideal.size) > 0.0:

@@ -27,7 +27,7 @@ def test_mean_squares_and_derivatives_of_a_case(vehicle, bounds):
     """Extrapolated central differences of 1e-3: an error of 1e-10 by rounding."""
     band = (0.3, 20.0) if len(vehicle.contact_points) > 1 else (0.1, 20.0)
     problem = sc.RideProblem(vehicle, ROAD, speed=20.0, bounds=bounds, band=band)
-    (case,) = problem.kernel.cases
+    (case,) = problem.scores.kernel(problem.nodes).cases
     assert isinstance(case, Mapped) == ("ride_frequency" in " ".join(bounds) or "tyre_stiffness" in bounds)
     designs = np.random.default_rng(0).uniform(problem.lower, problem.upper, (3, len(bounds)))
     designs.flags.writeable = False
