@@ -67,7 +67,10 @@ def _squares(problem: RideProblem, c: int, measures: list[CaseMeasure], design: 
     given = dict(zip(problem.variables, design, strict=True))
     if isinstance(vehicle, Varied):
         given = dict(zip(vehicle.varying, by_formulas(vehicle.formulas, design), strict=True))
-    own, inner = LoadCase(vehicle=vehicle, road=case.road, speed=case.speed), problem.scores.kernel(problem.nodes).cases[c]
+    own, inner = (
+        LoadCase(vehicle=vehicle, road=case.road, speed=case.speed),
+        problem.scores.kernel(problem.nodes).cases[c],
+    )
     ride = Ride(own, terms, origin, {**origin, **given}, problem, unmapped(inner, np.empty((0, 0)))[0])
     squares, found = dict(zip(terms, ride.mean_squares(), strict=True)), []
     for one in measures:

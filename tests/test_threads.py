@@ -1,6 +1,7 @@
 """Blocks of rows on threads: results in order, errors, interrupts, and how many threads there are."""
 
 import _thread
+import signal
 import threading
 import time
 
@@ -58,6 +59,8 @@ def test_the_first_error_is_raised_and_what_waits_is_not_begun():
 
 
 def test_an_interrupt_ends_it_soon():
+    """In whatever process: a shell starts those in the background without."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     begun = []
 
     def interrupt(part):
@@ -66,8 +69,11 @@ def test_an_interrupt_ends_it_soon():
             _thread.interrupt_main()
         time.sleep(0.02)
 
-    with pytest.raises(KeyboardInterrupt):
-        in_blocks(interrupt, 100, MUCH, 2)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            in_blocks(interrupt, 100, MUCH, 2)
+    finally:
+        signal.signal(signal.SIGINT, before)
     assert len(begun) < 100
 
 

@@ -12,7 +12,7 @@ from peers import PEERS
 
 @pytest.fixture(scope="module")
 def quick(script, tmp_path_factory):
-    if not find_spec("pymoo"):
+    if not find_spec("pygmo"):
         pytest.skip("other libraries are not installed: make bench")
     out, docs = tmp_path_factory.mktemp("benchmark") / "results", tmp_path_factory.mktemp("docs")
     done = script("benchmark", "--quick", "--out", out, "--docs", docs, warnings="default")

@@ -12,9 +12,9 @@ PROBLEM = paper.ride_problem()
 
 def end_of(within: dict, minimise: str = "ACC"):
     program = program_of(PROBLEM, np.array([22e3, 1500.0]), minimise, within)
-    calls, at = [], program.at
-    program.at = lambda z: calls.append(z) or at(z)
-    return descended(program), calls
+    rounds, resize = [], program.resize
+    program.resize = lambda z: rounds.append(z) or resize(z)
+    return descended(program), rounds
 
 
 def test_an_end_has_the_value_and_the_design_of_the_problem():
@@ -27,8 +27,8 @@ def test_an_end_has_the_value_and_the_design_of_the_problem():
 
 
 def test_where_no_design_is_within_the_limits_a_descent_ends_early():
-    """At the corner of least travel; not after four rounds of a hundred steps."""
-    end, calls = end_of({"SWS": 0.001})
+    """At the corner of least travel, after one round or two of the four."""
+    end, rounds = end_of({"SWS": 0.001})
     assert not end.feasible
-    assert len({z.tobytes() for z in calls}) < 300
+    assert len(rounds) <= 2
     np.testing.assert_allclose(end.design, PROBLEM.upper, rtol=1e-6)

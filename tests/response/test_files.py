@@ -30,7 +30,7 @@ from suspension_ctrl import (
     ride,
 )
 from suspension_ctrl.paper import experiment as paper
-from suspension_ctrl.response import problem as objectives
+from suspension_ctrl.response import scoring
 from suspension_ctrl.response.files import load_problem, save_problem
 from suspension_ctrl.search.constraints import feasible_objectives
 from suspension_ctrl.study.reference import best_known
@@ -436,7 +436,7 @@ def test_whatever_the_text_of_a_file_it_is_read_or_refused(tmp_path_factory, tex
     path = written(tmp_path_factory.getbasetemp(), content)
     try:
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(objectives, "NODES", (256,))  # more take seconds before they are refused
+            patch.setattr(scoring, "NODES", (256,))  # more take seconds before they are refused
             problem = load_problem(path)
             problem.evaluate(inside(problem))
         refusal = f"{path}: "

@@ -108,8 +108,8 @@ def test_a_scheduler_gives_the_same_also_when_one_of_its_workers_is_killed(alone
 class Here:
     """A client that works in this process."""
 
-    def map(self, function, parts, pure):
-        return [function(part) for part in parts]
+    def map(self, function, parts, pure, **given):
+        return [function(part, **given) for part in parts]
 
     def gather(self, results):
         return results

@@ -66,7 +66,8 @@ def lexicographic(keys: Real, near: Integer | None = None) -> Integer:
 def by_buckets(values: Real) -> Integer:
     """Return an order (n,) of values by n equal intervals; within one they stand as they come."""
     order, ends = np.arange(values.size), np.zeros(values.size + 1, dtype=np.int64)
-    least, span = values.min(), values.max() - values.min()
+    with np.errstate(invalid="ignore", over="ignore"):  # infinite values have no span
+        least, span = values.min(), values.max() - values.min()
     if values.size * np.finfo(float).tiny < span < np.inf:  # no overflow, nor NaN
         fill_buckets(values, least, (values.size - 1) / span, np.empty(values.size, dtype=np.int64), ends, order)
     return order
