@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import compiled, uncounted
 from ..quantities import Complex, Integer, Real
 from .ports import Ports
 
@@ -40,13 +40,7 @@ class OneStrut(NamedTuple):
                 fill_gains(self.denominator, designs[each, 0], designs[each, 1], p, gain, power)
             for q in range(0, self.power.size, 2):
                 r = min(q + 1, self.power.size - 1)
-                a, b, c, d = 0.0, 0.0, 0.0, 0.0
-                e, f, g, h = 0.0, 0.0, 0.0, 0.0
-                for i in range(n):  # two numerators are loaded once for four designs
-                    x, y = self.numerators[q, i], self.numerators[r, i]
-                    a, b, c, d = a + gain[0, i] * x, b + gain[1, i] * x, c + gain[2, i] * x, d + gain[3, i] * x
-                    e, f, g, h = e + gain[0, i] * y, f + gain[1, i] * y, g + gain[2, i] * y, h + gain[3, i] * y
-                ones, others = (a, b, c, d), (e, f, g, h)
+                ones, others = sums(self.numerators, q, r, gain, 0, 1, 2, 3)
                 for p in range(min(_TOGETHER, last + 1 - first)):
                     result[first + p, self.term[q]] += ones[p] * power[p, self.power[q]]
                     if r > q:
@@ -78,10 +72,13 @@ class OneDesign(NamedTuple):
         """Return the mean squares (p, k) of designs (p, 2)."""
         numerators, terms, exponents = self.strut.numerators, self.strut.term, self.strut.power
         result = np.zeros((designs.shape[0], self.strut.terms))
-        gain, power = np.empty((1, numerators.shape[1])), np.empty((1, 5))
+        gain, power, last = np.empty((1, numerators.shape[1])), np.empty((1, 5)), numerators.shape[0] - 1
         for first in range(designs.shape[0]):
             fill_gains(self.strut.denominator, designs[first, 0], designs[first, 1], 0, gain, power)
-            add_alone(numerators, terms, exponents, gain, power, result[first])
+            for q in range(0, last + 1, _TOGETHER):
+                found, _ = sums(gain, 0, 0, numerators, q, min(q + 1, last), min(q + 2, last), min(q + 3, last))
+                for j in range(min(_TOGETHER, last + 1 - q)):
+                    result[first, terms[q + j]] += found[j] * power[0, exponents[q + j]]
         return result
 
 
@@ -101,23 +98,19 @@ def fill_gains(denominator: Real, k: float, c: float, p: int, gain: Real, power:
         gain[p, 2 * half] = 1.0 / polynomial(denominator, powers, 2 * half)
 
 
-@compiled(inline="always")
-def add_alone(numerators: Real, terms: Integer, exponents: Integer, gain: Real, power: Real, result: Real) -> None:
-    """Add the integrals of one design, of eight numerators (m, n) at once: summed in the order of four designs."""
-    last = numerators.shape[0] - 1
-    for q in range(0, last + 1, 8):
-        k, m, o, r = min(q + 1, last), min(q + 2, last), min(q + 3, last), min(q + 4, last)
-        s, t, u = min(q + 5, last), min(q + 6, last), min(q + 7, last)
-        a, b, c, d = 0.0, 0.0, 0.0, 0.0
-        e, f, g, h = 0.0, 0.0, 0.0, 0.0
-        for i in range(numerators.shape[1]):
-            x = gain[0, i]
-            a, b, c = a + numerators[q, i] * x, b + numerators[k, i] * x, c + numerators[m, i] * x
-            d, e, f = d + numerators[o, i] * x, e + numerators[r, i] * x, f + numerators[s, i] * x
-            g, h = g + numerators[t, i] * x, h + numerators[u, i] * x
-        integrals = (a, b, c, d, e, f, g, h)
-        for j in range(min(8, last + 1 - q)):
-            result[terms[q + j]] += integrals[j] * power[0, exponents[q + j]]
+@uncounted(**_LOOPS)
+def sums(left: Real, q: int, r: int, right: Real, a: int, b: int, c: int, d: int) -> tuple[Any, Any]:
+    """Return the sums of the products of rows q and r of `left` (i, n), each with four rows of `right` (k, n).
+
+    Two rows are loaded once for four others; a design has the same bits as one of four and alone.
+    """
+    s, t, u, v = 0.0, 0.0, 0.0, 0.0
+    e, f, g, h = 0.0, 0.0, 0.0, 0.0
+    for i in range(left.shape[1]):
+        x, y = left[q, i], left[r, i]
+        s, t, u, v = s + right[a, i] * x, t + right[b, i] * x, u + right[c, i] * x, v + right[d, i] * x
+        e, f, g, h = e + right[a, i] * y, f + right[b, i] * y, g + right[c, i] * y, h + right[d, i] * y
+    return (s, t, u, v), (e, f, g, h)
 
 
 @compiled(inline="always")
