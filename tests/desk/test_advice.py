@@ -27,7 +27,7 @@ def test_the_largest_gain_without_a_loss_is_taken():
     found = advised(PRESENT, ("least ride", 1.0, 6.0), ("none worse", 3.0, 4.0), ("knee", 2.0, 2.0))
     assert found.number == 3
     assert found.said == [
-        "Take candidate 3, knee: against the present design ride -50.0 %, grip -50.0 %. "
+        "Take candidate 3, knee. Against the present design no measure is worse: ride -50.0 %, grip -50.0 %.",
         "No measure is worse with 2 either, but less is gained in sum.",
         "It has spring 2, damper 2.",
     ]
@@ -41,16 +41,24 @@ def test_a_change_that_is_not_shown_is_no_loss():
 def test_the_knee_is_taken_where_every_gain_has_a_price():
     found = advised(PRESENT, ("least ride", 1.0, 6.0), ("knee", 3.0, 5.0))
     assert found.number == 2
-    assert found.said[0] == (
+    assert found.said[:2] == [
         "Take candidate 2, knee, unless one measure decides: "
-        "against the present design ride -25.0 %, grip +25.0 %. "
-        "Every design of the front is worse than the present design in some measure."
-    )
+        "against the present design ride -25.0 %, grip +25.0 %.",
+        "Every design of the front is worse than the present design in some measure.",
+    ]
 
 
 def test_a_present_design_beyond_a_limit_is_told():
     found = advised(PRESENT, ("knee", 3.0, 3.0), active="beyond the limit ride <= 2")
     assert "The present design is beyond the limit ride <= 2." in found.said
+
+
+def test_a_loss_against_a_present_design_beyond_a_limit_is_the_price_of_the_limit():
+    found = advised(PRESENT, ("knee", 3.0, 5.0), active="beyond the limit ride <= 2")
+    assert found.said[1:3] == [
+        "The present design is beyond the limit ride <= 2.",
+        "No design within the limits is as good as the present design in every measure.",
+    ]
 
 
 def test_without_a_present_design_there_are_no_changes():

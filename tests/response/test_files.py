@@ -123,17 +123,17 @@ def test_the_full_car_study_is_the_one_made_by_hand(full_car):
         "front_antiroll": (0.0, 50e3), "rear_antiroll": (0.0, 50e3),
         "driver.spring": (5e3, 40e3), "driver.damper": (300.0, 2000.0),
     }  # fmt: skip
-    comfort = "comfort = Wk driver_acceleration + 0.63 We roll_acceleration + 0.4 We pitch_acceleration"
+    discomfort = "discomfort = Wk driver_acceleration + 0.63 We roll_acceleration + 0.4 We pitch_acceleration"
     mine = RideProblem(
         cases=cases,
         bounds=bounds,
-        measures=(comfort, "SWS", "DLC"),
+        measures=(discomfort, "SWS", "DLC"),
         constraints=("SWS <= 0.012", "roll_gradient <= 6"),
         weighting="Wk",
         band=(0.1, 20.0),
     )
     assert full_car == mine
-    assert full_car.objectives == ("comfort", "SWS", "DLC")
+    assert full_car.objectives == ("discomfort", "SWS", "DLC")
     assert full_car.variables == tuple(bounds)
     designs = inside(mine)
     np.testing.assert_array_equal(full_car.evaluate(designs), mine.evaluate(designs))

@@ -11,7 +11,7 @@ from ..desk.candidate_table import candidates
 from ..desk.candidate_texts import parts_of
 from ..desk.decision import Decision
 from ..desk.explorer.layers import Layer, attainable_layers
-from ..desk.explorer.page_file import page_of
+from ..desk.explorer.page_file import Opening, page_of
 from ..desk.study_texts import introduced
 from ..paper import experiment
 from ..paper import tables as printed
@@ -28,6 +28,7 @@ from ..study.reference import Reference
 from ..study.store import VIOLATION, StoredRun
 from ..study.study import INDICATORS
 from . import reports
+from .comparison_texts import outcome_texts
 
 if TYPE_CHECKING:
     from .comparing import Request
@@ -57,7 +58,8 @@ def page(request: "Request", store: Mapping[str, StoredRun], outcome: Outcome) -
     layers = [*_fronts(problem, feasible), *_reference(problem, outcome.reference)]
     layers += _attainable(request, pd.concat([front.front(), table])[_headers(problem)])
     decision = Decision(problem, front, front, table)
-    return page_of(request.study, decision, _said(request, outcome), _sections(request, decision, outcome), layers)
+    said, sections = _said(request, outcome), _sections(request, decision, outcome)
+    return page_of(request.study, decision, said, sections, layers, opening=_opening(request, outcome))
 
 
 def _headers(problem: RideProblem) -> list[str]:
@@ -103,24 +105,33 @@ def _attainable(request: "Request", passive: pd.DataFrame) -> list[Layer]:
 
 
 def _said(request: "Request", outcome: Outcome) -> list[str]:
-    """Return the study in words, the origin of fronts, and the verdict."""
+    """Return the study in words, the origin of fronts, and the verdict with its numbers."""
     said = [
         *introduced(request.study),
         "The front holds the best designs of the first timed runs; candidates are as these found them.",
     ]
     if outcome.reference is not None:
         said.append(f"The reference front is of {outcome.reference.origin}.")
-    return [*said, *(outcome.findings.words if outcome.findings else [])]
+    return [*said, *(outcome.findings.words if outcome.findings and len(outcome.findings.verdict) else [])]
+
+
+def _opening(request: "Request", outcome: Outcome) -> Opening:
+    """Return the comparison of the algorithms, which stands before the choice of a design."""
+    said = outcome_texts(outcome.timed, outcome.findings)
+    verdict = outcome.findings.verdict if outcome.findings else pd.DataFrame()
+    title = "Verdict: which has more hypervolume, the first algorithm or the other"
+    tables = {title: verdict} if len(verdict) else {}
+    return Opening("Algorithms", said, tables | _times(request, outcome))
 
 
 def _sections(request: "Request", decision: Decision, outcome: Outcome) -> dict[str, Tables]:
-    """Return the tables of a page."""
-    sections = {"Candidates": parts_of(decision.problem, decision.table), "Timings": _times(request, outcome)}
+    """Return the tables after the design at hand."""
+    sections = dict[str, Tables]()
     if outcome.findings:
         sections["Quality over seeds"] = _quality(outcome.findings, request.study.search.target)
     if request.of_paper:
         sections["Tables of the paper"] = _papers(decision, outcome)
-    return sections
+    return sections | {"Candidates": parts_of(decision.problem, decision.table)}
 
 
 def _times(request: "Request", outcome: Outcome) -> Tables:
@@ -135,11 +146,10 @@ def _times(request: "Request", outcome: Outcome) -> Tables:
 
 
 def _quality(findings: Findings, target: float) -> Tables:
-    """Return medians by lens, effort to the target, differences and the verdict."""
+    """Return medians by lens, effort to the target, and differences."""
     medians = findings.medians[findings.medians.set == study.POPULATION]
     kept = ["lens", *CONFIGURATION, "algorithm", "evaluations", *INDICATORS]
     found = {
-        "Verdict: which has more hypervolume, the first algorithm or the other": findings.verdict,
         "Final populations, medians by lens": medians[kept],
         f"To {target:g} of the reference hypervolume, medians": findings.reached,
         "Differences, Mann-Whitney tests adjusted by Holm": findings.differences,

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple, Self
 
 from ..quantities import Real
+from ..response.problem import RideProblem
 from ..search.problem import Minimisable, headers_of
 from ..tables.headers import name_and_unit, shown_value
 from .candidate_table import full_changes
@@ -30,18 +31,23 @@ class Advice(NamedTuple):
         changes, labels = chosen_changes(problem, table), list(problem.objectives)
         better = [numbers[row] for row in improving(changes)]
         number = better[0] if better else knee
-        told = f"against the present design {_told(labels, changes[numbers.index(number)])}"
-        others = f" No measure is worse with {_listed(better[1:])} either, but less is gained in sum."
+        told = _told(labels, changes[numbers.index(number)])
         if better:
-            said = [f"Take {_named(chosen, number)}: {told}.{others * (len(better) > 1)}"]
+            said = [f"Take {_named(chosen, number)}. Against the present design no measure is worse: {told}."]
+            said += [_OTHERS.format(_listed(better[1:]))] if len(better) > 1 else []
         else:
-            said = [f"Take {_named(chosen, number)}, {_UNLESS}: {told}. {_NONE}"]
+            said = [f"Take {_named(chosen, number)}, {_UNLESS}: against the present design {told}."]
         beyond = [one for one in str(table.active.iloc[0]).split("; ") if one.startswith("beyond")]
-        said += [f"The present design is {' and '.join(beyond)}."] if beyond else []
+        worst = isinstance(problem, RideProblem) and len(problem.cases) > 1
+        where = " in the worst load case" * worst
+        said += [f"The present design is {' and '.join(beyond)}{where}."] if beyond else []
+        said += [] if better else [_PRICE if beyond else _NONE]
         return cls(number, [*said, *_facts(problem, chosen, number)])
 
 
 _UNLESS = "unless one measure decides"
+_OTHERS = "No measure is worse with {} either, but less is gained in sum."
+_PRICE = "No design within the limits is as good as the present design in every measure."
 _NONE = "Every design of the front is worse than the present design in some measure."
 
 

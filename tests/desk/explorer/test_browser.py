@@ -387,3 +387,12 @@ def test_a_layer_is_switched_off_and_on(paper):
     assert "front without limits" not in paper.page.evaluate(names)
     box.check()
     assert "front without limits" in paper.page.evaluate(names)
+
+
+def test_plots_are_as_wide_as_paper_in_print(paper):
+    widths = "[...document.querySelectorAll('.js-plotly-plot')].map(plot => plot._fullLayout.width)"
+    before = paper.page.evaluate(widths)
+    printed = paper.page.evaluate(f"window.dispatchEvent(new Event('beforeprint')), {widths}")
+    assert [one for one in printed if one in (350, 700)] == [*[350] * (len(before) - 2), 700]  # but for the 3-D plot
+    paper.page.evaluate("window.dispatchEvent(new Event('afterprint'))")
+    assert paper.page.evaluate(widths) == before

@@ -26,3 +26,12 @@ def test_measures_stand_with_their_changes():
 def test_without_a_present_design_there_are_values_alone():
     (row,) = choice_table(PROBLEM, TABLE[1:]).rows
     assert row.cells == [Cell("1.5"), Cell("4.001")]
+
+
+def test_variables_at_bounds_of_one_kind_stand_together():
+    bounds = "spring at its lower bound; damper at its lower bound; bar beyond its upper bound"
+    active = f"{bounds}; at the limit SWS <= 9 mm"
+    (row,) = choice_table(PROBLEM, TABLE[1:].assign(active=active)).rows
+    assert row.active == (
+        "at the limit SWS <= 9 mm; at the lower bound: spring, damper; beyond the upper bound: bar"
+    )

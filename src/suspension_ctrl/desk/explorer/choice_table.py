@@ -46,8 +46,22 @@ def choice_table(problem: Minimisable, table: "pd.DataFrame") -> ChoiceTable:
     if table.name.iloc[0] == PRESENT:
         changes = chosen_changes(problem, table).tolist()
         cells[1:] = [list(_changed(*both)) for both in zip(cells[1:], changes, strict=True)]
-    whole = zip(table.index.tolist(), table.name, cells, table.active, strict=True)
+    reached = map(_by_bound, map(str, table.active))
+    whole = zip(table.index.tolist(), table.name, cells, reached, strict=True)
     return ChoiceTable(list(map(str, shown)), [Row(*row) for row in whole])
+
+
+def _by_bound(active: str) -> str:
+    """Return bounds and limits that a design reaches, variables at bounds of one kind together."""
+    texts, bounds = [], dict[str, list[str]]()
+    for text in filter(None, active.split("; ")):
+        name, at, bound = text.partition(" its ")
+        if at:
+            variable, where = name.rsplit(" ", 1)
+            bounds.setdefault(f"{where} the {bound}", []).append(variable)
+        else:
+            texts.append(text)
+    return "; ".join([*texts, *(f"{where}: {', '.join(names)}" for where, names in bounds.items())])
 
 
 def _changed(cells: list[Cell], changes: list[float]) -> Iterator[Cell]:

@@ -7,7 +7,7 @@ from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from hashlib import sha256
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ... import checks, escaping
 from ...response.certificates import Certificate
@@ -19,6 +19,7 @@ from ..decision import Decision
 from ..study_files import StudyFile
 from .bundling import bundled
 from .choice_table import choice_table
+from .choice_texts import choice_texts
 from .layers import Layer
 from .record import record_of
 
@@ -30,6 +31,14 @@ _SIGNS = re.compile(r"\^[23]|<=|>=")
 _PLOTLY = _HERE / "plotly" / "plotly-strict.min.js.gz"
 
 
+class Opening(NamedTuple):
+    """What stands before the choice of a design: title, sentences, of which the first is in bold, and tables."""
+
+    title: str
+    said: Sequence[str]
+    tables: "Mapping[str, pd.DataFrame]"
+
+
 def page_of(
     study: StudyFile,
     decision: Decision,
@@ -37,6 +46,7 @@ def page_of(
     sections: "Mapping[str, Mapping[str, pd.DataFrame]]",
     layers: Sequence[Layer] = (),
     certificates: Sequence[Certificate] = (),
+    opening: Opening | None = None,
 ) -> str:
     """Return the page of a study and its decision as HTML, with sentences `said` and sections of tables by title.
 
@@ -61,8 +71,11 @@ def page_of(
         title=study.name,
         said=said,
         advice=advice,
+        conditions=" ".join(decision.problem.describe_cases()),
         choice=choice_table(decision.problem, decision.table),
-        sections={title: [_table(*part) for part in parts.items()] for title, parts in sections.items()},
+        notes=choice_texts(decision.problem, decision.table.name.tolist(), present=bool(study.present)),
+        opening=opening and opening._asdict() | {"tables": _tables(opening.tables)},
+        sections={title: _tables(parts) for title, parts in sections.items()},
         record=_packed(record_of(study, decision, [*free, *layers], certificates) | {"first": first}),
         style=Markup(_text("page.css")),
         script=Markup(script),
@@ -88,6 +101,10 @@ def _packed(record: Mapping[str, Any]) -> str:
 def _hash(script: bytes) -> str:
     """Return the source of a script in a content security policy."""
     return f"'sha256-{b64encode(sha256(script).digest()).decode('ascii')}'"
+
+
+def _tables(parts: "Mapping[str, pd.DataFrame]") -> list[dict[str, Any]]:
+    return [_table(*part) for part in parts.items()]
 
 
 def _table(title: str, part: "pd.DataFrame") -> dict[str, Any]:

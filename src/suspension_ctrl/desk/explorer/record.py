@@ -23,6 +23,7 @@ from ..choosing import Front, front_of
 from ..decision import Decision
 from ..proofs import PRICE, RESIDUAL
 from ..study_files import StudyFile, save_study
+from .choice_texts import limited_by_case
 from .functions import functions_of, why_not
 from .layers import Layer
 from .packing import packed
@@ -125,7 +126,8 @@ def columns_of(problem: RideProblem) -> Iterator[Column]:
     """Yield the columns of a problem's designs: objectives, measures of limits, variables."""
     functions = zip(problem.scores.scores, functions_of(problem), strict=True)
     flags = [not score.by_function or function is not None for score, function in functions]
-    limits = {one.measure: one for one in problem.constraints}
+    own = () if limited_by_case(problem) else problem.constraints  # of measures in the worst load case too
+    limits = {one.measure: one for one in own}
     for i, measure in enumerate(problem.measures):
         limit = limits.pop(measure, None)
         allowed = (limit.minimum, limit.maximum) if limit else (None, None)
@@ -133,8 +135,9 @@ def columns_of(problem: RideProblem) -> Iterator[Column]:
             *_headed(measure.label, measure.unit), "objective", i, 1.0, 0.0, flags[i], why_not(measure), allowed
         )
     for i, limit in enumerate(problem.constraints, start=len(problem.measures)):
-        if limit.measure in limits:
-            headed, allowed = _headed(limit.measure.label, limit.measure.unit), (limit.minimum, limit.maximum)
+        if limit.measure in limits or not own:
+            name = limit.measure.label + ", worst case" * (limit.measure in problem.measures)
+            headed, allowed = _headed(name, limit.measure.unit), (limit.minimum, limit.maximum)
             why = why_not(limit.measure)
             yield Column(*headed, "limit", i, limit.scale, limit.offset, flags[i], why, allowed)
     for i, name in enumerate(problem.variables):

@@ -6,6 +6,7 @@ import { byId, choice, later, raised } from "./elements.js";
 /** @typedef {{name: "magnitude" | "phase" | "density", title: string, scale: number}} Row */
 
 const HERE = "#d55e00", PRESENT = "#000000";
+const FONT = { size: 16, color: "#111111" }; // of which small digits of logarithmic axes have three quarters
 
 /** @param {Explorer} explorer put the curves of a response into the page */
 export function drawCurves(explorer) {
@@ -14,7 +15,7 @@ export function drawCurves(explorer) {
   const choose = () => {
     const { responses } = explorer.ports;
     [which, present] = [Math.min(which, responses.length - 1), explorer.presentCurves()];
-    byId("responses").replaceChildren(choice("response", responses, which, (i) => { which = i; draw(); }));
+    byId("responses").replaceChildren(choice("response", responses.map((/** @type {string} */ name) => name.replaceAll("_", " ")), which, (i) => { which = i; draw(); }));
     draw();
   };
   explorer.show("case", choose);
@@ -30,7 +31,7 @@ export function drawCurves(explorer) {
 function drawResponse(explorer, which, present) {
   const [given, factor] = explorer.ports.units[which], unit = raised(given), here = explorer.curves()[which];
   const rows = /** @type {Row[]} */ ([
-    { name: "magnitude", title: `[(${unit})/m]`, scale: factor },
+    { name: "magnitude", title: `gain [(${unit})/m]`, scale: factor },
     { name: "phase", title: "phase [deg]", scale: 1 },
     { name: "density", title: `PSD [(${unit})²/Hz]`, scale: factor ** 2 },
   ]);
@@ -63,7 +64,7 @@ function layoutOf(rows) {
     domain: [1 - (i + 1) * height + gap, 1 - i * height],
   }]);
   return {
-    margin: { l: 70, r: 10, t: 30, b: 45 }, height: 620, legend: { orientation: "h", y: 1.06 },
+    margin: { l: 80, r: 20, t: 30, b: 55 }, height: 620, font: FONT, legend: { orientation: "h", y: 1.06 },
     xaxis: { type: "log", title: { text: "frequency [Hz]" }, anchor: `y${rows.length}` }, ...Object.fromEntries(axes),
   };
 }

@@ -1,11 +1,12 @@
 // The design at hand: a slider for each variable, and its measures beside the present ones.
 
-import { byId, choice, digits, element, headed, tableRow } from "./elements.js";
+import { byId, choice, digits, element, headed, raised, tableRow } from "./elements.js";
 
 /** @typedef {import("./explorer.js").Explorer} Explorer */
 /** @typedef {import("./explorer.js").Variable} Variable */
 
 const STEPS = 1000; // of a slider
+const NEAR = 1e-6; // share of a limit up to which a design at it is not beyond it
 
 /** @param {Explorer} explorer put sliders, measures and curves into the page */
 export function drawDesign(explorer) {
@@ -18,9 +19,9 @@ export function drawDesign(explorer) {
   );
   explorer.show("design", () => {
     byId("measures").replaceChildren(...measures(explorer));
-    byId("known").replaceChildren(...explorer.known.map((texts) => tableRow("td", texts)));
+    byId("known").replaceChildren(...explorer.known.map((texts) => tableRow("td", texts.map(raised))));
   });
-  const names = explorer.cases.map(({ name }) => name);
+  const names = explorer.cases.map(({ name }) => raised(name));
   if (names.length > 1) byId("cases").append(choice("load case", names, explorer.number, (i) => explorer.inCase(i)));
 }
 
@@ -79,11 +80,12 @@ function measures(explorer) {
     const change = here === null || !own ? null : (100 * (here - own)) / Math.abs(own);
     const others = kept.map((point) => digits(explorer.valueAt(column, point)));
     const shown = here === null ? `– (${column.why_not})` : digits(here);
-    const cells = [headed(column), shown, digits(own), change === null ? "–" : change.toFixed(1), ...others];
+    const cells = [headed(column), shown, digits(own), change === null ? "–" : change.toFixed(1).replace(/^-0\.0$/, "0.0"), ...others];
     const row = tableRow("td", cells);
     row.dataset.value = String(here);
     const [least, largest] = column.limits.map((limit) => (limit === null ? NaN : limit * column.factor));
-    row.className = here !== null && (here > largest || here < least) ? "beyond" : "";
+    const beyond = here !== null && Math.max(here - largest || 0, least - here || 0) > NEAR * Math.abs(here);
+    row.className = beyond ? "beyond" : "";
     return row;
   });
   const header = ["measure", "this design", "present", "change [%]", ...kept.map(({ name }) => name)];

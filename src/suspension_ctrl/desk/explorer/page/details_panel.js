@@ -24,7 +24,7 @@ export function drawDetails(explorer) {
 function modeRows(modes, present) {
   if (!modes) return [tableRow("td", ["Not known: modes need masses, springs and dampers by their values."])];
   const own = ["mode", "undamped [Hz]", "damped [Hz]", "damping ratio"];
-  const header = tableRow("th", present ? [...own, "present: undamped [Hz]", "present: damping ratio"] : own);
+  const header = tableRow("th", present ? [...own, "present [Hz]", "present ratio"] : own);
   return [header, ...modes.map(({ name, frequency, damped, ratio }) => {
     const before = present?.find((one) => one.name === name);
     const beside = present ? [before?.frequency ?? null, before?.ratio ?? null] : [];

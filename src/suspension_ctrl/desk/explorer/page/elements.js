@@ -47,9 +47,9 @@ export function headed({ name, unit }) {
   return unit ? `${name} [${raised(unit)}]` : name;
 }
 
-/** @param {string} unit @returns {string} with raised powers */
-export function raised(unit) {
-  return unit.replace("^2", "²").replace("^3", "³");
+/** @param {string} text @returns {string} with raised powers and signs of limits */
+export function raised(text) {
+  return text.replaceAll("^2", "²").replaceAll("^3", "³").replaceAll("<=", "≤").replaceAll(">=", "≥");
 }
 
 /** @param {number | null} value @returns {string} four digits; a dash for what is not known */

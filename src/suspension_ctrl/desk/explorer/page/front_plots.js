@@ -87,7 +87,7 @@ function traces(explorer, columns, coordinates, colour, style) {
   };
   const above = coordinates.length < 3 ? { zorder: 2 } : {};
   const numbers = candidates.map(({ name }) => name.split(" ")[0]);
-  const texts = { mode: "markers+text", text: numbers, textposition: "top center", ...above };
+  const texts = { mode: "markers+text", text: numbers, textposition: "top center", textfont: { weight: 700 }, ...above };
   const ofGroup = (/** @type {Point["group"]} */ group) => shown.filter((point) => point.group === group);
   return [
     trace("others", front.filter((point) => !marked(point)), { size: 4, color: FAINT }),
@@ -191,5 +191,6 @@ function inSpace(explorer, columns, colour) {
     },
   };
   const drawn = traces(explorer, columns, ["x", "y", "z"], colour, { type: "scatter3d" });
+  drawn[FRONT].marker.showscale = !byId("projections").children.length;
   Plotly.react(byId("space"), drawn, layout, CONFIG);
 }

@@ -199,7 +199,16 @@ function curveLines(force, size) {
     svg("line", { x1: 0, x2: WIDTH, y1: CURVE / 2, y2: CURVE / 2, ...axis }),
     svg("line", { x1: WIDTH / 2, x2: WIDTH / 2, y1: 0, y2: CURVE + BELL, ...axis }),
     svg("polyline", { points, fill: "none", stroke: "#0072b2", "stroke-width": 2.5 }),
+    sideOf("compression", { x: 4, "text-anchor": "start" }),
+    sideOf("extension", { x: WIDTH - 4, "text-anchor": "end" }),
   ];
+}
+
+/** @param {string} name @param {Record<string, any>} place @returns {SVGElement} the name of a side of a curve */
+function sideOf(name, place) {
+  const text = svg("text", { y: CURVE - 6, "font-size": 14, ...place });
+  text.textContent = name;
+  return text;
 }
 
 /** @param {{deviation: number, mean: number}} state @param {Size} size @returns {SVGElement[]} a Gaussian in bars */

@@ -18,8 +18,13 @@ export function drawLines(explorer) {
   chart.setAttribute("role", "img");
   chart.setAttribute("aria-label", "Lines of designs over all measures and variables");
   const lines = svg("g", { fill: "none" }), ranges = svg("g", {});
-  chart.append(lines, ...axes.map((axis, i) => axisOf(explorer, axis, i)), ranges);
+  const here = svg("polyline", { fill: "none", stroke: MARKS.here, "stroke-width": 3, "pointer-events": "none" });
+  chart.append(lines, here, ...axes.map((axis, i) => axisOf(explorer, axis, i)), ranges);
   byId("lines").append(chart);
+  explorer.show("design", () => {
+    const places = explorer.columns.map((column, i) => place(axes[i], explorer.valueHere(column) ?? NaN));
+    here.setAttribute("points", places.filter(([, y]) => Number.isFinite(y)).join(" "));
+  });
   explorer.show("shown", () => {
     lines.replaceChildren(...linesOf(explorer, axes));
     ranges.replaceChildren(...axes.flatMap((axis, i) => rangeOf(axis, explorer.filters[i])));
@@ -31,6 +36,11 @@ export function drawLines(explorer) {
 function placeOn({ least, largest }, value) {
   const share = largest > least ? (value - least) / (largest - least) : 0.5;
   return BOTTOM - Math.min(1, Math.max(0, share)) * (BOTTOM - TOP);
+}
+
+/** @param {Axis} axis @param {number} value @returns {[number, number]} */
+function place(axis, value) {
+  return [axis.x, placeOn(axis, value)];
 }
 
 /** @param {Explorer} explorer @param {Axis} axis @param {number} i @returns {SVGElement} line, name and ends */
@@ -51,9 +61,9 @@ function linesOf(explorer, axes) {
   const { brushed, columns } = explorer, marked = (/** @type {any} */ point) => !brushed || brushed.has(point);
   const rank = (/** @type {any} */ point) => (point.group === "front" ? Number(marked(point)) : 2);
   return explorer.shown().sort((a, b) => rank(a) - rank(b)).map((point) => {
-    const places = columns.map((column, i) => [axes[i].x, placeOn(axes[i], explorer.valueAt(column, point))]);
+    const places = columns.map((column, i) => place(axes[i], explorer.valueAt(column, point)));
     const line = svg("polyline", {
-      points: places.map((place) => place.join()).join(" "), stroke: marked(point) ? MARKS[point.group] : FAINT,
+      points: places.join(" "), stroke: marked(point) ? MARKS[point.group] : FAINT,
       "stroke-width": point.group === "front" ? 1 : 2, "stroke-opacity": point.group === "front" ? 0.35 : 1,
       "stroke-dasharray": point.group === "present" ? "7 4" : "none",
     });

@@ -12,6 +12,7 @@ import { drawFilters } from "./filters.js";
 import { drawFront } from "./front_plots.js";
 import { drawLaws } from "./law_panel.js";
 import { drawLines } from "./lines.js";
+import { fitToPaper } from "./printing.js";
 
 /**
  * Return the compressed text of an element of the page.
@@ -38,6 +39,7 @@ async function draw() {
   drawCurves(explorer);
   drawDetails(explorer);
   drawDownloads(explorer, record.study);
+  fitToPaper();
   document.body.classList.add("drawn");
 }
 
