@@ -64,3 +64,13 @@ def test_the_study_file_takes_any_design(study, record, tmp_path):
     found = load_study(tmp_path / "mine.toml")
     assert list(found.present.values()) == design
     assert found.problem == study.problem
+
+
+def test_a_limit_in_the_worst_load_case_is_no_limit_of_the_mean():
+    problem = load_study("full_car").problem
+    found = {one.name: one.limits for one in columns_of(problem) if one.kind != "variable"}
+    assert found["SWS"] == (None, None)
+    assert found["SWS, worst case"] == (None, 0.012)
+    worst = {one.name: one.limits for one in columns_of(problem.replace(worst_case=True))}
+    assert worst["SWS"] == (None, 0.012)
+    assert "SWS, worst case" not in worst
