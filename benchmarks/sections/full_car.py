@@ -30,7 +30,7 @@ COMFORT = (
     ("roll_acceleration", "We", 0.63),
     ("pitch_acceleration", "We", 0.4),
 )
-"""Response, weighting and multiplying factor of the study's objective comfort."""
+"""Response, weighting and multiplying factor of the study's objective discomfort."""
 
 
 def problem() -> RideProblem:
@@ -147,10 +147,10 @@ def _of_case(
     spectra = np.einsum("nmi,nij,nmj->mn", h, roads, h.conj()).real
     density = dict(zip(car.output_labels, spectra, strict=True))
     static = case.vehicle.static(middle)["value"]
-    comfort = sum((k * by_name(name).factor(f)) ** 2 * density[response] for response, name, k in COMFORT)
+    discomfort = sum((k * by_name(name).factor(f)) ** 2 * density[response] for response, name, k in COMFORT)
     travel = [density[f"{wheel}_suspension_travel"] @ w for wheel in WHEELS]
     load = [density[f"{wheel}_tyre_load"] @ w / static[f"{wheel}_wheel_load"] ** 2 for wheel in WHEELS]
-    return np.array([comfort @ w, max(travel), max(load)])
+    return np.array([discomfort @ w, max(travel), max(load)])
 
 
 def seconds_of_usual_way(ride: RideProblem, designs: int) -> float:

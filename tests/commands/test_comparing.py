@@ -82,11 +82,11 @@ def test_compare_on_a_study_goes_on_and_judges_quality(called, checkout, tmp_pat
     assert "Limits: SWS <= 12 mm, roll_gradient <= 6" in done.stdout
     assert "Road of all cases: ISO 8608 class C, geometric mean" in done.stdout
     assert "Case 3, share 0.2: 30 m/s." in done.stdout
-    assert "ACC is weighted" not in done.stdout  # comfort has weightings of its own
+    assert "ACC is weighted" not in done.stdout  # discomfort has weightings of its own
     front = pd.read_csv(out / "fronts" / "moead-dra_n20_i2_r1.csv")
     assert list(front.columns) == [
         *VARIABLES, "driver.spring [N/m]", "driver.damper [N s/m]",
-        "comfort [m/s^2]", "SWS [m]", "DLC [-]", "violation",
+        "discomfort [m/s^2]", "SWS [m]", "DLC [-]", "violation",
     ]  # fmt: skip
     assert front.violation.eq(0).all()
     before = {path: path.stat().st_mtime_ns for path in (out / "timed" / "runs").iterdir()}

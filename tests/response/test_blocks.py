@@ -163,7 +163,7 @@ STRUTS = ("front.spring", "front.damper", "rear.spring", "rear.damper", "front_a
 
 
 def ready(p: RideProblem) -> OneStrut | ManyStruts:
-    (case,) = p.kernel.cases
+    (case,) = p.scores.kernel(p.nodes).cases
     return case
 
 
