@@ -22,6 +22,7 @@ from sections import (
     evaluation,
     full_car,
     moead_limits,
+    page_tables,
     process,
     report,
     roofline,
@@ -127,10 +128,10 @@ def main(
     if docs:
         write_page(docs, found, settings, machine)
     terminal.show("In short", summary.goals(found), {"here": 3})
-    terminal.show("NSGA-II, ms", report.nsga2_table(found))
-    terminal.show("NSGA-II, ratio to ours", report.nsga2_ratios(found))
-    terminal.show("MOEA/D", report.moead_table(found))
-    terminal.show("Time to the hypervolume", report.target_table(found))
+    terminal.show("NSGA-II, ms", page_tables.nsga2_table(found))
+    terminal.show("NSGA-II, ratio to ours", page_tables.nsga2_ratios(found))
+    terminal.show("MOEA/D", page_tables.moead_table(found))
+    terminal.show("Time to the hypervolume", page_tables.target_table(found))
     for name, reason in field.absent.items():
         terminal.note(f"Absent: {name} ({reason})")
     terminal.end(folder)

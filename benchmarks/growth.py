@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from typer import Option
 
 from peers import OURS, Contenders, contenders
-from sections import growth, report, searches, struts
+from sections import growth, page_tables, searches, struts
 from suspension_ctrl import tables as files
 from suspension_ctrl.commands import results, terminal
 from suspension_ctrl.study import machine as environment
@@ -164,7 +164,9 @@ def exponent_table(timings: pd.DataFrame) -> pd.DataFrame:
                     f"{curve.size}, per {curve.of}",
                     line,
                     f"{least:,} to {most:,}",
-                    f"{report.number(1e6 * cost)} µs" if curve.of == "design" else f"{report.number(cost)} s",
+                    f"{page_tables.number(1e6 * cost)} µs"
+                    if curve.of == "design"
+                    else f"{page_tables.number(cost)} s",
                     "" if np.isnan(b := found[curve.name, line]) else f"{round(b, 2) + 0.0:.2f}",
                 )
             )
@@ -196,14 +198,14 @@ def page(
     settings: dict[str, Any],
 ) -> str:
     """Return the page as Markdown, its picture being ``growth.png`` beside it."""
-    peaks = memory.assign(size=memory["size"].map("{:,}".format), MB=memory.MB.map(report.number))
+    peaks = memory.assign(size=memory["size"].map("{:,}".format), MB=memory.MB.map(page_tables.number))
     parts = [
         "# How cost grows",
         f"Written by `python benchmarks/growth.py --docs docs`. {machine['processor']}, one thread; Python "
         f"{machine['python']}. Medians of {settings['repeats']} repeats. An exponent is b of seconds ~ size^b, "
         "fitted to the upper half of the sizes: 0 costs nothing more, 1 grows in proportion.",
         "![Seconds against each size](growth.png)",
-        report.markdown(exponent_table(timings)),
+        page_tables.markdown(exponent_table(timings)),
         f"Designs are those of a quarter car and of `jian_2022_full` with springs and dampers of both axles, 256 "
         "nodes unless they vary. Struts are those of `kraz_semitrailer`, two of each axle that varies, in two "
         "tracks. Coordinates are seven of the rigid full car and modes of its bending body, imported as a plant. "
@@ -213,7 +215,7 @@ def page(
         "takes N^2.",
         "## Memory",
         "Peak of a process, imports included.",
-        report.markdown(peaks),
+        page_tables.markdown(peaks),
         *projection(timings, overhead),
     ]
     return "\n\n".join(parts) + "\n"
@@ -238,7 +240,7 @@ def projection(timings: pd.DataFrame, overhead: float) -> list[str]:
         f"## {DESIGNS:,} designs",
         "On paper: what a Dask cluster would take, from the seconds per design above and the "
         f"{1e3 * overhead:.2g} ms of its scheduler per task that were measured here with one process.",
-        report.markdown(table),
+        page_tables.markdown(table),
         f"It is assumed that a task evaluates {BATCH:,} designs drawn from its number as seed and returns its "
         "non-dominated ones, so that no designs travel; that cores are like this one and each has memory for a "
         "task; that the scheduler hands out one task after the other and so bounds the whole; that the last task "

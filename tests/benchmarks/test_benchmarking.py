@@ -14,6 +14,7 @@ from sections import (
     evaluation,
     full_car,
     moead_limits,
+    page_tables,
     process,
     report,
     roofline,
@@ -326,7 +327,7 @@ def test_page_has_all_sections_and_the_absent():
         "## Struts",
     ):
         assert words in text
-    assert report.nsga2_ratios(found)["N = 1,000"].tolist() == ["1.00", "4.00"]
+    assert page_tables.nsga2_ratios(found)["N = 1,000"].tolist() == ["1.00", "4.00"]
     assert len(report.picture(found).axes[0].lines) == 2
 
 
@@ -334,7 +335,7 @@ def test_page_has_all_sections_and_the_absent():
     ("value", "shown"), [(1234.5, "1,234"), (12.34, "12.3"), (0.0123, "0.0123"), (0.0, "0"), (np.nan, "")]
 )
 def test_three_digits(value, shown):
-    assert report.number(value) == shown
+    assert page_tables.number(value) == shown
 
 
 @pytest.mark.filterwarnings("ignore:Badly conditioned")  # scipy, of zeros ahead of its numerators
