@@ -4,8 +4,10 @@ Numba stores no function that takes another function as an argument. It does sto
 verb is a callable named tuple of settings, and `call` finds its ``__call__`` at compile time.
 """
 
+import gc
 from collections import namedtuple
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import lru_cache
 from itertools import count
 from types import FunctionType
@@ -28,7 +30,7 @@ def compiled(**options: Any) -> Callable[[F], F]:
 
     In a read-only installation without a home there is no place to store it.
     """
-    options |= {"no_cfunc_wrapper": True}
+    options |= {"no_cfunc_wrapper": True, "pipeline_class": _WholeCompiler}
 
     def decorator(function: F) -> F:
         try:
@@ -48,6 +50,31 @@ def compilable(**options: Any) -> Callable[[F], F]:
     options |= {"no_cfunc_wrapper": True, "no_cpython_wrapper": True, "pipeline_class": _PartCompiler}
     decorator: Callable[[F], F] = register_jitable(**options)
     return decorator
+
+
+@contextmanager
+def uncollected() -> Iterator[None]:
+    """Leave garbage alone in the block.
+
+    Most of the objects that compilation makes are kept, and the collector would walk through all of them again and
+    again: an eighth of the time to compile.
+    """
+    collects = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if collects:
+            gc.enable()
+
+
+class _WholeCompiler(_Compiler):  # type: ignore[misc]
+    """Numba's compiler of a function and of all that it calls."""
+
+    def compile_extra(self, function: Any) -> Any:
+        """Return the compiled function."""
+        with uncollected():
+            return super().compile_extra(function)
 
 
 class _Part(_Library):  # type: ignore[misc]

@@ -6,13 +6,11 @@ import numpy as np
 
 from ..compiled import compiled, uncounted
 from ..quantities import Complex, Integer, Real
+from .lanes import WIDTH, Lanes, fused, load, spread, store, total
 from .ports import Ports
 
 _TOGETHER = 4
 """Designs that are summed at once: a sum has the same order whether they are four or one."""
-# The sums over frequencies may be taken in whatever order suits the processor, the same one for every design;
-# numpy's error model leaves out a check for division by zero that would keep the loop from being vectorised.
-_LOOPS: dict[str, Any] = {"nogil": True, "fastmath": {"reassoc", "contract", "nsz"}, "error_model": "numpy"}
 
 
 class OneStrut(NamedTuple):
@@ -22,13 +20,13 @@ class OneStrut(NamedTuple):
     a = P11, b = P12 P21 - P11 P22, c = -P22: |a + b D|^2 and |1 + c D|^2 are linear in 1, K, C, K^2, C^2.
     """
 
-    denominator: Real  # (4, n), coefficients of |1 + c D|^2 - 1 at n frequencies: of K, C, K^2, C^2
+    denominator: Real  # (4, n), coefficients of |1 + c D|^2 - 1: of K, C, K^2, C^2; n is a multiple of 16
     numerators: Real  # (q, n), of |a + b D|^2 times a density, those that are not zero throughout
     term: Integer  # (q,), the term of each numerator
     power: Integer  # (q,), its power of a design
     terms: int
 
-    @compiled(**_LOOPS)
+    @compiled(nogil=True, error_model="numpy")
     def __call__(self, designs: Real) -> Real:
         """Return the mean squares (p, k) of designs (p, 2), K [N/m] and C [N s/m], each as if alone."""
         last, n = designs.shape[0] - 1, self.denominator.shape[1]
@@ -49,7 +47,10 @@ class OneStrut(NamedTuple):
 
     @classmethod
     def around(cls, ports: Ports, omega: Real, densities: Real) -> "OneStrut":
-        """Take ports at `omega` (n,) [rad/s] and densities (k, n): road, squared weighting, quadrature weight."""
+        """Take ports at `omega` (f,) [rad/s] and densities (k, f): road, squared weighting, quadrature weight.
+
+        Columns after those of the f frequencies fill up a multiple of two times `WIDTH` and add nothing.
+        """
         p21, p22 = ports.h[:, -1, 0], ports.h[:, -1, 1]
         numerators = np.array(
             [
@@ -59,7 +60,9 @@ class OneStrut(NamedTuple):
         ).reshape(ports.m, 5, omega.size)
         term, power = map(np.ascontiguousarray, np.nonzero(numerators.any(axis=2)))  # as pickles hold them
         denominator = _square_of_line(np.ones_like(p22), -p22, omega)
-        return cls(denominator[1:], numerators[term, power], term, power, ports.m)
+        filled = (0, 0), (0, -omega.size % (2 * WIDTH))
+        numerators = np.pad(numerators[term, power], filled)
+        return cls(np.pad(denominator[1:], filled, mode="edge"), numerators, term, power, ports.m)
 
 
 class OneDesign(NamedTuple):
@@ -67,7 +70,7 @@ class OneDesign(NamedTuple):
 
     strut: OneStrut
 
-    @compiled(**_LOOPS)
+    @compiled(nogil=True, error_model="numpy")
     def __call__(self, designs: Real) -> Real:
         """Return the mean squares (p, k) of designs (p, 2)."""
         numerators, terms, exponents = self.strut.numerators, self.strut.term, self.strut.power
@@ -82,35 +85,48 @@ class OneDesign(NamedTuple):
         return result
 
 
-@compiled(inline="always")
+@uncounted(error_model="numpy")
 def fill_gains(denominator: Real, k: float, c: float, p: int, gain: Real, power: Real) -> None:
     """Fill in row p of the scaled gains 1 / |1 + c D|^2 (4, n) and of the powers of a design (4, 5)."""
-    n, half = gain.shape[1], gain.shape[1] // 2
+    half = gain.shape[1] // 2
     scale = 1.0 / (1.0 + k * k + c * c)  # keeps the products of two denominators in range
-    powers = (scale, scale * k, scale * c, scale * k * k, scale * c * c)
-    for i in range(5):
-        power[p, i] = powers[i]
-    for i in range(half):  # one division for two frequencies: it takes as long as ten multiplications
-        one, other = polynomial(denominator, powers, i), polynomial(denominator, powers, half + i)
-        inverse = 1.0 / (one * other)
-        gain[p, i], gain[p, half + i] = inverse * other, inverse * one
-    if 2 * half < n:
-        gain[p, 2 * half] = 1.0 / polynomial(denominator, powers, 2 * half)
+    power[p, 0], power[p, 1], power[p, 2], power[p, 3], power[p, 4] = (
+        scale,
+        scale * k,
+        scale * c,
+        scale * k * k,
+        scale * c * c,
+    )
+    for i in range(0, half, WIDTH):  # one division for two frequencies: it takes as long as ten multiplications
+        one, other = loops_at(denominator, power, p, i), loops_at(denominator, power, p, half + i)
+        inverse = spread(1.0) / (one * other)
+        store(inverse * other, gain, (p, i))
+        store(inverse * one, gain, (p, half + i))
 
 
-@uncounted(**_LOOPS)
+@uncounted(forceinline=True)
+def loops_at(denominator: Real, power: Real, p: int, i: int) -> Lanes:
+    """Return |1 + c D|^2 times the scale at eight frequencies."""
+    found = fused(load(denominator, (0, i)), spread(power[p, 1]), spread(power[p, 0]))
+    for j in range(1, 4):
+        found = fused(load(denominator, (j, i)), spread(power[p, j + 1]), found)
+    return found
+
+
+@uncounted()
 def sums(left: Real, q: int, r: int, right: Real, a: int, b: int, c: int, d: int) -> tuple[Any, Any]:
     """Return the sums of the products of rows q and r of `left` (i, n), each with four rows of `right` (k, n).
 
     Two rows are loaded once for four others; a design has the same bits as one of four and alone.
     """
-    s, t, u, v = 0.0, 0.0, 0.0, 0.0
-    e, f, g, h = 0.0, 0.0, 0.0, 0.0
-    for i in range(left.shape[1]):
-        x, y = left[q, i], left[r, i]
-        s, t, u, v = s + right[a, i] * x, t + right[b, i] * x, u + right[c, i] * x, v + right[d, i] * x
-        e, f, g, h = e + right[a, i] * y, f + right[b, i] * y, g + right[c, i] * y, h + right[d, i] * y
-    return (s, t, u, v), (e, f, g, h)
+    s = t = u = v = spread(0.0)
+    e = f = g = h = spread(0.0)
+    for i in range(0, left.shape[1], WIDTH):
+        x, y = load(left, (q, i)), load(left, (r, i))
+        k, l, m, n = load(right, (a, i)), load(right, (b, i)), load(right, (c, i)), load(right, (d, i))
+        s, t, u, v = fused(k, x, s), fused(l, x, t), fused(m, x, u), fused(n, x, v)
+        e, f, g, h = fused(k, y, e), fused(l, y, f), fused(m, y, g), fused(n, y, h)
+    return (total(s), total(t), total(u), total(v)), (total(e), total(f), total(g), total(h))
 
 
 @compiled(inline="always")

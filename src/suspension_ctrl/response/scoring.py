@@ -8,6 +8,7 @@ from itertools import product
 import numpy as np
 
 from .. import checks
+from ..compiled import uncollected
 from ..quantities import Real
 from ..vehicles.varied import Varied, ported, setting_of
 from ..vehicles.vehicle import Struts, coefficients_by_name
@@ -115,8 +116,10 @@ class Scoring:
         """Return the nodes, found if not given; ValueError where they do not resolve every resonance."""
         if nodes is not None:
             nodes = checks.at_least("nodes", nodes, 2)
-        taken = nodes or next((n for n in NODES if self._error(n) < RESOLVED), NODES[-1])
-        if (error := self._error(taken)) < RESOLVED:
+        with uncollected():  # the first that is compiled in a process, or loaded: numba sets itself up
+            taken = nodes or next((n for n in NODES if self._error(n) < RESOLVED), NODES[-1])
+            error = self._error(taken)
+        if error < RESOLVED:
             return taken
         several = any(case.wheels > 1 for case in self.cases) and not self.band[0]
         hint = "; under several wheels a band may have to begin above 0 Hz" if several else ""
