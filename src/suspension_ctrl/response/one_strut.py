@@ -90,13 +90,8 @@ def fill_gains(denominator: Real, k: float, c: float, p: int, gain: Real, power:
     """Fill in row p of the scaled gains 1 / |1 + c D|^2 (4, n) and of the powers of a design (4, 5)."""
     half = gain.shape[1] // 2
     scale = 1.0 / (1.0 + k * k + c * c)  # keeps the products of two denominators in range
-    power[p, 0], power[p, 1], power[p, 2], power[p, 3], power[p, 4] = (
-        scale,
-        scale * k,
-        scale * c,
-        scale * k * k,
-        scale * c * c,
-    )
+    power[p, 0], power[p, 1], power[p, 2] = scale, scale * k, scale * c
+    power[p, 3], power[p, 4] = scale * k * k, scale * c * c
     for i in range(0, half, WIDTH):  # one division for two frequencies: it takes as long as ten multiplications
         one, other = loops_at(denominator, power, p, i), loops_at(denominator, power, p, half + i)
         inverse = spread(1.0) / (one * other)
@@ -123,9 +118,9 @@ def sums(left: Real, q: int, r: int, right: Real, a: int, b: int, c: int, d: int
     e = f = g = h = spread(0.0)
     for i in range(0, left.shape[1], WIDTH):
         x, y = load(left, (q, i)), load(left, (r, i))
-        k, l, m, n = load(right, (a, i)), load(right, (b, i)), load(right, (c, i)), load(right, (d, i))
-        s, t, u, v = fused(k, x, s), fused(l, x, t), fused(m, x, u), fused(n, x, v)
-        e, f, g, h = fused(k, y, e), fused(l, y, f), fused(m, y, g), fused(n, y, h)
+        one, two, three, four = load(right, (a, i)), load(right, (b, i)), load(right, (c, i)), load(right, (d, i))
+        s, t, u, v = fused(one, x, s), fused(two, x, t), fused(three, x, u), fused(four, x, v)
+        e, f, g, h = fused(one, y, e), fused(two, y, f), fused(three, y, g), fused(four, y, h)
     return (total(s), total(t), total(u), total(v)), (total(e), total(f), total(g), total(h))
 
 

@@ -17,8 +17,6 @@ from ..vehicles.unit_slips import warn_of_slip
 from ..vehicles.vehicle import Struts, Vehicle
 from .bands import OwnBand, band_of
 from .bounds import checked_bounds
-from .gradients.robust_scores import over_scatter
-from .gradients.scores import with_jacobian
 from .load_case import LoadCase, Road, load_cases
 from .measures.limits import Limit
 from .measures.measure import Measure, MeasureLike
@@ -299,6 +297,9 @@ class RideProblem(Record):
 
         The values are those of `evaluate` but for rounding.
         """
+        from .gradients.robust_scores import over_scatter  # a fifth of the time to import this package
+        from .gradients.scores import with_jacobian
+
         x, bounds = self._inside(designs), (np.array(self.lower), np.array(self.upper))
 
         def found(part: slice) -> tuple[Real, Real]:

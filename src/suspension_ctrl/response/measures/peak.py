@@ -11,10 +11,7 @@ from ... import checks
 from ...quantities import Real, signal_unit
 from ...vehicles.assembly import joined
 from ...vehicles.vehicle import Vehicle
-from ..driven_peaks import at_rest
-from ..driving import simulate
 from ..load_case import LoadCase
-from ..peaks import peaks
 from ..weightings import Weighting
 from .measure import Measure
 from .terms import CaseMeasure, Designs
@@ -92,6 +89,10 @@ class Peak(Measure, word="peak"):
 
     def in_case(self, case: LoadCase, _weighting: Weighting | None, /) -> CaseMeasure:
         """Return the measure in a load case; ValueError if it lacks the response or the event."""
+        from ..driven_peaks import at_rest  # integration in time, which few problems need
+        from ..driving import simulate
+        from ..peaks import peaks
+
         event, speed = case.drive(self.event)
         responses = responses_at(case.vehicle, self.response)
         event.elevation(np.zeros(1), case.vehicle.contact_points, speed)  # which the wheels of a rig may refuse
