@@ -17,7 +17,7 @@ compare: $(READY)
 	$(BIN)/python scripts/compare.py $(ARGS)
 
 test: $(READY)
-	$(BIN)/python -m pytest -n 2 --dist loadfile $(ARGS)
+	$(BIN)/python -m pytest -n 2 --dist worksteal $(ARGS)
 
 bench: $(PEERS)
 	$(BIN)/python benchmarks/benchmark.py $(or $(ARGS),--docs docs)

@@ -1,5 +1,6 @@
 """Fixtures shared by the tests: the paper's problem, and where the checkout is."""
 
+import gc
 import os
 import signal
 import subprocess
@@ -20,6 +21,16 @@ Script = Callable[..., subprocess.CompletedProcess]
 # Examples are drawn from a fixed stream, so that a failure can be had again; timings of examples say nothing here.
 settings.register_profile("suspension_ctrl", deadline=None, derandomize=True, max_examples=50)
 settings.load_profile("suspension_ctrl")
+
+
+# All that is imported and collected is there to the end: the garbage collector need not look through it.
+def pytest_configure() -> None:
+    gc.disable()
+
+
+def pytest_collection_finish() -> None:
+    gc.freeze()
+    gc.enable()
 
 
 @pytest.fixture(scope="session")
