@@ -52,7 +52,7 @@ SETTINGS: dict[str, Any] = {
     "derivative_cases": tuple(row.case for row in derivatives.ROWS),
     "populations": (500, 1000, 4000, 16_000),
     "generations": 20,
-    "limit": 60.0,
+    "limit": 10.0,
     "repeat_limit": 5.0,
     "moead_population": 1000,
     "moead_generations": 4,  # 5,000 evaluations, those of MOEA/D-DRA in 20 iterations
