@@ -34,13 +34,18 @@ def test_blocks_run_at_the_same_time_on_as_many_threads_as_asked_for():
 
     in_blocks(meet, 3, MUCH, 3)
     assert len(seen) == 3
-    assert threading.get_ident() not in seen
+    assert threading.get_ident() in seen  # the caller's works too
 
 
-@pytest.mark.parametrize(("work", "threads"), [(MUCH, 1), (1 << 21, 4)])
-def test_little_work_and_one_thread_stay_on_the_caller_s(work, threads):
-    found = in_blocks(lambda part: (part, threading.get_ident()), 100, work, threads)
-    assert found == [(slice(0, 100), threading.get_ident())]
+@pytest.mark.parametrize(("work", "threads", "parts"), [(MUCH, 1, 100), (1 << 21, 4, 1)])
+def test_little_work_and_one_thread_stay_on_the_caller_s(work, threads, parts):
+    found = in_blocks(lambda part: (part.stop - part.start, threading.get_ident()), 100, work, threads)
+    assert found == [(100 // parts, threading.get_ident())] * parts
+
+
+def test_a_block_may_have_blocks_of_its_own():
+    inner = in_blocks(lambda _: in_blocks(lambda part: part.start, 4, MUCH, 2), 4, MUCH, 2)
+    assert inner == [[0, 1, 2, 3]] * 4
 
 
 def test_the_first_error_is_raised_and_what_waits_is_not_begun():

@@ -4,12 +4,12 @@ Each row has its result by itself, so that the bits do not depend on the number 
 """
 
 import os
+from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import lru_cache
-from itertools import pairwise
 from typing import Any, TypeVar
 
 from . import checks
@@ -48,20 +48,38 @@ def _processors() -> int:
 def in_blocks(function: Callable[[slice], T], rows: int, work: int, threads: int) -> list[T]:
     """Return the results of a function of parts of so many rows, in order: of the whole if the work is little.
 
-    The work is the count of numbers that are passed through. An exception is that of the first part that has one.
-    The function may not call this one.
+    The work is the count of numbers that are passed through. Every thread, the caller's too, takes the next part
+    when it is done with one. An exception is that of the first part that has one.
     """
-    blocks = min(rows, work // _LEAST, -(-(work // _BLOCK + 1) // threads) * threads)
-    if threads == 1 or blocks <= 1:
-        return [function(slice(0, rows))]
-    pool, edges = _pool(os.getpid(), threads), [rows * i // blocks for i in range(blocks + 1)]
-    futures: list[Future[T]] = []
+    blocks = max(1, min(rows, work // _LEAST, -(-(work // _BLOCK + 1) // threads) * threads))
+    edges = [rows * i // blocks for i in range(blocks + 1)]
+    waiting = deque(enumerate(map(slice, edges, edges[1:])))
+    results: list[Any] = [None] * blocks
+    errors: dict[int, Exception] = {}
+
+    def work_on() -> None:
+        while waiting:
+            try:
+                place, part = waiting.popleft()
+            except IndexError:  # another thread took the last
+                return
+            try:
+                results[place] = function(part)
+            except Exception as error:  # which the caller's thread raises
+                errors[place] = error
+                waiting.clear()
+
+    helpers = [_pool(os.getpid(), threads - 1).submit(work_on) for _ in range(min(threads, blocks) - 1)]
     try:
-        futures += [pool.submit(function, slice(*each)) for each in pairwise(edges)]
-        return [future.result() for future in futures]
+        work_on()
+        for helper in helpers:
+            if not helper.cancel():  # one that has not begun is not needed
+                helper.result()
     finally:  # an interrupt too
-        for future in futures:
-            future.cancel()
+        waiting.clear()
+    if errors:
+        raise errors[min(errors)]
+    return results
 
 
 @lru_cache(maxsize=4)

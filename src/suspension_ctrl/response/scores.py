@@ -157,15 +157,16 @@ class Scores:
 
     def evaluate(self, designs: Real, nodes: int, threads: int = 1) -> Real:
         """Return the scores (p, s) of designs (p, v); functions of designs are called on this thread."""
-        found = self.in_blocks(lambda part: self._by_kernel(designs[part], nodes), len(designs), nodes, threads)
-        scores, squares = (list(each) for each in zip(*found, strict=True))
-        if len(found) == 1 and self.compiled:
-            return scores[0]
-        whole = np.concatenate(scores)
+        result = np.empty((len(self.scores), len(designs))).T
+
+        def fill(part: slice) -> list[Real]:
+            return self._fill(result[part], designs[part], nodes)
+
+        squares = self.in_blocks(fill, len(designs), nodes, threads)
         if self.functions:
             by_case = [np.concatenate(each) for each in zip(*squares, strict=True)]
-            self.fill_functions(whole, designs, nodes, by_case, self.functions)
-        return whole
+            self.fill_functions(result, designs, nodes, by_case, self.functions)
+        return result
 
     def in_blocks(
         self, function: Callable[[slice], T], designs: int, nodes: int, threads: int, times: int = 1
@@ -177,19 +178,21 @@ class Scores:
         passed = designs * times * numbers_in(self.kernel(nodes).cases)
         return in_blocks(function, designs, passed, threads)
 
-    def _by_kernel(self, designs: Real, nodes: int) -> tuple[Real, list[Real]]:
-        """Return the scores (p, s) of designs (p, v) without functions, and the mean squares (p, k) of cases."""
+    def _fill(self, scores: Real, designs: Real, nodes: int) -> list[Real]:
+        """Fill in scores (p, s) of designs (p, v) without functions; return the mean squares (p, k) of cases."""
         kernel = self.kernel(nodes)
         squares = [mean_squares_of(case, designs) for case in kernel.cases]
         if self._simple:
             which, factor = self._simple
-            found = reached(squares[0], designs).T[which]  # a copy, which stays in the cache
-            found *= factor
+            found = scores.T
+            np.multiply(reached(squares[0], designs).T[which], factor, out=found)
             np.sqrt(found, out=found)
-            found *= kernel.scale[:, None]
-            found += kernel.offset[:, None]
-            return found.T, squares
-        return reached(kernel.scores(squares), designs), squares
+            if not self._plain:  # each pass hands the interpreter from thread to thread
+                found *= kernel.scale[:, None]
+                found += kernel.offset[:, None]
+        else:
+            scores[:] = reached(kernel.scores(squares), designs)
+        return squares if self.functions else []
 
     def fill_functions(
         self, scores: Real, designs: Real, nodes: int, mean_squares: Sequence[Real], columns: Sequence[int]
@@ -243,12 +246,19 @@ class Scores:
         ]
 
     @cached_property
-    def _simple(self) -> tuple[Integer, Real] | None:
+    def _simple(self) -> tuple[Integer | slice, Real] | None:
         """Index (s,) and factor (s, 1) of the mean square of each score if each has one in one case, else None."""
         squares = self._squares[0]
         if len(self.cases) > 1 or (np.count_nonzero(squares, axis=1) != 1).any():
             return None
-        return squares.argmax(axis=1), squares.max(axis=1, keepdims=True)
+        which, count = squares.argmax(axis=1), len(self.terms[0])
+        whole = np.array_equal(which, np.arange(count))
+        return slice(None) if whole else which, squares.max(axis=1, keepdims=True)
+
+    @cached_property
+    def _plain(self) -> bool:
+        """Whether scores have no factor and no constant."""
+        return all((score.scale, score.offset) == (1.0, 0.0) for score in self.scores)
 
     @cached_property
     def _squares(self) -> Real:
