@@ -22,9 +22,9 @@ from suspension_ctrl import tables as files
 from suspension_ctrl.commands import options, results, terminal
 from suspension_ctrl.search.indicators import ReferenceFront
 from suspension_ctrl.study import inference as statistics
-from suspension_ctrl.study import study
 from suspension_ctrl.study import workers as clusters
 from suspension_ctrl.study.comparison import optimiser
+from suspension_ctrl.study.judging import POPULATION
 from suspension_ctrl.study.study import Study
 
 ALGORITHMS = ("nsga2", "moead-dra", "random", "sobol")
@@ -68,7 +68,7 @@ def main(
         made = terminal.progress(one.carry_out(store, client), len(one.runs()))
         failures = {run.name: failure for run, failure in made if failure}
     table = one.table(store, failures).drop(columns="seconds")
-    final = table[table.set == study.POPULATION]
+    final = table[table.set == POPULATION]
     files.write_csv(folder / "runs.csv", table)
     medians = final.pivot_table("relative_hypervolume", "problem", "algorithm", "median", sort=False)
     files.write_table(folder / "medians", medians.reset_index())

@@ -1,3 +1,4 @@
+import moocore
 import numpy as np
 import pytest
 
@@ -80,6 +81,15 @@ def test_relative_hypervolume_of_a_front_is_one():
     front = ReferenceFront.of(sphere(20))
     assert front.relative_hypervolume(sphere(20)) == pytest.approx(1)
     assert front.relative_hypervolume([[2.0, 2.0, 2.0]]) == 0
+
+
+def test_igd_plus_is_that_of_moocore():
+    """Of some points beyond the front and some that it dominates; sums of 231 numbers, rounded by some 1e-15."""
+    front, points = ReferenceFront.of(sphere(20)), np.random.default_rng(1).normal(0.6, 0.2, (50, 3))
+    scaled = front.scaled(points), front.scaled(front.objectives)
+    assert front.igd_plus(points) == pytest.approx(moocore.igd_plus(scaled[0], ref=scaled[1]), rel=1e-12)
+    parts = front.gaps(points[20:], front.gaps(points[:20]))
+    np.testing.assert_array_equal(parts, front.gaps(points))
 
 
 def test_epsilon_is_the_shift_that_is_needed():

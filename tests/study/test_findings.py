@@ -9,7 +9,7 @@ import pytest
 from suspension_ctrl import Problem
 from suspension_ctrl.study.comparison import Comparison
 from suspension_ctrl.study.findings import findings
-from suspension_ctrl.study.study import ARCHIVE, CUT_ARCHIVE, INDICATORS, POPULATION
+from suspension_ctrl.study.judging import ARCHIVE, CUT_ARCHIVE, INDICATORS, POPULATION
 
 
 @pytest.fixture

@@ -12,8 +12,9 @@ from suspension_ctrl import MoeadDra, Nsga2, Problem, minimise
 from suspension_ctrl.search.indicators import ReferenceFront, non_dominated
 from suspension_ctrl.search.sampling import Sampling
 from suspension_ctrl.search.trace import trace
+from suspension_ctrl.study.judging import ARCHIVE, CUT_ARCHIVE, INDICATORS, POPULATION
 from suspension_ctrl.study.store import FolderStore
-from suspension_ctrl.study.study import ARCHIVE, CUT_ARCHIVE, INDICATORS, POPULATION, ApproximationWarning, Study
+from suspension_ctrl.study.study import ApproximationWarning, Study
 
 F1 = np.linspace(0, 1, 200)
 ZDT1_FRONT = ReferenceFront.of(np.stack([F1, 1 - np.sqrt(F1)], axis=1))

@@ -21,12 +21,12 @@ from ..response.problem import RideProblem
 from ..search.indicators import non_dominated
 from ..search.population import Population
 from ..search.problem import headers_of
-from ..study import study, timing
+from ..study import timing
 from ..study.comparison import CONFIGURATION
 from ..study.findings import Findings
+from ..study.judging import INDICATORS, POPULATION
 from ..study.reference import Reference
 from ..study.store import VIOLATION, StoredRun
-from ..study.study import INDICATORS
 from . import reports
 from .comparison_texts import outcome_texts
 
@@ -147,7 +147,7 @@ def _times(request: "Request", outcome: Outcome) -> Tables:
 
 def _quality(findings: Findings, target: float) -> Tables:
     """Return medians by lens, effort to the target, and differences."""
-    medians = findings.medians[findings.medians.set == study.POPULATION]
+    medians = findings.medians[findings.medians.set == POPULATION]
     kept = ["lens", *CONFIGURATION, "algorithm", "evaluations", *INDICATORS]
     found = {
         "Final populations, medians by lens": medians[kept],

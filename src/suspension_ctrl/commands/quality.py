@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from .. import escaping
-from ..study import figures, inference, lenses, study
+from ..study import figures, inference, lenses
 from ..study.comparison import CONFIGURATION
 from ..study.findings import Findings
+from ..study.judging import CUT_ARCHIVE, INDICATORS, POPULATION
 from ..study.store import StoredRun
-from ..study.study import INDICATORS
 from ..tables import write_csv, write_figure, write_table, write_text
 from . import stages, terminal
 
@@ -55,11 +55,11 @@ def _header(column: str) -> str:
 def _draw(request: "Request", results: Findings, store: Mapping[str, StoredRun], population: int) -> None:
     comparison, folder = request.campaign.comparison, request.campaign.folder
     course = results.course[results.course.population == population]
-    sets = (study.POPULATION, study.CUT_ARCHIVE)
+    sets = (POPULATION, CUT_ARCHIVE)
     write_figure(folder / f"anytime_n{population}", figures.anytime_panels(course, sets))
     equal = results.equal
     at_end = (equal.population == population) & (equal.iterations == max(comparison.iterations))
-    last = equal[at_end & (equal.lens == lenses.EVALUATIONS) & (equal.set == study.POPULATION)]
+    last = equal[at_end & (equal.lens == lenses.EVALUATIONS) & (equal.set == POPULATION)]
     title = f"N = {population}, final populations at equal evaluations, {max(comparison.iterations)} iterations"
     write_figure(folder / f"boxes_n{population}", figures.box_panels(last, INDICATORS, title))
     names = comparison.algorithms[:2]
@@ -72,7 +72,7 @@ def _draw(request: "Request", results: Findings, store: Mapping[str, StoredRun],
 
 def say(results: Findings, target: float) -> None:
     """Print medians, evaluations and time to the target, and the verdict."""
-    final = results.medians[results.medians.set == study.POPULATION]
+    final = results.medians[results.medians.set == POPULATION]
     kept = ["lens", *CONFIGURATION, "algorithm", "evaluations", *INDICATORS]
     terminal.show("Final populations, medians", final[kept].rename(columns=SHORT), DECIMALS, keys=4)
     title = f"To {target:g} of the reference hypervolume, medians"

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from .. import checks
 from ..quantities import Integer, Real, quantity
-from ..search.decomposition import farthest_first
 from ..search.population import Population
 from ..search.problem import Minimisable, headers_of
+from ..search.spreading import farthest_first
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -12,6 +12,7 @@ import numpy as np
 from ..compiled import compilable, compiled
 from ..quantities import Integer, Real, frozen_array
 from .constraints import violations
+from .spreading import farthest_first
 
 ZERO_WEIGHT = 1e-4
 """Replaces a weight of zero, so that every subproblem depends on every objective."""
@@ -29,19 +30,6 @@ def weight_vectors(size: int, objectives: int) -> Real:
     candidates = rng.dirichlet(np.ones(objectives), max(5000, 5 * size))
     points = np.concatenate([np.eye(objectives), candidates])
     return frozen_array(points[farthest_first(points, np.arange(objectives), size)])
-
-
-def farthest_first(points: Real, start: Integer, size: int) -> Integer:
-    """Return the indices (size,) of points (n, m): those of `start`, then repeatedly the farthest point."""
-    columns = np.ascontiguousarray(points.T)
-    chosen = np.empty(size, dtype=np.int64)
-    nearest = np.full(len(points), np.inf)
-    for i in range(size):
-        chosen[i] = start[i] if i < start.size else nearest.argmax()
-        squares = (columns - columns[:, chosen[i], np.newaxis]) ** 2
-        np.minimum(nearest, squares.sum(axis=0), out=nearest)
-        nearest[chosen[i]] = -1.0  # not chosen again, even if only copies are left
-    return chosen
 
 
 def tchebycheff(values: Real, weights: Real, ideal: Real) -> Real:

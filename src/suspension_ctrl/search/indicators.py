@@ -1,9 +1,8 @@
 """Quality of a set of objectives against a reference front, by moocore, in objectives scaled to that front."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import inf
-from typing import Any
 
 import moocore
 import numpy as np
@@ -11,8 +10,9 @@ from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
 from .. import checks
+from ..compiled import compiled
 from ..quantities import Bool, Integer, Real, Record, frozen_array
-from .decomposition import farthest_first
+from .spreading import farthest_first
 
 
 def non_dominated(objectives: ArrayLike) -> Bool:
@@ -137,16 +137,32 @@ class ReferenceFront(Record):
         return self.hypervolume(objectives) / self.volume
 
     def igd_plus(self, objectives: ArrayLike) -> float:
-        """Return the modified inverted generational distance IGD+ of objectives (n, m), scaled [-]."""
-        return self._distance(moocore.igd_plus, objectives)
+        """Return the modified inverted generational distance IGD+ of objectives (n, m), scaled [-].
+
+        H. Ishibuchi, H. Masuda, Y. Tanigaki, Y. Nojima, "Modified distance calculation in generational distance
+        and inverted generational distance", EMO 2015.
+        """
+        return float(np.sqrt(self.gaps(objectives)).mean())
+
+    def gaps(self, objectives: ArrayLike, others: Real | None = None) -> Real:
+        """Return the square (r,) of the distance d+ of each point of this front to objectives (n, m), scaled [-].
+
+        d+ is the distance of the nearest row to all that is no worse than the point; infinite without rows. With
+        the gaps of `others` the result is of these and the objectives together.
+        """
+        gaps = np.full(len(self.objectives), inf) if others is None else others.copy()
+        _narrow(self._columns, self.scaled(objectives), np.empty_like(gaps), gaps)
+        return gaps
 
     def epsilon(self, objectives: ArrayLike) -> float:
         """Return the least shift by which objectives (n, m), scaled, weakly dominate this front [-]."""
-        return self._distance(moocore.epsilon_additive, objectives)
-
-    def _distance(self, measure: Callable[..., Any], objectives: ArrayLike) -> float:
         scaled = self.scaled(objectives)
-        return float(measure(scaled, ref=self.scaled(self.objectives))) if len(scaled) else inf
+        return float(moocore.epsilon_additive(scaled, ref=self._columns.T)) if len(scaled) else inf
+
+    @cached_property
+    def _columns(self) -> Real:
+        """The points of this front, scaled (m, r)."""
+        return np.ascontiguousarray(self.scaled(self.objectives).T)
 
     def spread(self, objectives: ArrayLike) -> float:
         """Return the generalised spread of objectives (n, m), scaled [-]; NaN for fewer than two points.
@@ -158,10 +174,31 @@ class ReferenceFront(Record):
         A. Zhou, Y. Jin, Q. Zhang, B. Sendhoff, E. Tsang, "Combining model-based and genetics-based offspring
         generation for multi-objective optimization using a convergence criterion", IEEE CEC 2006.
         """
-        points = np.unique(self.scaled(objectives), axis=0)
-        if len(points) < 2:
+        points = self.scaled(objectives)
+        tree, gaps = _neighbours(points)
+        if not gaps.all():  # equal points are one
+            tree, gaps = _neighbours(np.unique(points, axis=0))
+        if len(gaps) < 2:
             return float("nan")
-        tree = cKDTree(points)
-        gaps = np.ravel(tree.query(points, k=[2])[0])  # the nearest is the point itself
-        ends = np.sum(tree.query(self.scaled(self.objectives[self.objectives.argmin(axis=0)]))[0])
+        ends = np.sum(tree.query(self._columns[:, self._columns.argmin(axis=1)].T)[0])
         return float((ends + np.abs(gaps - gaps.mean()).sum()) / (ends + gaps.sum()))
+
+
+def _neighbours(points: Real) -> tuple[cKDTree, Real]:
+    """Return points (n, m) as a tree, and the distance (n,) of each to the nearest other one."""
+    tree = cKDTree(points)
+    return tree, np.ravel(tree.query(points, k=[2])[0])  # the nearest is the point itself
+
+
+@compiled()
+def _narrow(columns: Real, points: Real, squares: Real, gaps: Real) -> None:
+    """Lower the gaps (r,) of a front in columns (m, r) to those to the nearest of points (n, m), see `gaps`."""
+    for i in range(points.shape[0]):
+        squares[:] = 0.0
+        for k in range(points.shape[1]):
+            x = points[i, k]
+            for r in range(gaps.size):  # by columns of contiguous numbers, in vectors
+                beyond = max(x - columns[k, r], 0.0)
+                squares[r] += beyond * beyond
+        for r in range(gaps.size):
+            gaps[r] = min(gaps[r], squares[r])

@@ -7,7 +7,7 @@ import pandas as pd
 
 from . import inference, lenses
 from .comparison import CONFIGURATION, Comparison
-from .study import CUT_ARCHIVE, INDICATORS, POPULATION
+from .judging import CUT_ARCHIVE, INDICATORS, POPULATION
 
 SETS = {"final population": POPULATION, "archive cut to N": CUT_ARCHIVE}
 

@@ -3,7 +3,7 @@
 import warnings
 from collections.abc import Iterator, Mapping, MutableMapping, Sequence
 from dataclasses import dataclass, field
-from itertools import chain, product
+from itertools import product
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,22 +11,18 @@ import pandas as pd
 
 from .. import checks
 from ..quantities import FrozenMapping, Record
-from ..search.indicators import ReferenceFront, best_of, evenly_spread
+from ..search.indicators import ReferenceFront, evenly_spread
 from ..search.problem import Minimisable
 from ..search.run import Optimiser
-from ..search.trace import Trace, trace_so_far
+from ..search.trace import trace_so_far
 from ..tables import file_name
 from .calls import in_one_line, outcome, outcomes
+from .judging import INDICATORS, judged
 from .reference import best_known
 from .store import VIOLATION, StoredRun
 
 if TYPE_CHECKING:
     from distributed import Client
-
-POPULATION, ARCHIVE, CUT_ARCHIVE = "population", "archive", "archive of N"
-"""Judged sets of feasible designs: the population; all non-dominated evaluated designs; and N of these, spread."""
-
-INDICATORS = ("relative_hypervolume", "igd_plus", "epsilon", "spread")
 
 
 class ApproximationWarning(UserWarning):
@@ -163,8 +159,8 @@ class Study(Record):
                 yield run, Failure(error)
             else:
                 work[run.name] = (self.problems[problem], run.optimiser, self.budgets, run.seed, reference)
-        for name, judged, error in outcomes(judged_run, work, client):
-            finished, failure = judged or (None, Failure(error))
+        for name, ended, error in outcomes(judged_run, work, client):
+            finished, failure = ended or (None, Failure(error))
             if finished is not None:
                 store[name] = finished
             yield missing[name], failure
@@ -217,8 +213,7 @@ def judged_run(
     start = perf_counter()
     traced, error = trace_so_far(problem, optimiser, budgets, seed)
     seconds = perf_counter() - start
-    judged = (_judged(traced, budget, optimiser.population, reference) for budget in sorted(traced.states))
-    course = pd.DataFrame(chain.from_iterable(judged)).assign(seconds=seconds)
+    course = pd.DataFrame(judged(traced, optimiser.population, reference)).assign(seconds=seconds)
     if error is not None:
         return None, Failure(in_one_line(error), course)
     last = traced.states[max(budgets)]
@@ -227,15 +222,3 @@ def judged_run(
     if problem.constraints:
         final[VIOLATION] = last.violation[kept]
     return StoredRun(course, final), None
-
-
-def _judged(traced: Trace, budget: int, population: int, reference: ReferenceFront) -> Iterator[dict[str, Any]]:
-    """Yield a row per set at a budget."""
-    state, spent = traced.states[budget], traced.spent[budget]
-    archive = best_of(traced.objectives[:spent][traced.feasible[:spent]])
-    best = best_of(state.objectives[state.feasible])
-    cut, best = (front[evenly_spread(front, population)] for front in (archive, best))
-    for name, objectives in ((POPULATION, best), (ARCHIVE, archive), (CUT_ARCHIVE, cut)):
-        indicators = {indicator: getattr(reference, indicator)(objectives) for indicator in INDICATORS}
-        row = {"budget": budget, "evaluations": state.evaluations, "set": name, "members": len(objectives)}
-        yield row | indicators
