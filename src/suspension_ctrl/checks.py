@@ -254,12 +254,13 @@ def designs(values: ArrayLike, variables: int) -> NDArray[np.float64]:
 
 def rows_within(name: str, rows: NDArray[np.float64], lower: ArrayLike, upper: ArrayLike) -> None:
     """Raise ValueError unless all rows (n, d) are within `lower` and `upper` (d,), up to rounding."""
-    low, high = (np.asarray(bound, dtype=float)[:, np.newaxis] for bound in (lower, upper))
+    low, high = (np.asarray(bound, dtype=float) for bound in (lower, upper))
     columns, slack = rows.T.copy(), _SLACK * (high - low)  # (d, n): numpy is slow along short rows
-    inside = (columns >= low - slack) & (columns <= high + slack)
-    if not inside.all():
-        got = rows[inside.all(axis=0).argmin()].tolist()
-        raise ValueError(f"{name} must lie within {low.ravel().tolist()} and {high.ravel().tolist()}, got {got}")
+    ends = columns.min(axis=1, initial=np.inf), columns.max(axis=1, initial=-np.inf)
+    if not ((ends[0] >= low - slack) & (ends[1] <= high + slack)).all():  # or NaN
+        inside = (rows >= low - slack) & (rows <= high + slack)
+        got = rows[inside.all(axis=1).argmin()].tolist()
+        raise ValueError(f"{name} must lie within {low.tolist()} and {high.tolist()}, got {got}")
 
 
 def _is_real(value: object) -> bool:

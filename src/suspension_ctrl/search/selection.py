@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from ..compiled import compilable, compiled
 from ..quantities import Integer, Real
 
-_MOVES = 8
-"""Most moves per individual in sorting by insertion; numpy is faster where there are more."""
+_MOVES, _BUCKETS = 8, 4
+"""Per individual: most moves in sorting by insertion, numpy is faster where there are more; buckets before it."""
 
 
 def select_survivors(objectives: Real, size: int) -> tuple[Integer, NDArray[np.int32], Real]:
@@ -64,19 +64,19 @@ def lexicographic(keys: Real, near: Integer | None = None) -> Integer:
 
 
 def by_buckets(values: Real) -> Integer:
-    """Return an order (n,) of values by n equal intervals; within one they stand as they come."""
-    order, ends = np.arange(values.size), np.zeros(values.size + 1, dtype=np.int64)
+    """Return an order (n,) of values by 4 n equal intervals; within one they stand as they come."""
+    order, ends = np.arange(values.size), np.zeros(_BUCKETS * values.size + 1, dtype=np.int64)
     with np.errstate(invalid="ignore", over="ignore"):  # infinite values have no span
         least, span = values.min(), values.max() - values.min()
-    if values.size * np.finfo(float).tiny < span < np.inf:  # no overflow, nor NaN
-        fill_buckets(values, least, (values.size - 1) / span, np.empty(values.size, dtype=np.int64), ends, order)
+    if ends.size * np.finfo(float).tiny < span < np.inf:  # no overflow, nor NaN
+        fill_buckets(values, least, (ends.size - 2) / span, np.empty(values.size, dtype=np.int64), ends, order)
     return order
 
 
 @compiled()
 def fill_buckets(values: Real, least: float, scale: float, bucket: Integer, ends: Integer, order: Integer) -> None:
-    """Put indices of values (n,) into `order` (n,) by buckets; `ends` (n + 1,) is zero, `bucket` (n,) any."""
-    last = bucket.size - 1
+    """Put indices of values (n,) into `order` (n,) by buckets; `ends` (4 n + 1,) is zero, `bucket` (n,) any."""
+    last = ends.size - 2
     for i in range(values.size):
         b = np.int64((values[i] - least) * scale)
         bucket[i] = b if b < last else last
@@ -187,10 +187,10 @@ def add_gaps(
     Work space of r fronts: `ends` (2, r), least and largest value, `places` (2, r), the last two individuals.
     """
     for r in range(ends.shape[1]):
-        ends[0, r], ends[1, r], places[0, r], places[1, r] = np.inf, -np.inf, -1, -1
-    for i in range(rank.size):
-        r = rank[i]
-        ends[0, r], ends[1, r] = min(ends[0, r], value[i]), max(ends[1, r], value[i])
+        places[0, r], places[1, r] = -1, -1
+    for k in range(order.size):  # of a front the last values that are put in are its largest and its least
+        i, j = order[k], order[order.size - 1 - k]
+        ends[1, rank[i]], ends[0, rank[j]] = value[i], value[j]
     for k in range(order.size):
         i = order[k]
         r = rank[i]
