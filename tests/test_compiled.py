@@ -178,14 +178,14 @@ def test_an_exception_crosses_the_address_and_other_arrays_do_not():
     verb = linked(Sum(np.ones(2)))
     with pytest.raises(ValueError, match="first must be >= 0"):
         over_rows(verb, -1.0 - DESIGNS)
-    with pytest.raises(TypingError, match="a linked verb takes array"):
+    with pytest.raises(TypingError, match="a linked verb takes arrays"):
         over_rows(verb, DESIGNS[:, ::-1])
 
 
 def test_verbs_are_storable_where_every_process_finds_their_class():
     box = np.zeros(2), np.ones(2)
     assert storable(DifferentialChild(0.5))
-    assert storable(MutateDesign(*box, 20.0, 0.5))
+    assert storable(MutateDesign.of(*box, 20.0, 0.5))
     assert storable(paper.ride_problem().kernel)
     assert not storable(verb_of((square, ())))
     assert not storable(Doubled(DifferentialChild(0.5)))

@@ -16,13 +16,14 @@ from typing import Any, NamedTuple, TypeVar
 from numba import njit, typeof, types
 from numba.core import cgutils
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler
+from numba.core.compiler import Compiler, Flags
 from numba.core.errors import TypingError
 from numba.extending import is_jitted, lower_builtin, register_jitable, type_callable
 
 F = TypeVar("F", bound=Callable[..., Any])
 _Library: Any = JITCodeLibrary  # most of numba has no annotations
 _Compiler: Any = Compiler
+_Flags: Any = Flags
 
 
 def compiled(**options: Any) -> Callable[[F], F]:
@@ -68,15 +69,6 @@ def uncollected() -> Iterator[None]:
             gc.enable()
 
 
-class _WholeCompiler(_Compiler):  # type: ignore[misc]
-    """Numba's compiler of a function and of all that it calls."""
-
-    def compile_extra(self, function: Any) -> Any:
-        """Return the compiled function."""
-        with uncollected():
-            return super().compile_extra(function)
-
-
 class _Part(_Library):  # type: ignore[misc]
     """The code of a function that only other compiled functions call.
 
@@ -111,7 +103,39 @@ class _Part(_Library):  # type: ignore[misc]
         """Leave the environment alone."""
 
 
-class _PartCompiler(_Compiler):  # type: ignore[misc]
+class _QuickFlags(_Flags):  # type: ignore[misc]
+    """Numba's options of a compilation.
+
+    They are part of the key by which functions are looked up, ten thousand times for a large loop; numba compares
+    them one by one with their defaults.
+    """
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, _QuickFlags) and self._values == other._values:
+            return True
+        return bool(super().__eq__(other))
+
+    def __hash__(self) -> int:
+        return hash(_QuickFlags)
+
+
+class _QuickCompiler(_Compiler):  # type: ignore[misc]
+    """Numba's compiler with options that are quick to compare."""
+
+    def __init__(self, typing: Any, target: Any, library: Any, arguments: Any, result: Any, flags: Any, of: Any):
+        super().__init__(typing, target, library, arguments, result, _QuickFlags(flags), of)
+
+
+class _WholeCompiler(_QuickCompiler):
+    """Numba's compiler of a function and of all that it calls."""
+
+    def compile_extra(self, function: Any) -> Any:
+        """Return the compiled function."""
+        with uncollected():
+            return super().compile_extra(function)
+
+
+class _PartCompiler(_QuickCompiler):
     """Numba's compiler of a function that only other compiled functions call."""
 
     def __init__(self, typing: Any, target: Any, _library: Any, arguments: Any, result: Any, flags: Any, of: Any):
@@ -197,17 +221,22 @@ def _typed(context: Any, verb: Any, arguments: Any) -> tuple[Any, tuple[Any, ...
     A method gets the verb, then the arguments; a user's compiled function the arguments, then the settings.
     """
     if is_linked(verb):
-        if arguments.types != (_DESIGN,):
-            raise TypingError(f"a linked verb takes {_DESIGN}, got {arguments.types}")
         signature = _LINKED[verb.types[0]].signature
+        if _given(verb.types[0], arguments.types) != signature.args:
+            raise TypingError(f"a linked verb takes arrays {_VECTOR}, got {arguments.types}")
         return None, signature.args, signature
-    given = (*arguments.types, *verb.types) if is_spread(verb) else (verb, *arguments.types)
+    given = _given(verb, arguments.types)
     found = context.resolve_value_type(verb.instance_class.__call__)
     return found, given, context.resolve_function_type(found, given, {})
 
 
+def _given(kind: Any, arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return the types that a verb's function gets, by the types of verb and arguments."""
+    return (*arguments, *kind.types) if is_spread(kind) else (kind, *arguments)
+
+
 class Linked(NamedTuple):
-    """A verb of one design (d,), and the address of its compiled function.
+    """A verb of arrays (k,) of real numbers, and the address of its compiled function.
 
     Numba copies the code of a function into each caller and optimises it there again; across an address it does
     not. An address belongs to a process: verbs are linked where a loop begins and not kept.
@@ -217,16 +246,16 @@ class Linked(NamedTuple):
     address: int
 
 
-_DESIGN = types.float64[::1]
+_VECTOR = types.float64[::1]
 _LINKED: dict[Any, Any] = {}  # by type of verb what numba compiled, for good: the code at an address must stay
 
 
-def linked(verb: Any) -> Any:
-    """Return a verb of one design (d,) with its address, or as it is if it cannot be compiled for that."""
+def linked(verb: Any, vectors: int = 1) -> Any:
+    """Return a verb of so many arrays (k,) with its address, or as it is if it cannot be compiled for them."""
     function, kind = _callee(type(verb).__call__, storable(verb)), typeof(verb)
     if not is_jitted(function):  # NUMBA_DISABLE_JIT
         return verb
-    given = (_DESIGN, *kind.types) if is_spread(kind) else (kind, _DESIGN)
+    given = _given(kind, (_VECTOR,) * vectors)
     function.get_call_template(given, {})  # compiles, or loads from numba's store
     if given not in function.overloads:  # a user's function, compiled for other types of arguments alone
         return verb

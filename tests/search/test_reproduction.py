@@ -7,7 +7,7 @@ from suspension_ctrl.search.operators import DifferentialChild, MutateDesign, Re
 from suspension_ctrl.search.reproduction import OUTSIDE, WRONG_SIZE, ChildByVerbs, ChildInSweep, child_maker
 
 LOWER, UPPER = np.zeros(5), np.ones(5)
-OWN = DifferentialChild(0.9), RedrawOutside(LOWER, UPPER, 1.0), MutateDesign(LOWER, UPPER, 20.0, 0.4)
+OWN = DifferentialChild(0.9), RedrawOutside(LOWER, UPPER, 1.0), MutateDesign.of(LOWER, UPPER, 20.0, 0.4)
 
 
 def test_children_in_place_are_those_of_the_verbs():

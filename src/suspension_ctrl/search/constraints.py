@@ -7,7 +7,7 @@ efficient constraint handling method for genetic algorithms", Computer Methods i
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import uncounted
 from ..quantities import Real
 
 
@@ -32,7 +32,7 @@ class InfeasibleWarning(UserWarning):
     """
 
 
-@compiled(inline="always")  # MOEA/D-DRA calls it for each comparison
+@uncounted()
 def violation_of(value: Real, m: int) -> float:
     """Return the sum of max(0, g) over the constraints among the values (m + c,) of a design."""
     violation = 0.0

@@ -57,8 +57,7 @@ def chosen_by(draws: Real, utility: Real, corners: Integer, open_: Integer, chos
             best = np.int64(draws[c - corners.size, 0] * left)
             for t in range(1, draws.shape[1]):
                 rival = np.int64(draws[c - corners.size, t] * left)
-                if utility[open_[rival]] > utility[open_[best]]:
-                    best = rival
+                best = rival if utility[open_[rival]] > utility[open_[best]] else best
         chosen[c] = open_[best]
         open_[best] = open_[left - 1]
     return chosen

@@ -3,7 +3,7 @@
 import itertools
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from math import inf
+from math import inf, nan
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +16,7 @@ from ..quantities import Real
 from .clock import PhaseClock
 from .constraints import InfeasibleWarning
 from .deap_adapter import with_deap_operators
-from .evaluation import FailureWarning, SearchProblem, without_worst
+from .evaluation import WORST, FailureWarning, SearchProblem, without_worst
 from .population import Population, State
 from .problem import Minimisable, headers_of
 from .run import Checkpoint, Log, Optimiser, Run
@@ -211,7 +211,8 @@ class _Search:
             state = next(search)
             wall, cpu = wall + perf_counter() - wall_start, cpu + process_time() - cpu_start
             phases = [*clock.seconds.values()]
-            self.rows.append((iteration, state.evaluations, wall, cpu, *phases, *without_worst(state.ideal)))
+            ideal = [value if value < WORST else nan for value in state.ideal.tolist()]
+            self.rows.append((iteration, state.evaluations, wall, cpu, *phases, *ideal))
             self.state, self.generator = state, self.rng.bit_generator.state
             yield state
 

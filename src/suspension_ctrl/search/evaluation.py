@@ -115,14 +115,14 @@ class SearchProblem:
         counted = f"{self.failures} of {evaluations} designs could not be evaluated and count as worst"
         return f"{counted}; first: {self.first}"
 
-    def take(self, codes: Real, values: Real) -> None:
+    def take(self, codes: Real, values: Real, failures: int) -> None:
         """Take values (n, m + c) of codes (n, e) from the kernel; the first are compared with `evaluate`."""
-        fails = values[:, 0] >= WORST
-        if fails.any():
-            self.fail("kernel", int(fails.sum()), self.decode(codes[fails][:1])[0])
-        if not (self.compared or fails[0]):
-            self._compare(codes[0], values[0])
-        self.compared = True
+        if failures:
+            self.fail("kernel", failures, self.decode(codes[values[:, 0] >= WORST][:1])[0])
+        if not self.compared:
+            self.compared = True
+            if values[0, 0] < WORST:
+                self._compare(codes[0], values[0])
         if self._record is not None:
             self.keep(self.decode(codes), values)
 

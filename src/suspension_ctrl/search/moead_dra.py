@@ -9,7 +9,7 @@ from deap.base import Toolbox
 
 from .. import checks
 from ..compiled import call_compiled
-from ..quantities import Real, unit
+from ..quantities import Real, frozen_array, unit
 from . import decomposition, operators
 from .constraints import constrained, ideal_with
 from .evaluation import SearchProblem
@@ -140,7 +140,7 @@ class MoeadDra(Settings):
         toolbox.register("reproduce", call_compiled, operators.DifferentialChild(float(self.scale_factor)))
         toolbox.register("repair", call_compiled, operators.RedrawOutside(lower, upper, float(self.repair_reach)))
         eta, p = float(self.mutation_eta), float(probability)
-        toolbox.register("mutate", call_compiled, operators.MutateDesign(lower, upper, eta, p))
+        toolbox.register("mutate", call_compiled, operators.MutateDesign.of(lower, upper, eta, p))
         toolbox.register("update", call_compiled, ReplaceWorse(self.replacements))
         toolbox.register("sweep", _SWEEPS[self.update])
         toolbox.register("update_utility", decomposition.updated_utility, threshold=float(self.utility_threshold))
@@ -162,12 +162,13 @@ class MoeadDra(Settings):
             if evaluations > size:
                 kept, *_ = select_survivors(constrained(values, m), size)
                 designs, values = designs[kept], values[kept]
-            utility, before, iteration = np.ones(size), values.copy(), 0
+            utility, before, iteration = np.ones(size), frozen_array(values), 0
             yield State.of(designs, values, ideal, evaluations, utility=utility, before=before, iteration=0)
         else:
             designs, values, ideal, evaluations = state.arrays()
-            utility, before = state.memory["utility"], state.memory["before"]
+            utility, before = state.memory["utility"].copy(), state.memory["before"]
             iteration = int(state.memory["iteration"])
+        known = frozen_array(utility)
         population = Decomposed(designs, values, ideal, weights, neighbours)
         while True:
             iteration += 1
@@ -177,11 +178,9 @@ class MoeadDra(Settings):
             toolbox.sweep(rng, chosen, population, toolbox, problem)
             if iteration % self.utility_period == 0:
                 utility = toolbox.update_utility(utility, before, values, population.weights, ideal)
-                before = values.copy()
+                known, before = frozen_array(utility), frozen_array(values)
             evaluations += chosen.size
-            yield State.of(
-                designs, values, ideal, evaluations, utility=utility, before=before, iteration=iteration
-            )
+            yield State.of(designs, values, ideal, evaluations, utility=known, before=before, iteration=iteration)
 
     def _scales(self, objectives: int) -> Real:
         given = np.ones(objectives) if self.objective_scales is None else self.objective_scales

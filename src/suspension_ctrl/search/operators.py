@@ -1,5 +1,6 @@
 """Variation operators on real designs in a box, compiled; all random numbers come from the given generator."""
 
+from math import log
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +15,7 @@ def sample_uniform(rng: np.random.Generator, size: int, lower: Real, upper: Real
     return lower + (upper - lower) * rng.random((size, lower.size))
 
 
-@compiled(inline="always")
+@uncounted()
 def draw_below(rng: np.random.Generator, count: int) -> np.int64:
     """Return a whole number drawn uniformly from 0 to count - 1."""
     return np.int64(rng.random() * count)
@@ -105,7 +106,7 @@ def mutated(designs: Real, mutates: Bool, draws: Real, lower: Real, upper: Real,
     return mutants
 
 
-@compiled(inline="always")
+@uncounted()
 def mutated_value(value: float, u: float, lower: float, upper: float, eta: float) -> float:
     """Return the polynomial mutation of a value in its bounds for the draw u."""
     width = upper - lower
@@ -120,12 +121,18 @@ def mutated_value(value: float, u: float, lower: float, upper: float, eta: float
 
 
 class MutateDesign(NamedTuple):
-    """Polynomial mutation of one design: each variable changes with `probability`."""
+    """Polynomial mutation of one design: each variable changes with the same probability p."""
 
     lower: Real
     upper: Real
     eta: float
-    probability: float
+    stride: float  # -1 / log(1 - p)
+
+    @classmethod
+    def of(cls, lower: Real, upper: Real, eta: float, probability: float) -> "MutateDesign":
+        """Return the verb for a probability from 0 to 1."""
+        with np.errstate(divide="ignore"):
+            return cls(lower, upper, eta, float(-1.0 / np.log1p(-np.float64(probability))))
 
     @compilable()
     def __call__(self, rng: np.random.Generator, design: Real) -> Real:
@@ -164,9 +171,15 @@ class RedrawOutside(NamedTuple):
 @uncounted()
 def mutate_design(verb: MutateDesign, rng: np.random.Generator, design: Real) -> None:
     """Mutate a design (d,) in place."""
-    for v in range(design.size):
-        if rng.random() < verb.probability:
-            design[v] = mutated_value(design[v], rng.random(), verb.lower[v], verb.upper[v], verb.eta)
+    # The number of variables up to the next that changes is drawn, geometric: the floor of an exponential number.
+    v = 0
+    while True:
+        skipped = verb.stride * -log(1.0 - rng.random())
+        if not skipped < design.size - v:  # NaN with a probability of zero, of 0 times infinity
+            return
+        v += int(skipped)
+        design[v] = mutated_value(design[v], rng.random(), verb.lower[v], verb.upper[v], verb.eta)
+        v += 1
 
 
 @uncounted()

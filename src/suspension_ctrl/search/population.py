@@ -123,7 +123,7 @@ class State(Population):
         return cls(
             designs=designs, objectives=values[:, : ideal.size], constraints=values[:, ideal.size :],
             ideal=frozen_array(ideal), evaluations=evaluations,
-            memory=FrozenMapping({name: np.array(value) for name, value in memory.items()}),
+            memory=FrozenMapping({name: frozen_array(value) for name, value in memory.items()}),
         )  # fmt: skip
 
     def arrays(self) -> tuple[Real, Real, Real, int]:

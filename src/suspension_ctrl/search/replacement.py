@@ -120,22 +120,21 @@ def replace(
 def find_worse(violation: float, partners: Integer, values: Real, weights: Real, kept: Kept) -> int:
     """Put partners that a child of this violation and these gaps betters into `kept.worse`; return their count."""
     m, costs, worse, gaps = weights.shape[1], kept.costs, kept.worse, kept.gaps
-    # Two or three objectives without a loop, and indices without a sign, which numba would test.
-    count, first, second, last = 0, gaps[0], gaps[1], gaps[m - 1]
+    # Without branches, which a processor would guess wrongly: two or three objectives without a loop, whoever is
+    # compared is written to the end, and indices have no sign, which numba would test.
+    count, first, second, last = np.uint64(0), gaps[0], gaps[1], gaps[m - 1]
     for k in range(partners.size):
         i = np.uint64(partners[k])
-        cost = costs[i]
-        better = (
-            (weights[i, 0] * first < cost) & (weights[i, 1] * second < cost) & (weights[i, m - 1] * last < cost)
-        )
+        a, b, c = weights[i, 0] * first, weights[i, 1] * second, weights[i, m - 1] * last
+        a = b if b > a else a
+        a = c if c > a else a
         for j in range(2, m - 1):
-            better &= weights[i, j] * gaps[j] < cost
-        if violation > 0.0:
-            better = violation < violation_of(values[i], m)
-        if better:
-            worse[count] = i
-            count += 1
-    return count
+            b = weights[i, j] * gaps[j]
+            a = b if b > a else a
+        worse[count] = i
+        better = a < costs[i] if violation == 0.0 else violation < violation_of(values[i], m)
+        count += np.uint64(better)
+    return int(count)
 
 
 @uncounted()

@@ -49,26 +49,27 @@ def sweep_sequential(
     Runs compiled if every verb is compiled and the problem has a kernel, otherwise in Python with the same draws.
     A kernel is compared with `evaluate` after the first sweep.
     """
-    children, born = (np.empty((chosen.size, array.shape[1])) for array in population[:2])
+    children = np.empty((chosen.size, population.designs.shape[1]))
+    born = np.empty((chosen.size, population.values.shape[1]))
     sweep = problem.sweep or swept_by(toolbox, problem, population)
     if isinstance(sweep.verbs[UPDATE], ReplaceInSweep):
         sweep.verbs[UPDATE].start()
     given = rng, np.ascontiguousarray(chosen), population, problem.strict, children, born, *sweep.verbs
     try:
-        made = sweep.run(*given)
+        made, failures = sweep.run(*given)
     except NumbaError as error:
         raise ValueError(f"verbs must compile together, got {str(error).splitlines()[0]}") from None
     problem.sweep = problem.sweep or sweep._replace(run=entry(sweep.run, given))
     if made < 0:
         raise ValueError(_FAULTS[made])
     if sweep.compiled:
-        problem.take(children[:made], born[:made])
+        problem.take(children[:made], born[:made], failures)
 
 
 class Sweep(NamedTuple):
     """The loop of a search's sweeps and its verbs, in the order of `work_on`."""
 
-    run: Callable[..., int]
+    run: Callable[..., tuple[int, int]]
     verbs: tuple[Any, ...]
     compiled: bool
 
@@ -84,8 +85,9 @@ def swept_by(toolbox: Toolbox, problem: SearchProblem, population: Decomposed) -
         mating_range, reproduce, repair, mutate, update = (getattr(toolbox, name) for name in VERBS)
         make = ChildByVerbs(reproduce, repair, mutate, None)
 
-        def evaluate_one(design: Real) -> Real:
-            return problem.values(toolbox.evaluate, design[np.newaxis])[0]
+        def evaluate_one(child: Real, value: Real) -> int:
+            value[:] = problem.values(toolbox.evaluate, child[np.newaxis])[0]
+            return 0
 
         return Sweep(work_on, (mating_range, make, update, evaluate_one), False)
     mating_range, reproduce, repair, mutate, update, evaluate = found
@@ -95,7 +97,7 @@ def swept_by(toolbox: Toolbox, problem: SearchProblem, population: Decomposed) -
     if isinstance(update, ReplaceWorse):
         update = ReplaceInSweep.of(update, *population.weights.shape)
     run = _STORED if all(map(storable, found)) else _FRESH
-    return Sweep(run, (mating_range, make, update, linked(evaluate)), True)
+    return Sweep(run, (mating_range, make, update, linked(EvaluateChild(evaluate), vectors=2)), True)
 
 
 def sweep_batch(
@@ -117,9 +119,10 @@ VERBS = ("mating_range", "reproduce", "repair", "mutate", "update")
 """The verbs inside a sweep, in their order."""
 
 
+WRONG_VALUES, NOBODY = -1, -2
 _FAULTS = {
-    -1: "kernel must return a value for each objective and constraint, got another number",
-    -2: "mating_range must return indices of individuals, got others",
+    WRONG_VALUES: "kernel must return a value for each objective and constraint, got another number",
+    NOBODY: "mating_range must return indices of individuals, got others",
     WRONG_SIZE: "reproduce, repair and mutate must return a value for each variable, got another number",
     OUTSIDE: "repair and mutate must return designs within the bounds, got one outside",
 }
@@ -137,28 +140,33 @@ def work_on(
     make: Any,
     update: Any,
     evaluate: Any,
-) -> int:
-    """Make, evaluate and place one child for each chosen subproblem, in order, and return their number.
+) -> tuple[int, int]:
+    """Make, evaluate and place one child for each chosen subproblem, in order; return their number and failures.
 
     Fills `children` (k, e) and their values `born` (k, m + c). If `strict` it ends at the first that cannot be
-    evaluated. Returns a mark of `_FAULTS` for wrong results.
+    evaluated. In place of the number there is a mark of `_FAULTS` for wrong results.
     """
     designs, values, ideal, weights, neighbours = population
+    failures = 0
     for k in range(chosen.size):
         i, child, value = chosen[k], children[k], born[k]
         partners = call(mating_range, (rng, i, neighbours))
         if partners.size < 2:
-            return -2
+            return NOBODY, failures
         fault = call(make, (rng, designs, i, partners, child))
         if fault < 0:
-            return int(fault)
-        found = call(evaluate, (child,))
-        if found.size != value.size:
-            return -1
-        if not all_finite(found, value) and strict:
-            return k + 1
+            return fault, failures
+        failed = call(evaluate, (child, value))
+        if failed < 0:
+            return failed, failures
+        failures += failed
+        if failures > 0 and strict:
+            return k + 1, failures
         call(update, (rng, child, value, partners, designs, values, weights, ideal))
-    return chosen.size
+    return chosen.size, failures
+
+
+_STORED, _FRESH = compiled()(work_on), njit(work_on)
 
 
 class CheckedRange(NamedTuple):
@@ -176,19 +184,29 @@ class CheckedRange(NamedTuple):
         return partners
 
 
-@compiled(inline="always")
-def all_finite(value: Real, born: Real) -> bool:
-    """Whether values (k,) are finite; copy them into `born`, or else `WORST`."""
-    good = True
-    for j in range(born.size):
-        born[j] = value[j]
-        good = good and abs(born[j]) < WORST
-    for j in range(born.size):
-        born[j] = born[j] if good else WORST
-    return good
+class EvaluateChild(NamedTuple):
+    """Evaluation of a child by a kernel, in place."""
 
+    kernel: Any
 
-_STORED, _FRESH = compiled()(work_on), njit(work_on)
+    @compilable()
+    def __call__(self, child: Real, value: Real) -> int:
+        """Put the values of a child (d,) into `value` (m + c,), `WORST` if one is not finite; return failures.
+
+        That is 0 or 1, or a mark of `_FAULTS`.
+        """
+        found = call(self.kernel, (child,))
+        if found.size != value.size:
+            return WRONG_VALUES
+        failures = 0
+        for j in range(value.size):
+            value[j] = found[j]
+            if not abs(found[j]) < WORST:
+                failures = 1
+        if failures:
+            for j in range(value.size):
+                value[j] = WORST
+        return failures
 
 
 def compiled_verb(verb: partial[Any]) -> Any:
