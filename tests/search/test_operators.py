@@ -83,6 +83,19 @@ def test_mutation_is_distributed_as_deaps(value, eta):
     assert ks_2samp(ours[:, 0], deaps).pvalue > P_LIMIT
 
 
+@pytest.mark.parametrize("probability", [0.0, 0.3, 1.0])
+def test_variables_of_a_design_mutate_independently(probability):
+    """Each of the eight subsets of three variables as often as it should, to five standard errors."""
+    rng, n = np.random.default_rng(7), 4000
+    verb = operators.MutateDesign.of(LOWER, UPPER, 20.0, probability)
+    designs = np.array([call_compiled(verb, rng, (LOWER + UPPER) / 2) for _ in range(n)])
+    subset = (designs != (LOWER + UPPER) / 2) @ [1, 2, 4]
+    each = np.array([1 - probability, probability])
+    expected = n * np.einsum("i,j,k->ijk", each, each, each).ravel()
+    error = np.sqrt(expected * (1 - expected / n))
+    assert (np.abs(np.bincount(subset, minlength=8) - expected) <= 5 * error).all()
+
+
 def test_probabilities_are_kept():
     rng = np.random.default_rng(5)
     designs = np.full((20000, 3), 0.5)

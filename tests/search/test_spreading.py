@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from suspension_ctrl.search.spreading import farthest_first
+from suspension_ctrl.search.spreading import by_blocks, by_points, farthest_first
 
 
 def by_all_distances(points: np.ndarray, start: np.ndarray, size: int) -> list[int]:
@@ -30,17 +30,22 @@ def test_farthest_points_are_those_by_all_distances(n, m, seed, decimals, share,
     points = rng.random((n, m)).round(decimals)
     start = rng.permutation(n)[:starts]
     size = max(len(start), round(share * n))
-    assert farthest_first(points, start, size).tolist() == by_all_distances(points, start, size)
+    expected = by_all_distances(points, start, size)
+    for way in (by_points, by_blocks):
+        assert way(points, start, size).tolist() == expected
 
 
 def test_many_blocks_and_points():
     points, start = np.random.default_rng(2).random((1500, 2)), np.array([7])
-    assert farthest_first(points, start, 400).tolist() == by_all_distances(points, start, 400)
+    expected = by_all_distances(points, start, 400)
+    for way in (by_points, by_blocks, farthest_first):
+        assert way(points, start, 400).tolist() == expected
 
 
+@pytest.mark.parametrize("way", [by_points, by_blocks])
 @pytest.mark.parametrize("scale", [1e-150, 1e150])
-def test_scale_does_not_matter(scale):
+def test_scale_does_not_matter(scale, way):
     """Squares of 1e-300 and 1e300 are still normal numbers."""
     points = np.random.default_rng(3).random((300, 2))
-    chosen = farthest_first(points, np.array([5]), 50).tolist()
-    assert farthest_first(scale * points, np.array([5]), 50).tolist() == chosen
+    chosen = way(points, np.array([5]), 50).tolist()
+    assert way(scale * points, np.array([5]), 50).tolist() == chosen

@@ -11,6 +11,7 @@ from ..quantities import Integer, Real
 
 _BLOCK = 128  # points side by side, which are neighbours
 _ROUNDING = 1 + 1e-9  # of a squared distance: far above 1e-15
+_FEW = 10_000_000  # distances that numpy finds sooner than a function is compiled
 
 
 def farthest_first(points: Real, start: Integer, size: int) -> Integer:
@@ -18,6 +19,23 @@ def farthest_first(points: Real, start: Integer, size: int) -> Integer:
 
     Of equally distant ones it is the first; copies of chosen points come last.
     """
+    return (by_points if size * len(points) <= _FEW else by_blocks)(points, start, size)
+
+
+def by_points(points: Real, start: Integer, size: int) -> Integer:
+    """Return `farthest_first` by the distances of all points to each that is chosen."""
+    columns, nearest = np.ascontiguousarray(points.T), np.full(len(points), np.inf)
+    chosen = np.empty(size, dtype=np.int64)
+    for i in range(size):
+        chosen[i] = start[i] if i < start.size else nearest.argmax()
+        squares = (columns - columns[:, chosen[i], np.newaxis]) ** 2
+        np.minimum(nearest, squares.sum(axis=0), out=nearest)
+        nearest[chosen[i]] = -1.0  # not chosen again, even if only copies are left
+    return chosen
+
+
+def by_blocks(points: Real, start: Integer, size: int) -> Integer:
+    """Return `farthest_first` by the distances to blocks of neighbours, then to points of those in reach."""
     order = np.asarray(cKDTree(points, _BLOCK, compact_nodes=False, balanced_tree=False).indices, dtype=np.int64)
     place = np.empty_like(order)
     place[order] = np.arange(order.size)
