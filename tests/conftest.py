@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 
 from suspension_ctrl import RideProblem, commands
@@ -66,7 +68,8 @@ def called(monkeypatch, capsys, tmp_path, request) -> Script:
     Figures are made and not rendered, which takes a second each, but in tests with the mark ``drawn``.
     """
     if request.node.get_closest_marker("drawn") is None:
-        monkeypatch.setattr(Figure, "savefig", lambda _figure, path, **_options: Path(path).touch())
+        for draws in ((Figure, "savefig"), (FigureCanvasAgg, "print_png"), (FigureCanvasPdf, "print_pdf")):
+            monkeypatch.setattr(*draws, lambda _self, path, **_options: Path(path).touch())
 
     def run(name: str | None, *arguments: object) -> subprocess.CompletedProcess:
         command = [str(name), *map(str, arguments)]

@@ -67,7 +67,8 @@ def frame(table: "pd.DataFrame", medium: Callable[[str], str]) -> "pd.DataFrame"
         numbers = column.dtype.kind in "biufc"  # unchanged: a profile has millions
         return column if numbers else column.map(lambda cell: medium(cell) if isinstance(cell, str) else cell)
 
-    return table.apply(escaped).rename(columns=lambda name: medium(str(name)))
+    texts = [kind for kind in table.dtypes if kind.kind not in "biufc"]
+    return (table.apply(escaped) if texts else table).rename(columns=lambda name: medium(str(name)))
 
 
 def _is_number(text: str) -> bool:

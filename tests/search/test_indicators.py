@@ -118,6 +118,17 @@ def test_non_dominated_keeps_copies():
     assert non_dominated(points).tolist() == [True, True, False, True]
 
 
+@pytest.mark.parametrize("columns", [[0, 1, 2], [2, 0, 1], [1, 2, 0]])
+def test_many_rows_are_swept_along_any_column(columns):
+    """15,000 rows of which few differ, in order, beside all comparisons of these."""
+    rng = np.random.default_rng(4)
+    first, second = rng.integers(0, 40, (2, 15_000))
+    points = np.stack([first, second, (first - second) ** 2 % 31], axis=1).astype(float)[:, columns]
+    rows, place = np.unique(points, axis=0, return_inverse=True)
+    beaten = ((rows[:, None] <= rows).all(axis=2) & (rows[:, None] < rows).any(axis=2)).any(axis=0)
+    assert non_dominated(points).tolist() == (~beaten)[place].tolist()
+
+
 def test_reference_front_of_the_ride_problem():
     """About a fifth of Table 1's box is Pareto-optimal: the share falls to that as the grid is refined."""
     problem = paper.ride_problem()

@@ -127,7 +127,7 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
 
 def write_page(request: Request, store: Mapping[str, StoredRun], outcome: Outcome) -> None:
     """Write the page of a comparison, if a run found a design within the limits."""
-    with stages.stage("page"):
+    with stages.stage("page"), machine.single_thread():  # matrices of a car are too small for threads
         if (text := page(request, store, outcome)) is not None:
             write_text(request.campaign.folder / "report.html", text)
 

@@ -14,6 +14,8 @@ from ..compiled import compiled
 from ..quantities import Bool, Integer, Real, Record, frozen_array
 from .spreading import farthest_first
 
+_TRIED = 1000  # rows of many
+
 
 def non_dominated(objectives: ArrayLike) -> Bool:
     """Return a mask (n,) of the rows of objectives (n, m), to be minimised, that no other row dominates.
@@ -32,8 +34,22 @@ def non_dominated(objectives: ArrayLike) -> Bool:
     if values.ndim != 2:
         raise ValueError(f"objectives must have shape (n, m), got {values.shape}")
     whole: Bool = np.asarray(~np.isnan(values).any(axis=1))
-    whole[whole] = moocore.is_nondominated(values[whole], keep_weakly=True)
+    whole[whole] = moocore.is_nondominated(_for_sweep(values[whole]), keep_weakly=True)
     return whole
+
+
+def _for_sweep(objectives: Real) -> Real:
+    """Return objectives (n, m), of many rows with the column last along which moocore best sweeps them.
+
+    It keeps the front of the other columns, and is the faster the smaller that is; tried on some rows.
+    """
+    n, m = objectives.shape
+    if n < 10 * _TRIED or m != 3:
+        return objectives
+    some = objectives[:: n // _TRIED]
+    others = [np.count_nonzero(moocore.is_nondominated(np.delete(some, k, axis=1))) for k in range(m)]
+    last = int(np.argmin(others))
+    return objectives[:, [*(k for k in range(m) if k != last), last]]
 
 
 def best_of(objectives: Real) -> Real:
@@ -102,12 +118,15 @@ class ReferenceFront(Record):
         self._keep(**{name: frozen_array(getattr(self, name)) for name in ("objectives", "ideal", "nadir")})
 
     @classmethod
-    def of(cls, objectives: Real) -> "ReferenceFront":
-        """Return the front of mutually non-dominated objectives (n, m); rows with NaN are left out."""
+    def of(cls, objectives: Real, volume: float | None = None) -> "ReferenceFront":
+        """Return the front of mutually non-dominated objectives (n, m); rows with NaN are left out.
+
+        Its hypervolume is computed unless it is given.
+        """
         objectives = objectives[~np.isnan(objectives).any(axis=1)]
         ideal, nadir = objectives.min(axis=0), objectives.max(axis=0)
         whole = cls(objectives, ideal, nadir, 0.0)
-        volume = whole.hypervolume(objectives)
+        volume = whole.hypervolume(objectives) if volume is None else volume
         if len(objectives) <= cls.SAMPLE:
             return replace(whole, volume=volume)
         return cls(objectives[evenly_spread(objectives, cls.SAMPLE)], ideal, nadir, volume)

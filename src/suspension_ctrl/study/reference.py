@@ -33,6 +33,7 @@ class Refined(NamedTuple):
     """The finest grid of a problem with the convergence of its hypervolume."""
 
     objectives: Real  # (n, m) non-dominated and feasible
+    volume: float  # its hypervolume, scaled
     points: int  # per variable
     change: float = nan  # of the hypervolume to that of half as many points, relative; NaN of the coarsest grid
     second: float = nan  # to that of a second grid with 1/sqrt(2) as many points: only corners coincide
@@ -81,7 +82,7 @@ def sought(
     """
     grid = refined(problem, tolerance, most, seconds)
     if grid and grid.settles(tolerance):
-        front = ReferenceFront.of(grid.objectives)
+        front = ReferenceFront.of(grid.objectives, grid.volume)
         changes = f"half as many values change by {grid.change:.1e} and a second grid by {grid.second:.1e}"
         origin = f"a {grid.describe(problem)} (hypervolume {front.volume:.4f}, which {changes})"
         return Reference(front, origin)
@@ -117,7 +118,7 @@ def refined(
                 front = ReferenceFront(objectives, objectives.min(axis=0), objectives.max(axis=0), 0.0)
                 volume = front.hypervolume(objectives)
                 change = nan if found is None else 1 - front.hypervolume(found.objectives) / volume
-                found = Refined(objectives, points, change)
+                found = Refined(objectives, volume, points, change)
                 if abs(change) <= tolerance:
                     second = grid_front(problem, round(points / np.sqrt(2)), end)
                     found = found._replace(second=1 - front.hypervolume(second) / volume)
@@ -142,7 +143,7 @@ def grid_front(problem: Minimisable, points: int, end: float = inf) -> Real:
     axes = coding.grid_axes(points)
     shape = [axis.size for axis in axes]
     m, total = len(problem.objectives), prod(shape)
-    front, begun = np.empty((0, m)), perf_counter()
+    fronts, begun = list[Real](), perf_counter()
     for start, stop in _parts(total):
         if start <= _PROBE:
             begun = perf_counter()  # again after the first evaluation, which may compile
@@ -151,8 +152,8 @@ def grid_front(problem: Minimisable, points: int, end: float = inf) -> Real:
         places = np.unravel_index(np.arange(start, stop), shape)
         codes = np.stack([axis[place] for axis, place in zip(axes, places, strict=True)], axis=-1)
         values = problem.evaluate(coding.decode(codes))
-        front = best_of(np.concatenate([front, best_of(feasible_objectives(values, m))]))
-    return front
+        fronts.append(best_of(feasible_objectives(values, m)))
+    return best_of(np.concatenate(fronts))
 
 
 def _parts(total: int) -> Iterator[tuple[int, int]]:

@@ -189,6 +189,12 @@ def _page(
 
 def write_figure(stem: Path, figure: "Figure") -> None:
     """Write a figure as PNG and as PDF, named `stem` with the ending added."""
-    for suffix in (".png", ".pdf"):
-        write_whole(stem.with_name(stem.name + suffix), lambda temporary: figure.savefig(temporary, dpi=160))
-        figure.set_layout_engine("none")  # where the first put its parts: a layout takes as long as the drawing
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.backends.backend_pdf import FigureCanvasPdf
+
+    figure.set_dpi(160)
+    pixels: Any = FigureCanvasAgg(figure)  # `savefig` draws each file twice, first without a result
+    write_whole(stem.with_name(f"{stem.name}.png"), pixels.print_png)
+    figure.set_layout_engine("none")  # where the first put its parts: a layout takes as long as the drawing
+    page: Any = FigureCanvasPdf(figure)
+    write_whole(stem.with_name(f"{stem.name}.pdf"), page.print_pdf)
