@@ -18,11 +18,11 @@ def real_rows(values: np.ndarray) -> np.ndarray:
     return np.stack([values.real, values.imag], axis=-2).reshape(-1, 2, values.shape[-1])
 
 
-@pytest.mark.parametrize(("seed", "n"), [*((seed, 7) for seed in range(5)), *((seed, 24) for seed in range(5))])
+@pytest.mark.parametrize(("seed", "n"), [*((seed, 8) for seed in range(5)), *((seed, 24) for seed in range(5))])
 def test_mean_squares_are_those_of_a_dense_solve(seed, n):
     """With e = S + P D e the responses are R + T D (1 - P D)^-1 S, squared, summed over nodes and sources.
 
-    Of 24 nodes, three times eight, two struts without coupling are closed in lanes, others row by row.
+    With a seed above 0 two struts without coupling are closed by themselves, others by elimination.
     """
     rng = np.random.default_rng(seed)
     omega, origin = rng.uniform(0.5, 2.0, n), rng.normal(size=4)
@@ -48,7 +48,7 @@ def test_mean_squares_are_those_of_a_dense_solve(seed, n):
         order=ORDER,
         origin=origin,
     )
-    designs = rng.normal(size=(3, 4))
+    designs = rng.normal(size=(19, 4))  # more than pass together, an odd number of them
     designs[0] = origin  # nothing is added
     found = struts(designs)
     for design, row in zip(designs, found, strict=True):

@@ -60,7 +60,7 @@ def in_blocks(
 ) -> ManyStruts:
     """Return mean squares of m responses at n frequencies, for spectra of roads (n, r, r) and densities (m, n)."""
     m, r, (p, x) = ports.m, ports.r, pairs
-    gain = p @ variables.gain @ p.T
+    gain = _without_rounding(p @ variables.gain @ p.T)
     coupled = _coupled(gain)
     varied = (coupled | coupled.T).any(axis=0)
     p, gain = p[varied], gain[:, varied][:, :, varied]
@@ -168,6 +168,12 @@ def _cleared(by_road: Complex) -> Complex:
     """Return responses by roads (n, m, r), zero below rounding: as f -> 0 they vanish and the road diverges."""
     sizes = np.abs(by_road)
     return np.where(sizes > _ROUNDING * sizes.max(axis=(0, 2), keepdims=True, initial=0.0), by_road, 0.0)
+
+
+def _without_rounding(gain: Real) -> Real:
+    """Return gains (v, q, q), zero below rounding: a sum of two struts does not act on their difference."""
+    sizes = np.abs(gain)
+    return np.where(sizes > _ROUNDING * sizes.max(axis=(1, 2), keepdims=True, initial=0.0), gain, 0.0)
 
 
 def _factor(spectrum: Complex, power: Real) -> Complex:

@@ -105,6 +105,19 @@ def at(rows: Real, row: int, start: int) -> Pair:
     return load(rows, (row, 0, start)), load(rows, (row, 1, start))
 
 
+@uncounted(forceinline=True)
+def row_at(rows: Real, row: int) -> Pair:
+    """Return a row of eight complex numbers, real parts first, of an array (16 l,) with short addresses."""
+    return load(rows, (2 * WIDTH * row,)), load(rows, (2 * WIDTH * row + WIDTH,))
+
+
+@uncounted(forceinline=True)
+def put(value: Pair, rows: Real, row: int) -> None:
+    """Fill in a row of eight complex numbers of an array (16 l,)."""
+    store(value[0], rows, (2 * WIDTH * row,))
+    store(value[1], rows, (2 * WIDTH * row + WIDTH,))
+
+
 def _register(function: Any, result: Any, *kinds: Any) -> Callable[[Any], None]:
     """Let compiled code call a function of these types of arguments, as the decorated function writes it."""
     typers: tuple[Callable[..., Any], ...] = (

@@ -6,8 +6,12 @@ import numpy as np
 
 from ..compiled import compilable, compiled, uncounted
 from ..quantities import Bool, Integer, Real
-from .lanes import WIDTH, load, spread, store, total
+from .lanes import WIDTH, at, load, put, spread, store, total
+from .struts_in_lanes import add_struts, rows_for
 from .two_struts import add_two_struts
+
+_TILE = 16
+"""Designs for which eight columns of the rows stay in the nearest cache."""
 
 
 class ManyStruts(NamedTuple):
@@ -18,7 +22,7 @@ class ManyStruts(NamedTuple):
     follow one another; the last dimension of each part varies fastest.
     """
 
-    omega: Real  # (n,) angular frequencies [rad/s]
+    omega: Real  # (n,) angular frequencies [rad/s], a multiple of eight
     rows: Real  # (l, 2, n)
     sizes: Integer  # (b, 3), q, s and k of each block
     response: Integer  # (sum of k,), the distinct mean square to which a row of terms contributes
@@ -30,62 +34,69 @@ class ManyStruts(NamedTuple):
     @compiled(nogil=True)
     def __call__(self, designs: Real) -> Real:
         """Return the mean squares (p, k) of designs (p, v), each as if alone, by (1 - P D) e = S."""
-        room, found, sums = room_for(self), np.empty(self.channel.size), np.empty((self.channel.size, WIDTH))
-        result, added = np.empty((designs.shape[0], self.channel.size)), np.empty(designs.shape[1])
-        for p in range(designs.shape[0]):
-            for v in range(added.size):
-                added[v] = designs[p, v] - self.origin[v]
-            fill_squares(self, added, room, found, sums)
-            for term in range(self.channel.size):
-                channel = self.channel[term]
-                result[p, term] = found[channel] + total(load(sums, (channel, 0)))
+        terms, tile, most, rows = self.channel.size, min(_TILE, designs.shape[0]), 0, 0
+        for b in range(self.sizes.shape[0]):
+            q, s, k = self.sizes[b]
+            most, rows = max(most, q), max(rows, (q + k) * (q + s))
+        room, plant = np.empty(2 * rows_for(most) * 2 * WIDTH), np.empty(rows * 2 * WIDTH)
+        sums = np.empty((tile, terms, WIDTH))
+        elements = np.empty((tile, self.gain.shape[1], 3))
+        result = np.empty((designs.shape[0], terms))
+        for first in range(0, designs.shape[0], _TILE):
+            count = min(_TILE, designs.shape[0] - first)
+            for p in range(count):
+                fill_elements(self, designs, first + p, elements[p])
+            fill_squares(self, elements[:count], plant, room, sums)
+            for p in range(count):
+                for term in range(terms):
+                    result[first + p, term] = total(load(sums, (p, self.channel[term], 0)))
         return result
 
 
-class Room(NamedTuple):
-    """Work arrays for the largest block, of rows (2, n)."""
-
-    present: Bool  # (q q), whether an entry of D is not zero
-    stiffness: Real  # D (q q)
-    loop: Real  # (q (q + s))
-    tension: Real  # D e (q)
-    value: Real
-
-
-@compilable()
-def room_for(struts: ManyStruts) -> Room:
-    """Return work arrays."""
-    q, s, n = 0, 0, struts.omega.size
-    for b in range(struts.sizes.shape[0]):
-        q, s = max(q, struts.sizes[b, 0]), max(s, struts.sizes[b, 1])
-    square, loop = np.empty((q * q, 2, n)), np.empty((q * (q + s), 2, n))
-    return Room(np.empty(q * q, np.bool_), square, loop, np.empty((q, 2, n)), np.empty((2, n)))
+@uncounted()
+def fill_elements(struts: ManyStruts, designs: Real, p: int, elements: Real) -> None:
+    """Fill in stiffness, damping and inertance (e, 3) at each entry of D for one of the designs (p, v)."""
+    for entry in range(elements.shape[0]):
+        for order in range(3):
+            elements[entry, order] = 0.0
+    for v in range(struts.origin.size):
+        added, order = designs[p, v] - struts.origin[v], struts.order[v]
+        for entry in range(elements.shape[0]):
+            elements[entry, order] += struts.gain[v, entry] * added
 
 
 @uncounted()
-def fill_squares(struts: ManyStruts, added: Real, room: Room, found: Real, sums: Real) -> None:
-    """Fill in the distinct mean squares: each that of an array (m,) and the lanes of another (m, 8)."""
+def fill_squares(struts: ManyStruts, elements: Real, plant: Real, room: Real, sums: Real) -> None:
+    """Fill in the lanes (p, m, 8) of the distinct mean squares of designs by their elements (p, e, 3)."""
     row, entry, output = 0, 0, 0
-    for channel in range(found.size):
-        found[channel] = 0.0
-        store(spread(0.0), sums, (channel, 0))
+    for p in range(elements.shape[0]):
+        for channel in range(sums.shape[1]):
+            store(spread(0.0), sums, (p, channel, 0))
     for b in range(struts.sizes.shape[0]):
         q, s, k = struts.sizes[b]
         rows, response = struts.rows[row : row + (q + k) * (q + s)], struts.response[output : output + k]
-        if q == 2 and struts.omega.size % WIDTH == 0 and not across(struts, entry):
-            one, other = element_at(struts, added, entry), element_at(struts, added, entry + 3)
-            add_two_struts(struts.omega, rows, one, other, s, response, sums)
-        else:
-            add_block(struts, added, entry, q, s, rows, response, room, found)
+        crossed = across(struts, entry, q)
+        for t in range(0, struts.omega.size, WIDTH):
+            for i in range(rows.shape[0]):  # side by side they lie in few pages of memory
+                put(at(rows, i, t), plant, i)
+            w = load(struts.omega, (t,))
+            if q == 2 and not crossed:
+                for p in range(elements.shape[0]):
+                    add_two_struts(w, plant, elements[p, entry : entry + 4], s, response, sums[p])
+            else:
+                for p in range(0, elements.shape[0], 2):
+                    own = elements[p : p + 2, entry : entry + q * q]
+                    add_struts(w, plant, own, crossed, struts.sizes[b], response, room, sums[p : p + 2])
         row, entry, output = row + (q + k) * (q + s), entry + q * q, output + k
 
 
 @uncounted()
-def across(struts: ManyStruts, entry: int) -> bool:
-    """Whether a variable couples the two struts of a block with this first entry."""
+def across(struts: ManyStruts, entry: int, q: int) -> bool:
+    """Whether a variable couples two of the q struts of a block with this first entry."""
     found = 0
     for v in range(struts.gain.shape[0]):
-        found += struts.gain[v, entry + 1] != 0.0 or struts.gain[v, entry + 2] != 0.0
+        for i in range(q * q):
+            found += i % (q + 1) != 0 and struts.gain[v, entry + i] != 0.0
     return found > 0
 
 
@@ -102,27 +113,6 @@ def element_at(struts: ManyStruts, added: Real, entry: int) -> tuple[float, floa
         else:
             b += value
     return k, c, b
-
-
-@uncounted()
-def add_block(
-    struts: ManyStruts,
-    added: Real,
-    entry: int,
-    q: int,
-    s: int,
-    rows: Real,
-    response: Integer,
-    room: Room,
-    found: Real,
-) -> None:
-    """Add the integrals of a block of any size with its rows (l, 2, n) to the distinct mean squares."""
-    present, stiffness, loop = room.present, room.stiffness, room.loop
-    by_source, by_strut = rows[q * (q + s) :], rows[q * (q + s) + response.size * s :]
-    fill_stiffness(added, struts, entry, present, stiffness[: q * q])
-    fill_loop(q, s, present, stiffness, rows, rows[q * q :], loop)
-    eliminate(q, q + s, loop)
-    add_terms(q, s, present, stiffness, loop, by_source, by_strut, response, room.tension, room.value, found)
 
 
 @uncounted()

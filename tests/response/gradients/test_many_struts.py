@@ -7,7 +7,7 @@ from suspension_ctrl.response.gradients.many_struts import with_slopes
 from suspension_ctrl.response.gradients.wanted import Wanted
 from suspension_ctrl.response.many_struts import ManyStruts
 
-N = 7
+N = 8
 SIZES = [(2, 1, 3), (3, 2, 2)]
 """Struts, sources and responses of two blocks."""
 WANTED = Wanted(np.array([[1.0, 2.0, 0.0, 3.0], [1.0, 2.0, 0.5, 3.0]]), np.array([False, True]))
