@@ -7,6 +7,7 @@ are missing are listed as absent.
 
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -14,6 +15,7 @@ import pandas as pd
 from scipy import signal
 from typer import Option
 
+from beside import in_turn
 from peers import OURS, Contenders, contenders
 from sections import (
     arithmetic,
@@ -107,6 +109,7 @@ QUICK = SETTINGS | {
 def main(
     out: Annotated[Path | None, Option(help="Folder for the results, absent or empty.")] = None,
     docs: Annotated[Path | None, Option(help="Folder that gets page and picture too.")] = None,
+    other: Annotated[Path | None, Option(help="Checkout of another commit to time too.")] = None,
     quick: Annotated[bool, Option("--quick", help="Short form: small sizes, one repeat.")] = False,
 ) -> None:
     """Measure the speed of this package and of other libraries on the same work."""
@@ -122,6 +125,10 @@ def main(
         machine["versions"] |= {name: version for name, version in field.versions.items() if name != OURS}
         field = searches.working(field, paper.ride_problem(nodes=settings["nodes"]))
         found = measure(settings, field, folder)
+    if other:
+        runs = pd.DataFrame(list(in_turn(other.resolve(), settings["compare"], settings["repeats"])))
+        files.write_csv(folder / "beside.csv", runs)
+        found = replace(found, beside=runs)
     beside = {"errors": found.errors, "megabytes": found.memory, "absent": found.absent}
     files.write_json(folder / "environment.json", machine | beside)
     write_page(folder, found, settings, machine)

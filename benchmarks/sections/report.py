@@ -7,6 +7,7 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from beside import compared
 from peers import OURS
 from sections import derivatives, moead_limits
 from sections.page_tables import (
@@ -158,10 +159,23 @@ def _about_processes(found: Measurements) -> list[str]:
         "## Whole process",
         "Seconds. The package is imported where control is imported already.",
         markdown(process_table(found)),
+        *_about_another_commit(found),
         "## Cold start",
         "Processor time of a process beyond `import control`, in multiples of it: the first process after "
         "installation, which compiles, and the second. Searches of N = 500, 10 iterations, on Table 1's problem.",
         markdown(cold_start_table(found)),
+    ]
+
+
+def _about_another_commit(found: Measurements) -> list[str]:
+    """Return nothing if no other commit was timed."""
+    if found.beside is None:
+        return []
+    return [
+        "`python benchmarks/beside.py` times `python scripts/compare.py` and the same script of another commit in "
+        "turn, numba's store filled: medians of whole processes. The other one is timed with the reference front "
+        "of its earlier runs if it keeps that, and without it.",
+        compared(found.beside).to_markdown(floatfmt=".2f"),
     ]
 
 

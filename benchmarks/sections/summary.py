@@ -35,6 +35,8 @@ class Measurements:
         From `evaluation.memory` [MB].
     absent : dict of str to str
         Why a library is not in the tables.
+    beside : DataFrame or None
+        From `beside.in_turn`, beside another commit.
     """
 
     evaluation: pd.DataFrame
@@ -53,6 +55,7 @@ class Measurements:
     errors: dict[str, float]
     memory: float
     absent: dict[str, str]
+    beside: pd.DataFrame | None = None
 
 
 def medians(timings: pd.DataFrame, size: str) -> pd.DataFrame:

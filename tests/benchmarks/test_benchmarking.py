@@ -1,5 +1,6 @@
 """What the benchmark makes of its timings, on timings made up for the purpose."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -327,6 +328,12 @@ def test_page_has_all_sections_and_the_absent():
         "## Struts",
     ):
         assert words in text
+    assert "another commit" not in text
+    rows = [("this", 0, 2.0, 3.0), ("other", 0, 4.0, 4.0)]
+    beside = pd.DataFrame(rows, columns=["side", "repeat", "wall-clock [s]", "processor [s]"])
+    text = report.page(replace(found, beside=beside), settings, machine)
+    assert "of another commit in turn" in text
+    assert "0.75" in text
     assert page_tables.nsga2_ratios(found)["N = 1,000"].tolist() == ["1.00", "4.00"]
     assert len(report.picture(found).axes[0].lines) == 2
 
