@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from ...compiled import compilable
+from ...compiled import uncounted
 from ...quantities import Bool, Real
 
 TIED = 1e-9
@@ -16,7 +16,7 @@ class Wanted(NamedTuple):
     largest: Bool  # (s,), whether the largest product counts, or their sum
 
 
-@compilable()
+@uncounted()
 def fill_weights(wanted: Wanted, squares: Real, p: int, weight: Real) -> None:
     """Fill in the derivatives (s, k) of the combinations by the mean squares of one of the designs (p, k)."""
     for s in range(wanted.largest.size):
@@ -30,11 +30,12 @@ def fill_weights(wanted: Wanted, squares: Real, p: int, weight: Real) -> None:
             weight[s, best] = wanted.factor[s, best]
 
 
-@compilable()
+@uncounted()
 def combine(weight: Real, slopes: Real, p: int, result: Real) -> None:
     """Fill in the derivatives of the combinations of a design (p, s, v) by those of its mean squares (v, k)."""
     for s in range(weight.shape[0]):
         for v in range(slopes.shape[0]):
             result[p, s, v] = 0.0
-            for k in range(weight.shape[1]):
+        for k in range(weight.shape[1]):
+            for v in range(slopes.shape[0] if weight[s, k] != 0.0 else 0):
                 result[p, s, v] += weight[s, k] * slopes[v, k]

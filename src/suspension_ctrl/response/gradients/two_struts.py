@@ -1,0 +1,134 @@
+"""Derivatives of mean squares of blocks of two struts that act each on its own deflection.
+
+With e = (1 - P D)^-1 S a response y = R + T D e changes by T (1 - D P)^-1 dD e: as D is diagonal, its changes with
+the dynamic stiffness of both struts take four products, and those of its square stay in registers, see `lanes`.
+"""
+
+import numpy as np
+
+from ...compiled import compiled, uncounted
+from ...quantities import Integer, Real
+from ..lanes import WIDTH, Lanes, Pair, at, fused, less, load, plus, product, reciprocal, spread, store, total
+from ..many_struts import ManyStruts, element_at
+from ..two_struts import Element, stiffness_at
+from .many_struts import fold
+from .wanted import Wanted, combine, fill_weights
+
+
+def fits(struts: ManyStruts) -> bool:
+    """Whether all blocks have two struts that no variable couples, at a multiple of eight nodes."""
+    two = (struts.sizes[:, 0] == 2).all() and struts.omega.size % WIDTH == 0
+    return bool(two and not struts.gain.reshape(len(struts.gain), -1, 4)[:, :, 1:3].any())
+
+
+def with_slopes(struts: ManyStruts, wanted: Wanted, designs: Real) -> tuple[Real, Real]:
+    """Return the mean squares (p, k) of designs (p, v), and the derivatives (p, s, v) of what is wanted."""
+    squares = struts(designs)
+    return squares, differentiated(struts, wanted, designs, squares)
+
+
+@compiled(nogil=True)
+def differentiated(struts: ManyStruts, wanted: Wanted, designs: Real, squares: Real) -> Real:
+    """Return the derivatives (p, s, v) of what is wanted, of designs (p, v) with mean squares (p, k)."""
+    (count, variables), combinations, channels, most = designs.shape, wanted.largest.size, 0, 0
+    for term in range(struts.channel.size):
+        channels = max(channels, struts.channel[term] + 1)
+    for b in range(struts.sizes.shape[0]):
+        most = max(most, struts.sizes[b, 2])
+    added, weight = np.empty(variables), np.empty((combinations, struts.channel.size))
+    folded, heard, moments = (
+        np.empty((combinations, channels)),
+        np.empty(most, np.int64),
+        np.empty((most, 6, WIDTH)),
+    )
+    slopes, result = np.empty((variables, channels)), np.empty((count, combinations, variables))
+    for p in range(count):
+        for v in range(variables):
+            added[v] = designs[p, v] - struts.origin[v]
+        fill_weights(wanted, squares, p, weight)
+        for s in range(combinations):
+            fold(struts.channel, weight[s], folded[s])
+        fill_slopes(struts, added, folded, heard, moments, slopes)
+        combine(folded, slopes, p, result)
+    return result
+
+
+@uncounted()
+def fill_slopes(
+    struts: ManyStruts, added: Real, weight: Real, heard: Integer, moments: Real, slopes: Real
+) -> None:
+    """Fill in the derivatives (v, m) of the distinct mean squares that have a weight (s, m)."""
+    row, entry, output = 0, 0, 0
+    for v in range(slopes.shape[0]):
+        for channel in range(slopes.shape[1]):
+            slopes[v, channel] = 0.0
+    for b in range(struts.sizes.shape[0]):
+        q, s, k = struts.sizes[b]
+        rows, response = struts.rows[row : row + (q + k) * (q + s)], struts.response[output : output + k]
+        number = choose(weight, response, heard)
+        one, other = element_at(struts, added, entry), element_at(struts, added, entry + 3)
+        fill_moments(struts.omega, rows, one, other, s, k, heard[:number], moments)
+        for h in range(number):
+            for v in range(slopes.shape[0]):
+                for j in range(2):
+                    gain = struts.gain[v, entry + 3 * j]
+                    if gain != 0.0:
+                        change = total(load(moments, (h, 3 * j + struts.order[v], 0)))
+                        slopes[v, response[heard[h]]] += 2.0 * gain * change
+        row, entry, output = row + (q + k) * (q + s), entry + q * q, output + k
+
+
+@uncounted()
+def choose(weight: Real, response: Integer, heard: Integer) -> int:
+    """Fill in and count the responses of a block (k,) of which the mean squares have a weight (s, m)."""
+    number = 0
+    for i in range(response.size):
+        for s in range(weight.shape[0]):
+            if weight[s, response[i]] != 0.0:
+                heard[number] = i
+                number += 1
+                break
+    return number
+
+
+@uncounted(error_model="numpy")
+def fill_moments(
+    omega: Real, rows: Real, one: Element, other: Element, sources: int, k: int, heard: Integer, moments: Real
+) -> None:
+    """Fill in half of the changes of squares of the responses heard (i, 6, 8), by K, C and b of both struts.
+
+    The rows (l, 2, n) and the solution of a block of k responses are as of `add_two_struts`.
+    """
+    for i in range(heard.size):
+        for j in range(6):
+            store(spread(0.0), moments, (i, j, 0))
+    for t in range(0, omega.size, WIDTH):
+        w = load(omega, (t,))
+        first, second, unit = stiffness_at(one, w), stiffness_at(other, w), (spread(1.0), spread(0.0))
+        p12, p21 = at(rows, 1, t), at(rows, 2, t)
+        a, d = less(unit, at(rows, 0, t), first), less(unit, at(rows, 3, t), second)
+        b, c = product(p12, second), product(p21, first)
+        inverse = reciprocal(less(product(a, d), b, c))
+        across, back = product(p12, first), product(p21, second)
+        for source in range(sources):
+            x, y = at(rows, 4 + source, t), at(rows, 4 + sources + source, t)
+            e, f = product(plus(product(d, x), b, y), inverse), product(plus(product(a, y), c, x), inverse)
+            tension, u, v = (product(e, first), product(f, second)), product(e, inverse), product(f, inverse)
+            by_first, by_second = (product(d, u), product(back, u)), (product(across, v), product(a, v))
+            for i in range(heard.size):
+                part = 4 + 2 * sources + heard[i] * sources + source
+                strut = 4 + 2 * sources + k * sources + 2 * heard[i]
+                left, right = at(rows, strut, t), at(rows, strut + 1, t)
+                value = plus(plus(at(rows, part, t), left, tension[0]), right, tension[1])
+                add_moments(w, value, plus(product(left, by_first[0]), right, by_first[1]), i, 0, moments)
+                add_moments(w, value, plus(product(left, by_second[0]), right, by_second[1]), i, 3, moments)
+
+
+@uncounted(forceinline=True)
+def add_moments(w: Lanes, value: Pair, change: Pair, i: int, j: int, moments: Real) -> None:
+    """Add the real part of a change times the conjugate of a value, times 1, jw and (jw)^2."""
+    (x, y), (u, v) = value, change
+    re, turned = fused(x, u, y * v), w * fused(y, u, -(x * v))
+    store(load(moments, (i, j, 0)) + re, moments, (i, j, 0))
+    store(load(moments, (i, j + 1, 0)) + turned, moments, (i, j + 1, 0))
+    store(fused(-(w * w), re, load(moments, (i, j + 2, 0))), moments, (i, j + 2, 0))
