@@ -20,6 +20,7 @@ static const double PI = 3.14159265358979323846, DELTA = 0.9, F = 0.5, ETA = 20.
 
 static double x[N][VARIABLES], f[N][2], old[N][2], weight[N][2], g[N], utility[N], ideal[2];
 static int neighbours[N][T], everyone[N];
+static double stride;
 static uint64_t s[4];
 
 static double uniform(void) { /* from 0 to 1 */
@@ -72,6 +73,10 @@ static double mutated(double value, double low) {
     return mutant < low ? low : mutant > 1.0 ? 1.0 : mutant;
 }
 
+static double skipped(void) { /* variables before the next that mutates, geometric */
+    return floor(log(1.0 - uniform()) * stride);
+}
+
 static void work_on(int i) { /* make, evaluate and place one child */
     int near = uniform() < DELTA, count = near ? T : N, worse[N], found = 0;
     const int *partners = near ? neighbours[i] : everyone;
@@ -82,8 +87,8 @@ static void work_on(int i) { /* make, evaluate and place one child */
         y[v] = x[i][v] + F * (a[v] - b[v]);
         if (y[v] < lower(v)) y[v] = lower(v) + uniform() * (x[i][v] - lower(v));
         if (y[v] > 1.0) y[v] = 1.0 - uniform() * (1.0 - x[i][v]);
-        if (uniform() < 1.0 / VARIABLES) y[v] = mutated(y[v], lower(v));
     }
+    for (double v = skipped(); v < VARIABLES; v += 1.0 + skipped()) y[(int)v] = mutated(y[(int)v], lower((int)v));
     evaluate(y, value);
     lower_ideal(value);
     for (int k = 0; k < count; k++) {
@@ -143,6 +148,7 @@ int main(int count, char **given) {
     int chosen[CHILDREN], iterations = (atoi(given[1]) - N) / CHILDREN;
     clock_t begin = clock();
     seed(strtoull(given[2], NULL, 10));
+    stride = 1.0 / log1p(-1.0 / VARIABLES);
     start();
     for (int iteration = 1; iteration <= iterations; iteration++) {
         choose(chosen);

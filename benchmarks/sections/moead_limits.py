@@ -14,8 +14,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from suspension_ctrl import MoeadDra, Problem, minimise
-from suspension_ctrl.compiled import call, linked, verb_of
-from suspension_ctrl.search.decomposition import ZERO_WEIGHT, tchebycheff, weight_vectors
+from suspension_ctrl.compiled import call, compilable, linked, verb_of
+from suspension_ctrl.search.decomposition import ZERO_WEIGHT, weight_vectors
 from suspension_ctrl.search.neighbours import neighbourhoods
 from suspension_ctrl.search.operators import mutated_value
 
@@ -116,30 +116,30 @@ def uf1() -> Problem:
 
 
 def ride(problem: Problem, population: int, generations: int, seed: int) -> None:
-    """Search the problem, neighbourhoods anew."""
-    neighbourhoods.cache_clear()
+    """Search the problem, with weight vectors and neighbourhoods at hand."""
     minimise(problem, MoeadDra(population=population), evaluations=(generations + 1) * population, seed=seed)
 
 
 def bare_run(problem: Problem, population: int, generations: int) -> Callable[[int], tuple[float, float]]:
-    """Return what times the arithmetic of a search of as many evaluations.
+    """Return what times the arithmetic of a search of as many evaluations, by its seed.
 
-    That is evaluation, differential evolution, mutation of one variable, and the comparison of the child with its
-    partners, a tenth of N for nine children of ten and all for the tenth; without draws and without replacement.
+    That is what `bare` does, and evaluation and values of equation (14) at the start, with weight vectors and
+    neighbourhoods at hand as for `ride`. Bookkeeping is all else: verbs that can be exchanged, choice of
+    subproblems by their utility, checks of results, spans of the objectives, states and history of the run.
     """
-    lower, upper = np.array(problem.lower), np.array(problem.upper)
-    weights = np.maximum(weight_vectors(population, len(problem.objectives)), ZERO_WEIGHT)
+    m = len(problem.objectives)
+    weights = np.maximum(weight_vectors(population, m), ZERO_WEIGHT)
+    near = neighbourhoods(population, m, max(20, population // 10))
     kernel: Any = problem.kernel
-    near = neighbourhoods(population, len(problem.objectives), max(20, population // 10))
 
     def run(seed: int) -> tuple[float, float]:
         rng = np.random.default_rng(seed)
-        plan = rng.integers(0, population, (generations * population, 3))
-        designs, u = rng.uniform(lower, upper, (population, lower.size)), rng.random(len(plan))
+        parents = rng.integers(0, population, generations * population)
+        evaluate, lower, upper = linked(verb_of(kernel)), np.array(problem.lower), np.array(problem.upper)
         begin = process_time()
+        designs = lower + (upper - lower) * rng.random((population, lower.size))
         values = problem.evaluate(designs)
-        costs = tchebycheff(values, weights, values.min(axis=0))
-        bare(linked(verb_of(kernel)), designs, weights, costs, near, plan, u, lower, upper)
+        bare(evaluate, rng, designs, values, weights, near, parents, lower, upper, max(2, population // 100))
         return process_time() - begin, np.nan
 
     return run
@@ -148,30 +148,79 @@ def bare_run(problem: Problem, population: int, generations: int) -> Callable[[i
 @njit
 def bare(
     evaluate: Any,
+    rng: np.random.Generator,
     designs: NDArray[np.float64],
+    values: NDArray[np.float64],
     weights: NDArray[np.float64],
-    costs: NDArray[np.float64],
     near: NDArray[np.int64],
-    plan: NDArray[np.int64],
-    u: NDArray[np.float64],
+    parents: NDArray[np.int64],
     lower: NDArray[np.float64],
     upper: NDArray[np.float64],
-) -> int:
-    """Return how many partners the children of a plan (k, 3) of parents and mates better."""
-    child, everyone, better = np.empty(lower.size), np.arange(costs.size), 0
-    for k in range(len(plan)):
-        i, one, other = plan[k]
-        for v in range(child.size):
+    limit: int,
+) -> None:
+    """Make, evaluate and place a child of each parent, as MOEA/D-DE does with three objectives, in one loop."""
+    n, d = designs.shape
+    ideal, costs, child = np.full(3, np.inf), np.empty(n), np.empty(d)
+    everyone, worse = np.arange(n), np.empty(n, dtype=np.int64)
+    for p in range(n):
+        lowered(ideal, values[p])
+    for p in range(n):
+        costs[p] = cost(weights, p, *gaps(values[p], ideal))
+    for i in parents:
+        partners = near[i] if rng.random() < 0.9 else everyone
+        first, second = int(rng.random() * partners.size), int(rng.random() * (partners.size - 1))
+        one, other = partners[first], partners[second + (second >= first)]
+        for v in range(d):
             value = designs[i, v] + 0.5 * (designs[one, v] - designs[other, v])
-            child[v] = min(max(value, lower[v]), upper[v])
-        v = k % child.size
-        child[v] = mutated_value(child[v], u[k], lower[v], upper[v], 20.0)
-        a, b, c = call(evaluate, (child,))
-        partners = near[i] if k % 10 else everyone
-        for p in partners:
-            cost = costs[p]
-            better += (weights[p, 0] * a < cost) & (weights[p, 1] * b < cost) & (weights[p, 2] * c < cost)
-    return better
+            if value < lower[v]:
+                value = lower[v] + rng.random() * (designs[i, v] - lower[v])
+            if value > upper[v]:
+                value = upper[v] - rng.random() * (upper[v] - designs[i, v])
+            if rng.random() < 1 / d:
+                value = mutated_value(value, rng.random(), lower[v], upper[v], 20.0)
+            child[v] = value
+        found = call(evaluate, (child,))
+        if lowered(ideal, found):
+            for p in range(n):
+                costs[p] = cost(weights, p, *gaps(values[p], ideal))
+        a, b, c = gaps(found, ideal)
+        count = 0
+        for k in range(partners.size):
+            worse[count] = partners[k]
+            count += cost(weights, partners[k], a, b, c) < costs[partners[k]]
+        for left in range(count, max(count - limit, 0), -1):
+            drawn = int(rng.random() * left)
+            p = worse[drawn]
+            worse[drawn] = worse[left - 1]
+            costs[p] = cost(weights, p, a, b, c)
+            for v in range(d):
+                designs[p, v] = child[v]
+            for j in range(3):
+                values[p, j] = found[j]
+
+
+@compilable()
+def lowered(ideal: NDArray[np.float64], value: NDArray[np.float64]) -> bool:
+    """Lower the ideal point (3,) to a value (3,); return whether it moves."""
+    moves = False
+    for j in range(3):
+        if value[j] < ideal[j]:
+            ideal[j], moves = value[j], True
+    return moves
+
+
+@compilable()
+def gaps(value: NDArray[np.float64], ideal: NDArray[np.float64]) -> tuple[float, float, float]:
+    """Return the distances of a value (3,) from the ideal point."""
+    return abs(value[0] - ideal[0]), abs(value[1] - ideal[1]), abs(value[2] - ideal[2])
+
+
+@compilable()
+def cost(weights: NDArray[np.float64], p: int, a: float, b: float, c: float) -> float:
+    """Return equation (14) of subproblem p for these distances from the ideal point."""
+    a, b, c = weights[p, 0] * a, weights[p, 1] * b, weights[p, 2] * c
+    a = b if b > a else a
+    return c if c > a else a
 
 
 def goals(timings: pd.DataFrame) -> list[tuple[str, float, float, str]]:

@@ -119,9 +119,11 @@ def _about_limits(found: Measurements, settings: dict[str, Any]) -> list[str]:
         else "The loop in C on UF1 is left out: no C compiler, or the short form."
     )
     return [
-        "Beside its limits, in processor time. Arithmetic and evaluation alone are a compiled loop of one "
-        "evaluation, one difference of designs, one mutated variable and the comparison with all partners for "
-        f"each child, without random numbers, choice, neighbourhoods and replacement. {loop}",
+        "Beside its limits, in processor time, with weight vectors and neighbourhoods at hand, which depend on N "
+        "alone and are kept. Arithmetic and evaluation alone are the same search in one compiled loop: mates, "
+        "differences of designs, repair, mutation and random numbers for these, evaluation, comparison with all "
+        "partners, and replacement. What it leaves out is bookkeeping: verbs that can be exchanged, choice of "
+        f"subproblems by utility, spans of the objectives, checks, states and the history of the run. {loop}",
         markdown(limits_table(found)),
     ]
 

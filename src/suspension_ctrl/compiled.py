@@ -153,15 +153,28 @@ def uncounted(**options: Any) -> Callable[[F], F]:
 
 
 def entry(function: Any, arguments: tuple[Any, ...]) -> Any:
-    """Return the machine code of a compiled function that was called with arguments; any other function as it is.
+    """Return the machine code of a compiled function for arguments; any other function as it is.
 
     A compiled function determines the types of its arguments at each call, in 10 us where they are many. Machine
     code does not: its arguments must have the same types.
     """
     if not is_jitted(function):
         return function
-    found: Any = function.overloads[tuple(map(function.typeof_pyval, arguments))]
-    return found.entry_point
+    return _overload(function, tuple(map(_kind_of, arguments))).entry_point
+
+
+def _overload(function: Any, kinds: tuple[Any, ...]) -> Any:
+    """Return what numba compiled of a function for types of arguments, None if it cannot for just these."""
+    if kinds not in function.overloads:
+        function.get_call_template(kinds, {})  # compiles, or loads from numba's store
+    return function.overloads.get(kinds)
+
+
+def _kind_of(value: Any) -> Any:
+    """Return the type of an argument; that of a linked verb is known."""
+    if isinstance(value, Linked):
+        return types.NamedTuple((_KINDS[value.address], types.int64), Linked)
+    return typeof(value)
 
 
 def call(verb: Any, arguments: tuple[Any, ...]) -> Any:
@@ -248,6 +261,7 @@ class Linked(NamedTuple):
 
 _VECTOR = types.float64[::1]
 _LINKED: dict[Any, Any] = {}  # by type of verb what numba compiled, for good: the code at an address must stay
+_KINDS: dict[int, Any] = {}  # types of verbs by address
 
 
 def linked(verb: Any, vectors: int = 1) -> Any:
@@ -255,13 +269,12 @@ def linked(verb: Any, vectors: int = 1) -> Any:
     function, kind = _callee(type(verb).__call__, storable(verb)), typeof(verb)
     if not is_jitted(function):  # NUMBA_DISABLE_JIT
         return verb
-    given = _given(kind, (_VECTOR,) * vectors)
-    function.get_call_template(given, {})  # compiles, or loads from numba's store
-    if given not in function.overloads:  # a user's function, compiled for other types of arguments alone
+    made = _overload(function, _given(kind, (_VECTOR,) * vectors))
+    if made is None:  # a user's function, compiled for other types of arguments alone
         return verb
-    made: Any = function.overloads[given]
-    _LINKED[kind] = made
-    return Linked(verb, made.library.get_pointer_to_function(made.fndesc.llvm_func_name))
+    address = made.library.get_pointer_to_function(made.fndesc.llvm_func_name)
+    _LINKED[kind], _KINDS[address] = made, kind
+    return Linked(verb, address)
 
 
 @lru_cache

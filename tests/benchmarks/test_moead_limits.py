@@ -6,8 +6,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from functions import uf
+from functions import dtlz2, uf
 from sections import moead_limits
+from suspension_ctrl.search.decomposition import ZERO_WEIGHT, weight_vectors
+from suspension_ctrl.search.neighbours import neighbourhoods
 
 
 def test_uf1_is_that_of_the_tests():
@@ -24,6 +26,24 @@ def test_the_loop_in_c_reaches_the_front(tmp_path):
     assert all(seconds > 0 for seconds, _ in found)
     _, early = moead_limits.loop_in_c(program, 3000, 0)
     assert early > 0.1
+
+
+def test_the_bare_loop_is_a_search():
+    """As plain Python, on DTLZ2, whose front is the unit sphere: 20 generations of 40."""
+    problem, rng = dtlz2(4), np.random.default_rng(0)
+    weights = np.maximum(weight_vectors(40, 3), ZERO_WEIGHT)
+    designs, parents = rng.random((40, 4)), rng.integers(0, 40, 800)
+    values = problem.evaluate(designs)
+    begin = np.linalg.norm(values, axis=1) - 1
+
+    def evaluate(child):
+        return problem.evaluate(child[np.newaxis])[0]
+
+    box = np.zeros(4), np.ones(4)
+    moead_limits.bare.py_func(evaluate, rng, designs, values, weights, neighbourhoods(40, 3, 20), parents, *box, 2)
+    np.testing.assert_array_equal(values, problem.evaluate(designs))
+    assert np.abs(np.linalg.norm(values, axis=1) - 1).mean() < 0.25 * begin.mean()
+    assert (np.ptp(values, axis=0) > 0.9).all()
 
 
 def test_goals_are_those_of_what_was_measured():

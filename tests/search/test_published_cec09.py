@@ -6,7 +6,7 @@ scaling of objectives, and 100 points chosen by weights from the last population
 generational distance. The means are quoted from memory of the paper, but for UF6's, which others quote too.
 
 Over seeds 0 to 10 the means here are 0.0043, 0.0071, 0.0060, 0.0585 and 0.0043 on UF1, UF2, UF3, UF4 and UF7, the
-medians 0.0043, 0.0069, 0.0041, 0.0589 and 0.0043; the tests take three of these seeds. Of the other problems of
+medians 0.0043, 0.0069, 0.0041, 0.0589 and 0.0043; the tests take five of these seeds. Of the other problems of
 two objectives, UF5 comes out at 0.21 (printed 0.181) and UF6 at 0.12. The 0.0059 printed for UF6 is out of reach
 for MOEA Framework as well, whose tracker has 0.114 to 0.135 at these settings.
 """
@@ -54,13 +54,13 @@ def igd(number: int, objectives: np.ndarray) -> float:
 
 @pytest.mark.parametrize("number", PRINTED)
 def test_moead_dra_is_as_good_as_its_authors(number):
-    """The median of three runs is within a quarter above the printed mean and no better than half of it.
+    """The median of five runs is within a quarter above the printed mean and no better than half of it.
 
-    Half, because a few bad runs draw the mean on UF3 away from the median; a quarter, because the median of three
-    runs on UF2, the widest of the others with a standard deviation of 0.0015, has one of 0.0010.
+    Half, because a few bad runs draw the mean on UF3 away from the median; a quarter, because the median of five
+    runs on UF2, the widest of the others with a standard deviation of 0.0018, has one of 0.0010.
     """
     optimiser = MoeadDra(population=600, normalise=False)
-    runs = [minimise(uf(number), optimiser, evaluations=300_000, seed=seed) for seed in range(3)]
+    runs = [minimise(uf(number), optimiser, evaluations=300_000, seed=seed) for seed in range(5)]
     median = np.median([igd(number, chosen(run.objectives)) for run in runs])
     assert 0.5 * PRINTED[number] < median < 1.25 * PRINTED[number]
 

@@ -55,11 +55,12 @@ def sweep_sequential(
     if isinstance(sweep.verbs[UPDATE], ReplaceInSweep):
         sweep.verbs[UPDATE].start()
     given = rng, np.ascontiguousarray(chosen), population, problem.strict, children, born, *sweep.verbs
-    try:
-        made, failures = sweep.run(*given)
-    except NumbaError as error:
-        raise ValueError(f"verbs must compile together, got {str(error).splitlines()[0]}") from None
-    problem.sweep = problem.sweep or sweep._replace(run=entry(sweep.run, given))
+    if not problem.sweep:
+        try:
+            problem.sweep = sweep._replace(run=entry(sweep.run, given))
+        except NumbaError as error:
+            raise ValueError(f"verbs must compile together, got {str(error).splitlines()[0]}") from None
+    made, failures = problem.sweep.run(*given)
     if made < 0:
         raise ValueError(_FAULTS[made])
     if sweep.compiled:
