@@ -225,7 +225,10 @@ def test_a_campaign_in_a_program_resumes_from_its_folder(tmp_path):
     pd.testing.assert_frame_equal(again, table)
     assert watched[-1] == ("quality, N = 20", 6, 6)
     assert line.designs == before + SAMPLE
-    campaign.time()
+    read = campaign.time()  # from files what was made before
+    for name, run in store.items():
+        for made, again in zip(run, read[name], strict=True):
+            pd.testing.assert_frame_equal(made, again, check_exact=True)
     assert watched[-1] == ("timed runs", 4, 4)
     assert line.designs == before + 2 * SAMPLE  # nothing is warmed up
 

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from suspension_ctrl import tables
-from suspension_ctrl.study.store import FolderStore, NotStoredError, SpoiltRunWarning, StoredRun
+from suspension_ctrl.study.store import FolderStore, NotStoredError, Remembered, SpoiltRunWarning, StoredRun
 
 RUN = StoredRun(
     pd.DataFrame({"evaluations": [20, 40], "igd_plus": [np.inf, 0.1 + 0.2]}),
@@ -119,3 +119,18 @@ def test_another_process_is_refused_until_the_store_is_gone(tmp_path):
     assert f"is in use by process {os.getpid()} on " in refused.stderr.splitlines()[-1]
     del store
     assert subprocess.run(command, cwd=tmp_path, capture_output=True, text=True).returncode == 0
+
+
+def test_what_is_remembered_is_read_once(tmp_path):
+    """A run that was made here is not read at all: its file may be spoilt."""
+    FolderStore(tmp_path, {})["one"] = RUN
+    store = Remembered(FolderStore(tmp_path, {}))
+    store["two"] = RUN
+    assert store["one"].final.equals(RUN.final)
+    for path in (tmp_path / "final").iterdir():
+        path.write_text("spoilt")
+    assert [store[name].final.equals(RUN.final) for name in store] == [True, True]
+    del store["one"]
+    assert (list(store), len(store), "one" in store) == (["two"], 1, False)
+    with pytest.raises(KeyError):
+        store["one"]

@@ -102,7 +102,7 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
         with machine.single_thread():
             write_json(record, machine.describe(texts))
     with terminal.compiling():
-        store = dict(campaign.time())  # each run is read once
+        store = campaign.time()
     if resumed:  # by settings with which the runs in the folder agree
         studies.save_resolved(campaign.folder, settled(request, judged=judged))
     timed = timing.tidy(campaign.comparison, store).assign(timing=True)

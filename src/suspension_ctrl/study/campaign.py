@@ -2,7 +2,7 @@
 
 import platform
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,7 +15,7 @@ from ..search.indicators import ReferenceFront
 from . import lock, machine, plans, reference, timing
 from .comparison import Comparison
 from .reference import Reference
-from .store import FolderStore, StoredRun, count_runs
+from .store import FolderStore, Remembered, StoredRun, count_runs
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -41,10 +41,10 @@ class Campaign:
     def __post_init__(self) -> None:
         object.__setattr__(self, "_lock", lock.hold(self.folder))
 
-    def time(self) -> FolderStore:
+    def time(self) -> MutableMapping[str, StoredRun]:
         """Make the timed runs one after the other on one thread, after a warm-up; return their store."""
         made_on = {"processor": machine.processor_name(), "python": platform.python_version()}
-        store = self._store(TIMED, "repeats", **made_on)
+        store = Remembered(self._store(TIMED, "repeats", **made_on))
         found, runs = len(store), len(self.comparison.timed_runs())
         with machine.single_thread(), warnings.catch_warnings():
             warnings.simplefilter("ignore", InfeasibleWarning)  # their table shows runs without a feasible design
@@ -92,9 +92,11 @@ class Campaign:
             kept[reference.NAME] = found.stored()
         return Reference.of(kept[reference.NAME])
 
-    def judge(self, front: ReferenceFront, client: "Client | None" = None) -> tuple[pd.DataFrame, FolderStore]:
+    def judge(
+        self, front: ReferenceFront, client: "Client | None" = None
+    ) -> tuple[pd.DataFrame, Mapping[str, StoredRun]]:
         """Make the runs over many seeds, on a cluster if given; return their table (`Study.table`) and store."""
-        store = self._store(QUALITY, "seeds", reference=reference.summary(front))
+        store = Remembered(self._store(QUALITY, "seeds", reference=reference.summary(front)))
         parts = []
         for population, study in self.comparison.studies(front).items():
             planned = study.runs()

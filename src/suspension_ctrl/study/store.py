@@ -113,6 +113,34 @@ class FolderStore(MutableMapping[str, StoredRun]):
                     lock.set_aside(self._path(part, name))
 
 
+class Remembered(MutableMapping[str, StoredRun]):
+    """A store in which a run that was made or read in this process is not read again."""
+
+    def __init__(self, store: MutableMapping[str, StoredRun]) -> None:
+        self._store, self._known = store, dict[str, StoredRun]()
+
+    def __getitem__(self, name: str) -> StoredRun:
+        if name not in self._known:
+            self._known[name] = self._store[name]
+        return self._known[name]
+
+    def __setitem__(self, name: str, run: StoredRun) -> None:
+        self._store[name] = self._known[name] = run
+
+    def __delitem__(self, name: str) -> None:
+        del self._store[name]
+        self._known.pop(name, None)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._store
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._store)
+
+    def __len__(self) -> int:
+        return len(self._store)
+
+
 def count_runs(folder: Path) -> int:
     """Return the number of finished runs in the folder of a store, 0 without it."""
     return sum(1 for _ in (folder / _RECORDS).glob("[!.]*.json"))
