@@ -29,7 +29,7 @@ SETTINGS: dict[str, Any] = {
     "nodes": (64, 128, 256, 512, 1024, 2048, 4096),
     "node_designs": {struts.QUARTER: 2000, struts.FULL: 200},
     "axles": (1, 2, 3, 4),
-    "modes": (0, 3, 13, 43, 93, 193),
+    "modes": (1, 3, 13, 43, 93, 193),
     "cases": (1, 2, 4, 8, 16, 32),
     "car_designs": 200,
     "designs": (1, 10, 100, 1000, 10_000, 100_000, 1_000_000),

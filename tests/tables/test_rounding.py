@@ -31,6 +31,7 @@ def test_cells_of_a_column(cells, texts):
 def test_decimals_may_be_given():
     assert rounded([1.0, float("nan"), 2.345], decimals=2) == ["1.00", "", "2.35"]
     assert rounded([123.456], digits=2) == ["123"]
+    assert rounded([-0.04, -1.0], decimals=1) == ["0.0", "-1.0"]
 
 
 @given(st.lists(st.floats(-1e12, 1e12), min_size=1, max_size=6))

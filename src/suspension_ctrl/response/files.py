@@ -30,6 +30,7 @@ from .event_files import IN_FILES
 from .load_case import Drive, LoadCase
 from .measures.limits import Limit, has_unit
 from .measures.measure import Measure
+from .placed_nodes import ACCURACIES
 from .problem import RideProblem
 from .scatter import Scatter
 from .scatter_files import IN_TABLE
@@ -62,6 +63,8 @@ class Document:
         Whether speeds, limits, bands and vehicles may be of no usual size: units are not judged by it.
     nodes : int
         Quadrature nodes; found if not given.
+    accuracy : float
+        Largest relative error by fewer nodes that are placed for the bounds, for very long searches.
     bounds : table
         Lowest and highest value of each coefficient that varies; those of the first case's vehicle if not given.
     kinds : table
@@ -88,6 +91,7 @@ class Document:
     worst_case: bool = False
     unusual: bool = False
     nodes: int | None = field(default=None, metadata=unit("", 2, NODES[-1]))
+    accuracy: float | None = field(default=None, metadata=unit("", *ACCURACIES))
     vehicle: str | Mapping[str, Any] = ""
     road: str | Mapping[str, Any] = ""
     speed: float | None = field(default=None, metadata=unit("m/s", 1e-3, 1e3))
@@ -200,6 +204,7 @@ def problem_table(problem: RideProblem, path: Path) -> dict[str, Any]:
         worst_case=problem.worst_case,
         unusual=not _of_usual_size(problem),
         nodes=problem.nodes if type(problem.nodes) is int else None,  # those that were found are of a subclass
+        accuracy=problem.accuracy,
         bounds=coefficient_table(vehicle, bounds),
         kinds=coefficient_table(vehicle, problem.kinds),
         struts=coefficient_table(vehicle, problem.struts),
@@ -286,6 +291,7 @@ _OF_PROBLEM = {
         "band",
         "worst_case",
         "nodes",
+        "accuracy",
         "bounds",
         "kinds",
         "struts",

@@ -21,12 +21,15 @@ from .mapped import Mapped
 from .measures.terms import Term
 from .one_port import OnePort
 from .one_strut import OneDesign, OneStrut
+from .placed_nodes import Placed
 from .ports import Ports
-from .quadrature import frequency_nodes, in_lanes
+from .quadrature import Rule, frequency_nodes, in_lanes
 from .strut_data import any_struts, networks_of
 
 AnyCase = OnePort | AnyStruts
 Case = OneStrut | ManyStruts | AnyCase | Mapped
+Nodes = int | Placed
+"""A number of nodes, or those that are placed for a box."""
 
 
 def cases_of(
@@ -35,11 +38,15 @@ def cases_of(
     settings: Sequence[Mapping[str, float]],
     variables: Sequence[str],
     band: tuple[float, float],
-    nodes: int,
+    nodes: Nodes,
 ) -> tuple[Case, ...]:
     """Return `case_of` each load case, all of one class for compiled loops."""
-    each, kind = zip(load_cases, terms, settings, strict=True), kind_of(load_cases, variables)
-    return tuple(_mapped(case[0].vehicle, case_of(*case, variables, band, nodes, kind=kind)) for case in each)
+    rules: Sequence[int | Rule] = nodes.rules if isinstance(nodes, Placed) else [nodes] * len(load_cases)
+    each, kind = zip(load_cases, terms, settings, rules, strict=True), kind_of(load_cases, variables)
+    return tuple(
+        _mapped(case.vehicle, case_of(case, some, setting, variables, band, rule, kind=kind))
+        for case, some, setting, rule in each
+    )
 
 
 def _mapped(vehicle: Vehicle, case: Case) -> Case:
@@ -76,7 +83,7 @@ def case_of(
     setting: Mapping[str, float],
     variables: Sequence[str],
     band: tuple[float, float],
-    nodes: int,
+    nodes: int | Rule,
     pairs: Callable[[Sequence[str], Real], Pairs] = pairs_of,
     kind: type[Case] | None = None,
 ) -> Case:
@@ -102,12 +109,13 @@ def case_of(
 
 
 def quadrature_of(
-    load_case: LoadCase, terms: Sequence[Term], band: tuple[float, float], nodes: int
+    load_case: LoadCase, terms: Sequence[Term], band: tuple[float, float], nodes: int | Rule
 ) -> tuple[Real, Real, Real]:
     """Return nodes f (n,) [Hz], weights (n,), and densities (k, n): weights times squared factors of terms."""
     weights = [term.weighting and weightings.by_name(term.weighting) for term in terms]
     kinks = {f for weighting in weights if weighting for f in weighting.breakpoints}
-    f, w = frequency_nodes(band, nodes, kinks.union(load_case.breakpoints))
+    breakpoints = kinks.union(load_case.breakpoints)
+    f, w = nodes if isinstance(nodes, Rule) else frequency_nodes(band, nodes, breakpoints)
     densities = np.array(
         [
             w * (2 * np.pi * f) ** term.moment * (weighting.factor(f) ** 2 if weighting else 1.0)

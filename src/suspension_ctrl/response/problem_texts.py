@@ -38,13 +38,16 @@ def sentences_of_cases(problem: "RideProblem") -> list[str]:
 
 def representation(problem: "RideProblem") -> str:
     """Return the text of `repr`."""
+    nodes = f"{problem.nodes} nodes"
+    if problem.accuracy is not None:
+        nodes = f"accuracy {problem.accuracy:g}"
     parts = [
         ", ".join(f"{name} [{problem.units[name]}]" for name in problem.objectives),
         *map(str, problem.constraints),
         *_in_units(problem),
         *([f"scatter {problem.scatter.describe()}"] if problem.scatter else []),
         *(f"{type(case.vehicle).__name__} at {case.speed:g} m/s" for case in problem.cases),
-        f"{problem.band[0]:g} to {problem.band[1]:g} Hz, weighting {problem.weighting}, {problem.nodes} nodes",
+        f"{problem.band[0]:g} to {problem.band[1]:g} Hz, weighting {problem.weighting}, {nodes}",
     ]
     return wrapped(f"RideProblem({'; '.join(parts)})")
 

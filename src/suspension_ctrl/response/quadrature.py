@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from scipy.special import roots_legendre
@@ -14,7 +15,14 @@ _PARTS = 1000
 _LEAST = 16  # nodes of a panel for 1e-9 beside a slow pole, K/C of a soft and heavily damped strut
 
 
-def frequency_nodes(band: tuple[float, float], nodes: int, breakpoints: Iterable[float] = ()) -> tuple[Real, Real]:
+class Rule(NamedTuple):
+    """Nodes and weights of a quadrature over frequency."""
+
+    f: Real  # (n,) [Hz], ascending
+    w: Real  # (n,)
+
+
+def frequency_nodes(band: tuple[float, float], nodes: int, breakpoints: Iterable[float] = ()) -> Rule:
     """Return ascending nodes f [Hz] and weights w: ``(g(f) * w).sum()`` is the integral of g over the band.
 
     In u = sqrt(f) the spectrum of a road is rational: Gauss-Legendre quadrature converges geometrically.
@@ -27,7 +35,7 @@ def frequency_nodes(band: tuple[float, float], nodes: int, breakpoints: Iterable
     panels = edges.size - 1
     x, w = roots_legendre(nodes if panels == 1 else max(_LEAST, -(-nodes // panels)))
     f, weight = zip(*(_panel(x, w, start, end) for start, end in pairwise(edges)), strict=True)
-    return np.concatenate(f), np.concatenate(weight)
+    return Rule(np.concatenate(f), np.concatenate(weight))
 
 
 def _panel(x: Real, w: Real, start: float, end: float) -> tuple[Real, Real]:

@@ -10,16 +10,17 @@ import numpy as np
 from ..compiled import call, compilable
 from ..quantities import Bool, Complex, Integer, Real
 from ..threads import in_blocks, numbers_in
+from ..vehicles.assembly import ResponseName
 from ..vehicles.feedback import gains_by_order
 from ..vehicles.varied import Varied
 from ..vehicles.vehicle import Vehicle, assembled
 from .linearisation import check_reached, linear_vehicles, powers_of_laws, working_points
 from .load_case import LoadCase
 from .mapped import mean_squares_of, unmapped
-from .mean_squares import AnyCase, Case, cases_of, one_by_one, varying
+from .mean_squares import AnyCase, Case, Nodes, cases_of, one_by_one, quadrature_of, varying
 from .measures.terms import CaseMeasure, Designs, Term
 from .ports import Ports, dynamic_stiffness, paths
-from .quadrature import middles
+from .quadrature import Rule, middles
 
 RESOLVED = 1e-6
 """Largest relative change of a root mean square that twice the nodes may make."""
@@ -128,7 +129,7 @@ class Scores:
         self.variables, self.band, self.seen = variables, band, seen
         shares = np.array([case.share for case in cases])
         self.shares = shares / shares.sum()
-        self._kernels: dict[int, Kernel] = {}
+        self._kernels: dict[Nodes, Kernel] = {}
 
     @cached_property
     def terms(self) -> list[tuple[Term, ...]]:
@@ -136,7 +137,7 @@ class Scores:
         by_case = zip(*(score.cases for score in self.scores), strict=True)
         return [tuple(dict.fromkeys(term.integral for one in each for term in one.terms)) for each in by_case]
 
-    def kernel(self, nodes: int) -> Kernel:
+    def kernel(self, nodes: Nodes) -> Kernel:
         """Return the scores as data of compiled loops; a measure by a function has no mean square there."""
         if nodes not in self._kernels:
             self._kernels[nodes] = Kernel(
@@ -155,7 +156,7 @@ class Scores:
         """Whether the kernel alone gives all scores."""
         return not self.functions
 
-    def evaluate(self, designs: Real, nodes: int, threads: int = 1) -> Real:
+    def evaluate(self, designs: Real, nodes: Nodes, threads: int = 1) -> Real:
         """Return the scores (p, s) of designs (p, v); functions of designs are called on this thread."""
         result = np.empty((len(self.scores), len(designs))).T
 
@@ -169,7 +170,7 @@ class Scores:
         return result
 
     def in_blocks(
-        self, function: Callable[[slice], T], designs: int, nodes: int, threads: int, times: int = 1
+        self, function: Callable[[slice], T], designs: int, nodes: Nodes, threads: int, times: int = 1
     ) -> list[T]:
         """Return the results of a function of parts of so many designs, on threads if the work is worth them.
 
@@ -178,7 +179,7 @@ class Scores:
         passed = designs * times * numbers_in(self.kernel(nodes).cases)
         return in_blocks(function, designs, passed, threads)
 
-    def _fill(self, scores: Real, designs: Real, nodes: int) -> list[Real]:
+    def _fill(self, scores: Real, designs: Real, nodes: Nodes) -> list[Real]:
         """Fill in scores (p, s) of designs (p, v) without functions; return the mean squares (p, k) of cases."""
         kernel = self.kernel(nodes)
         squares = [mean_squares_of(case, designs) for case in kernel.cases]
@@ -195,7 +196,7 @@ class Scores:
         return squares if self.functions else []
 
     def fill_functions(
-        self, scores: Real, designs: Real, nodes: int, mean_squares: Sequence[Real], columns: Sequence[int]
+        self, scores: Real, designs: Real, nodes: Nodes, mean_squares: Sequence[Real], columns: Sequence[int]
     ) -> None:
         """Fill in columns (p, s) by functions of designs (p, v) with mean squares (p, k) in each case."""
         by_case = self.in_cases(designs, nodes, mean_squares) if columns else []
@@ -208,12 +209,12 @@ class Scores:
         """Columns by functions of designs."""
         return [column for column, score in enumerate(self.scores) if score.by_function]
 
-    def in_cases(self, designs: Real, nodes: int, mean_squares: Sequence[Real]) -> list[Designs]:
+    def in_cases(self, designs: Real, nodes: Nodes, mean_squares: Sequence[Real]) -> list[Designs]:
         """Return designs (p, v) with mean squares (p, k) in each case, as functions get them."""
         kernel = self.kernel(nodes)
         return [self._designs(c, designs, kernel, each) for c, each in enumerate(mean_squares)]
 
-    def by_case(self, case: int, design: Real, nodes: int) -> Real:
+    def by_case(self, case: int, design: Real, nodes: Nodes) -> Real:
         """Return each measure (s,) of one design (v,) in a load case, without its factor and its constant."""
         designs, kernel = design[None], self.kernel(nodes)
         mean_squares = reached(mean_squares_of(kernel.cases[case], designs), designs)
@@ -240,10 +241,25 @@ class Scores:
 
     def errors(self, designs: Real, nodes: int) -> list[Real]:
         """Return by case the largest change (k,) of each root mean square by twice the nodes."""
-        both = zip(self.kernel(nodes).cases, self.kernel(2 * nodes).cases, strict=True)
+        return self.changes(designs, nodes, 2 * nodes)
+
+    def changes(self, designs: Real, nodes: Nodes, others: Nodes) -> list[Real]:
+        """Return by case the largest change (k,) of each root mean square by other nodes."""
+        both = zip(self.kernel(nodes).cases, self.kernel(others).cases, strict=True)
         return [
             _change(*(np.sqrt(reached(mean_squares_of(case, designs), designs)) for case in pair)) for pair in both
         ]
+
+    def integrands(self, designs: Real, nodes: int) -> Iterator[tuple[Rule, Real]]:
+        """Yield for each case without networks a rule of n nodes and the summands (p k, n) of its mean squares."""
+        for c, case in enumerate(self.cases):
+            f, w, densities = quadrature_of(case, self.terms[c], self.band, nodes)
+            _, linear = unmapped(self.kernel(nodes).cases[c], designs)
+            names = [term.response for term in self.terms[c]]
+            roads = case.cross_spectrum(f) if case.wheels > 1 else case.psd(f)[:, None, None]
+            h = self._paths(c, f, names, self._coefficients(c, linear))
+            summands = [densities * np.einsum("nmi,nij,nmj->mn", one, roads, one.conj()).real for one in h]
+            yield Rule(f, w), np.concatenate(summands)
 
     @cached_property
     def _simple(self) -> tuple[Integer | slice, Real] | None:
@@ -340,19 +356,24 @@ class Scores:
         self, c: int, designs: Real, coefficients: Real, squares: Case
     ) -> Iterator[tuple[Real, Mapping[str, Real]]]:
         """Yield frequencies (n,) [Hz] and the spectra of all responses for each of designs (p, v)."""
-        case, known, f = self.cases[c], self.settings[c], middles(self.band)
+        case, f = self.cases[c], middles(self.band)
         if isinstance(squares, AnyCase):
-            for linear in linear_vehicles(case.vehicle, list(known), squares, designs, coefficients):
+            for linear in linear_vehicles(case.vehicle, list(self.settings[c]), squares, designs, coefficients):
                 h, names = paths(linear.closed(), f), linear.responses
                 yield f, spectra_of(h, case.cross_spectrum(f), names)
             return
-        vehicle, names = case.vehicle, case.vehicle.responses
-        ports, roads = Ports.of(vehicle, f, names, known), case.cross_spectrum(f)
+        names, roads = case.vehicle.responses, case.cross_spectrum(f)
+        for h in self._paths(c, f, names, coefficients):
+            yield f, spectra_of(h, roads, names)
+
+    def _paths(self, c: int, f: Real, names: Sequence[ResponseName], coefficients: Real) -> Iterator[Complex]:
+        """Yield frequency responses (n, m, r) of a case without networks for coefficients (p, c)."""
+        vehicle, known = self.cases[c].vehicle, self.settings[c]
+        ports = Ports.of(vehicle, f, names, known)
         for row in coefficients - np.array(list(known.values())):
             added = dict(zip(known, row.tolist(), strict=True))
             gains = gains_by_order(vehicle.strut_coefficients, added, len(vehicle.struts))
-            h = ports.around(dynamic_stiffness(gains, 2 * np.pi * f)).h[:, : ports.m, : ports.r]
-            yield f, spectra_of(h, roads, names)
+            yield ports.around(dynamic_stiffness(gains, 2 * np.pi * f)).h[:, : ports.m, : ports.r]
 
 
 def spectra_of(h: Complex, roads: Complex, names: Sequence[str]) -> dict[str, Real]:

@@ -13,10 +13,12 @@ from ..quantities import Real
 from ..vehicles.varied import Varied, ported, setting_of
 from ..vehicles.vehicle import Struts, coefficients_by_name
 from .load_case import LoadCase
+from .mean_squares import Nodes
 from .measures.limits import Limit
 from .measures.measure import Measure, MeasureLike, measure_of
 from .measures.robust import Robust
 from .measures.terms import CaseMeasure
+from .placed_nodes import placed
 from .robust_scores import RobustScores, ScatteredScores, Statistics
 from .scatter import Scatter
 from .scattered import Scattered
@@ -93,7 +95,7 @@ class Scoring:
         first = self.cases[0].vehicle
         vehicles = [ported(case.vehicle, tuple(self.bounds), self.fixed, first) for case in self.cases]
         if isinstance(vehicles[0], Varied) and vehicles[0].has_frequencies:
-            for corner in self._corners:
+            for corner in self.corners:
                 vehicles[0].with_design(corner)  # which raises ValueError where a frequency is out of reach
         return tuple(replace(case, vehicle=one) for case, one in zip(self.cases, vehicles, strict=True))
 
@@ -126,6 +128,10 @@ class Scoring:
         got = f"{taken}, which is off by {error:.1g} at its corners{hint}"
         raise ValueError(f"nodes must resolve every resonance in the box to {RESOLVED:g}, got {got}")
 
+    def placed(self, nodes: int, accuracy: float) -> Nodes:
+        """Return the nodes that are placed for this accuracy in the box, `nodes` where they are not fewer."""
+        return placed(self.scores, nodes, self.corners, accuracy) or nodes
+
     def _score(self, one: Measure | Limit, cases: Sequence[LoadCase]) -> Score:
         """Return the score of a measure or a limit in load cases."""
         found = tuple(one.nominal.in_case(case, self.weighting) for case in cases)
@@ -135,14 +141,14 @@ class Scoring:
 
     def _error(self, nodes: int) -> float:
         """Return the largest error of a term at corners of the box: there resonances are sharpest."""
-        errors = self.scores.errors(self._corners, nodes)
+        errors = self.scores.errors(self.corners, nodes)
         if self.robust:
             lower, upper = np.array([*self.bounds.values()]).T
-            errors = [*errors, *self.robust.scattered.errors(self._corners, lower, upper, nodes)]
+            errors = [*errors, *self.robust.scattered.errors(self.corners, lower, upper, nodes)]
         return max(float(one.max(initial=0.0)) for one in errors)
 
     @cached_property
-    def _corners(self) -> Real:
+    def corners(self) -> Real:
         """Corners (k, d) of the box, some of many."""
         return np.random.default_rng(0).permutation(list(product(*self.bounds.values())))[:_CORNERS]
 

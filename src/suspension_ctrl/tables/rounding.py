@@ -32,7 +32,7 @@ def _text(x: Any, decimals: int) -> str:
     """Return a cell with this number of decimals."""
     if x is None or x != x:
         return ""
-    return f"{x:.{decimals}f}" if isinstance(x, float) else str(x)
+    return f"{x:z.{decimals}f}" if isinstance(x, float) else str(x)
 
 
 def _own(x: Any, digits: int) -> str:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...quantities import Real
+from ..mean_squares import Nodes
 from ..measures.terms import Designs
 from ..scores import Score, Scores
 from .stencils import by_stencils
@@ -15,7 +16,7 @@ def fill(
     values: Real,
     jacobian: Real,
     designs: Real,
-    nodes: int,
+    nodes: Nodes,
     squares: Sequence[Real],
     tangents: Sequence[Real],
     bounds: tuple[Real, Real],

@@ -6,13 +6,14 @@ from functools import lru_cache
 import numpy as np
 
 from ...quantities import Integer, Real
+from ..mean_squares import Nodes
 from ..scores import Kernel, Scores, reached
 from . import functions
 from .cases import with_slopes
 from .wanted import TIED, Wanted
 
 
-def with_jacobian(scores: Scores, designs: Real, nodes: int, bounds: tuple[Real, Real]) -> tuple[Real, Real]:
+def with_jacobian(scores: Scores, designs: Real, nodes: Nodes, bounds: tuple[Real, Real]) -> tuple[Real, Real]:
     """Return the scores (p, s) of designs (p, v), and their derivatives (p, s, v) by the variables.
 
     Of the largest of terms or load cases it is that of the largest one, of equal ones that of the first, of a mean
@@ -40,7 +41,7 @@ def _rows(slopes: Real, row: Integer) -> Real:
 
 
 @lru_cache(maxsize=32)
-def _plan(scores: Scores, nodes: int) -> tuple[list[Wanted], Integer, list[list[int]]]:
+def _plan(scores: Scores, nodes: Nodes) -> tuple[list[Wanted], Integer, list[list[int]]]:
     """Return what is wanted in each case, the row (s,) of each score, and mean squares alone, in the last rows."""
     combined, row = _combinations(scores.kernel(nodes))
     alone = [_of_functions(scores, c) for c in range(len(scores.cases))]

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...quantities import Real
+from ..mean_squares import Nodes
 from ..scores import Scores
 
 _STEP = 2e-3  # of a value: the error, h^4 f^(5)/30, is some 1e-10 of the derivative of a power
@@ -24,7 +25,7 @@ def by_stencils(
     scores: Scores,
     columns: Sequence[int],
     designs: Real,
-    nodes: int,
+    nodes: Nodes,
     squares: Sequence[Real],
     tangents: Sequence[Real],
     values: Real,
