@@ -111,9 +111,7 @@ class _QuickFlags(_Flags):  # type: ignore[misc]
     """
 
     def __eq__(self, other: object) -> bool:
-        if isinstance(other, _QuickFlags) and self._values == other._values:
-            return True
-        return bool(super().__eq__(other))
+        return isinstance(other, _QuickFlags) and bool(self._values == other._values)
 
     def __hash__(self) -> int:
         return hash(_QuickFlags)
