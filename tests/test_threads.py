@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from suspension_ctrl.threads import in_blocks, limited, number, numbers_in
 
-MUCH = 1 << 30
+MUCH = 1 << 31
 """Work for more blocks than there are rows here."""
 
 

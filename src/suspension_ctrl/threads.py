@@ -16,8 +16,8 @@ from . import checks
 
 T = TypeVar("T")
 
-_BLOCK, _LEAST = 1 << 23, 1 << 21
-"""Numbers that a block passes through, a millisecond's work, and the least that are worth a thread."""
+_BLOCK, _LEAST = 1 << 24, 1 << 21
+"""Numbers that a block passes through, some milliseconds' work, and the least that are worth a thread."""
 
 _most: ContextVar[int | None] = ContextVar("most", default=None)
 

@@ -19,7 +19,8 @@ class ManyStruts(NamedTuple):
 
     A block has deflections by q tensions (q, q) and by s uncorrelated sources of unit density in place of the
     roads (q, s), then k terms by sources (k, s) and by tensions (k, q), times the root of their densities. Blocks
-    follow one another; the last dimension of each part varies fastest.
+    follow one another; the last dimension of each part varies fastest. Of load cases that share a plant the
+    sources in each block are those of one case after another, as many of each.
     """
 
     omega: Real  # (n,) angular frequencies [rad/s], a multiple of eight
@@ -30,26 +31,28 @@ class ManyStruts(NamedTuple):
     gain: Real  # (v, sum of q q), tensions of each variable at 1 by deflections or their derivatives of its order
     order: Integer  # (v,), 0 of springs, 1 of dampers, 2 of inerters and masses
     origin: Real  # (v,), values of the variables around which the plant is closed already
+    cases: int = 1  # load cases that share the plant
 
     @compiled(nogil=True)
     def __call__(self, designs: Real) -> Real:
-        """Return the mean squares (p, k) of designs (p, v), each as if alone, by (1 - P D) e = S."""
+        """Return the mean squares (p, cases k) of designs (p, v), each as if alone, by (1 - P D) e = S."""
         terms, tile, most, rows = self.channel.size, min(_TILE, designs.shape[0]), 0, 0
         for b in range(self.sizes.shape[0]):
             q, s, k = self.sizes[b]
             most, rows = max(most, q), max(rows, (q + k) * (q + s))
         room, plant = np.empty(2 * rows_for(most) * 2 * WIDTH), np.empty(rows * 2 * WIDTH)
-        sums = np.empty((tile, terms, WIDTH))
+        sums = np.empty((tile, self.cases * terms, WIDTH))
         elements = np.empty((tile, self.gain.shape[1], 3))
-        result = np.empty((designs.shape[0], terms))
+        result = np.empty((designs.shape[0], self.cases * terms))
         for first in range(0, designs.shape[0], _TILE):
             count = min(_TILE, designs.shape[0] - first)
             for p in range(count):
                 fill_elements(self, designs, first + p, elements[p])
             fill_squares(self, elements[:count], plant, room, sums)
             for p in range(count):
-                for term in range(terms):
-                    result[first + p, term] = total(load(sums, (p, self.channel[term], 0)))
+                for term in range(self.cases * terms):
+                    channel = self.channel[term % terms] + term - term % terms
+                    result[first + p, term] = total(load(sums, (p, channel, 0)))
         return result
 
 
@@ -82,11 +85,12 @@ def fill_squares(struts: ManyStruts, elements: Real, plant: Real, room: Real, su
             w = load(struts.omega, (t,))
             if q == 2 and not crossed:
                 for p in range(elements.shape[0]):
-                    add_two_struts(w, plant, elements[p, entry : entry + 4], s, response, sums[p])
+                    add_two_struts(w, plant, elements[p, entry : entry + 4], s, response, struts.cases, sums[p])
             else:
                 for p in range(0, elements.shape[0], 2):
                     own = elements[p : p + 2, entry : entry + q * q]
-                    add_struts(w, plant, own, crossed, struts.sizes[b], response, room, sums[p : p + 2])
+                    two = sums[p : p + 2]
+                    add_struts(w, plant, own, crossed, struts.sizes[b], response, struts.cases, room, two)
         row, entry, output = row + (q + k) * (q + s), entry + q * q, output + k
 
 

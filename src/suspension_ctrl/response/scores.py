@@ -21,6 +21,7 @@ from .mean_squares import AnyCase, Case, Nodes, cases_of, one_by_one, quadrature
 from .measures.terms import CaseMeasure, Designs, Term
 from .ports import Ports, dynamic_stiffness, paths
 from .quadrature import Rule, middles
+from .shared_plants import Shared, shared, squares_by_case
 
 RESOLVED = 1e-6
 """Largest relative change of a root mean square that twice the nodes may make."""
@@ -130,6 +131,7 @@ class Scores:
         shares = np.array([case.share for case in cases])
         self.shares = shares / shares.sum()
         self._kernels: dict[Nodes, Kernel] = {}
+        self._shared: dict[Nodes, list[Shared]] = {}
 
     @cached_property
     def terms(self) -> list[tuple[Term, ...]]:
@@ -150,6 +152,12 @@ class Scores:
                 np.array([score.offset for score in self.scores]),
             )
         return self._kernels[nodes]
+
+    def _groups(self, nodes: Nodes) -> list[Shared]:
+        """Return the cases of the kernel, those that share a plant as one."""
+        if nodes not in self._shared:
+            self._shared[nodes] = shared(self.kernel(nodes).cases)
+        return self._shared[nodes]
 
     @property
     def compiled(self) -> bool:
@@ -182,7 +190,7 @@ class Scores:
     def _fill(self, scores: Real, designs: Real, nodes: Nodes) -> list[Real]:
         """Fill in scores (p, s) of designs (p, v) without functions; return the mean squares (p, k) of cases."""
         kernel = self.kernel(nodes)
-        squares = [mean_squares_of(case, designs) for case in kernel.cases]
+        squares = squares_by_case(self._groups(nodes), designs)
         if self._simple:
             which, factor = self._simple
             found = scores.T

@@ -27,6 +27,7 @@ def add_struts(
     crossed: bool,
     sizes: Integer,
     response: Integer,
+    cases: int,
     room: Real,
     sums: Real,
 ) -> None:
@@ -42,16 +43,16 @@ def add_struts(
     factor(q, plant, crossed, room)
     for source in range(s):
         solve(q, s, plant, source, crossed, room)
-        one, two = rows_for(q) - q, 2 * rows_for(q) - q
+        one, two, own = rows_for(q) - q, 2 * rows_for(q) - q, source * cases // s * (sums.shape[1] // cases)
         for i in range(k):
             first = second = row_at(plant, q * (q + s) + source + i * s)
             for j in range(q):
                 row = row_at(plant, q * (q + s) + k * s + i * q + j)
                 first = plus(first, row, row_at(room, one + j))
                 second = plus(second, row, row_at(room, two + j))
-            add_square(first, sums, 0, response[i])
+            add_square(first, sums, 0, own + response[i])
             if last:
-                add_square(second, sums, 1, response[i])
+                add_square(second, sums, 1, own + response[i])
 
 
 @uncounted(forceinline=True)

@@ -12,7 +12,9 @@ Element = tuple[float, float, float]
 
 
 @uncounted(error_model="numpy", forceinline=True)
-def add_two_struts(w: Lanes, rows: Real, elements: Real, sources: int, response: Integer, sums: Real) -> None:
+def add_two_struts(
+    w: Lanes, rows: Real, elements: Real, sources: int, response: Integer, cases: int, sums: Real
+) -> None:
     """Add the squares of a block's terms at eight frequencies by its rows (16 l,) to sums (m, 8).
 
     The deflections are e = (1 - P D)^-1 S by Cramer's rule, and a term is its row by the source plus T D e; D has
@@ -28,7 +30,8 @@ def add_two_struts(w: Lanes, rows: Real, elements: Real, sources: int, response:
     for source in range(sources):
         x, y = row_at(rows, 4 + source), row_at(rows, 4 + sources + source)
         tension = product(plus(product(d, x), b, y), first), product(plus(product(a, y), c, x), second)
-        add_squares(rows, 4 + 2 * sources, source, sources, tension, response, sums)
+        start = source * cases // sources * (sums.shape[0] // cases)
+        add_squares(rows, 4 + 2 * sources, source, sources, tension, response, start, sums)
 
 
 @uncounted(forceinline=True)
@@ -46,12 +49,16 @@ def add_squares(
     sources: int,
     tension: tuple[Pair, Pair],
     response: Integer,
+    start: int,
     sums: Real,
 ) -> None:
-    """Add the squares of all terms of a block, whose rows begin at `row`, by a source and two tensions."""
+    """Add the squares of all terms of a block, whose rows begin at `row`, by a source and two tensions.
+
+    The sums of its load case begin at `start`.
+    """
     by_strut = row + response.size * sources
     for i in range(response.size):
         value = plus(row_at(rows, row + i * sources + source), row_at(rows, by_strut + 2 * i), tension[0])
         re, im = plus(value, row_at(rows, by_strut + 2 * i + 1), tension[1])
-        place = response[i], 0
+        place = start + response[i], 0
         store(fused(re, re, fused(im, im, load(sums, place))), sums, place)
