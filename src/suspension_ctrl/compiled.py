@@ -76,7 +76,7 @@ class _Whole(_Library):  # type: ignore[misc]
     """
 
     def _optimize_functions(self, module: Any) -> None:
-        module.data_layout = self._codegen._data_layout
+        module.data_layout = str(self._codegen.target_data)
 
 
 class _Part(_Whole):
