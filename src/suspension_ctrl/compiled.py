@@ -65,6 +65,9 @@ def uncollected() -> Iterator[None]:
     try:
         yield
     finally:
+        if collects and not gc.get_freeze_count():  # what was made grows old without being looked at
+            gc.freeze()
+            gc.unfreeze()
         if collects:
             gc.enable()
 
