@@ -1,5 +1,5 @@
 # make compare   the paper's experiment: creates .venv, installs, runs (ARGS="--quick" for the short form)
-# make test      the same set-up, all tests; three at a time keep two cores busy, as some wait for other processes
+# make test      the same set-up, all tests
 # make bench     speed beside other libraries, which it installs; writes docs/performance.md (ARGS="--quick": does not)
 # make soak     kills, full disks, spoilt files, lost workers; writes docs/reliability.md (ARGS="--quick": does not)
 # make docs      the site of docs, examples and docstrings in build/docs
@@ -17,7 +17,7 @@ compare: $(READY)
 	$(BIN)/python scripts/compare.py $(ARGS)
 
 test: $(READY)
-	$(BIN)/python -m pytest -n 3 --dist worksteal $(ARGS)
+	$(BIN)/python -m pytest -n 2 --dist worksteal $(ARGS)
 
 bench: $(PEERS)
 	$(BIN)/python benchmarks/benchmark.py $(or $(ARGS),--docs docs)
