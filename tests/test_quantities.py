@@ -152,3 +152,13 @@ def test_any_text_is_a_number_or_refused_in_one_line(text):
 def test_a_bare_number_is_refused_where_a_unit_is_needed():
     with pytest.raises(ValueError, match=r"^x must be a number with a unit like m, got '3'$"):
         quantity("x", "3", "m", bare=False)
+
+
+def test_a_read_only_array_is_copied_too():
+    """Its owner may make it writable again."""
+    given = np.zeros(3)
+    given.flags.writeable = False
+    kept = frozen_array(given)
+    given.flags.writeable = True
+    given[0] = 1.0
+    assert kept[0] == 0.0

@@ -91,14 +91,7 @@ def wrapped(text: str) -> str:
 
 
 def frozen_array(values: ArrayLike, dtype: type = float) -> NDArray[Any]:
-    """Return a read-only copy of the values; an array that is one already, as it is."""
-    if (
-        isinstance(values, np.ndarray)
-        and values.base is None
-        and not values.flags.writeable
-        and values.dtype == dtype
-    ):
-        return values
+    """Return a read-only copy of the values."""
     array: NDArray[Any] = np.array(values, dtype=dtype)
     array.flags.writeable = False
     return array

@@ -109,6 +109,12 @@ class Generational(Settings):
         return self.population
 
 
+def _kept(values: ArrayLike) -> Real:
+    """Return an array (k,) that a search made read-only as it is, a read-only copy of others."""
+    own = isinstance(values, np.ndarray) and values.base is None and not values.flags.writeable
+    return np.asarray(values) if own else frozen_array(values)
+
+
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class State(Population):
     """The population of a search after an iteration."""
@@ -123,7 +129,7 @@ class State(Population):
         return cls(
             designs=designs, objectives=values[:, : ideal.size], constraints=values[:, ideal.size :],
             ideal=frozen_array(ideal), evaluations=evaluations,
-            memory=FrozenMapping({name: frozen_array(value) for name, value in memory.items()}),
+            memory=FrozenMapping({name: _kept(value) for name, value in memory.items()}),
         )  # fmt: skip
 
     def arrays(self) -> tuple[Real, Real, Real, int]:
