@@ -32,10 +32,15 @@ def crowded_tournament(rng: np.random.Generator, rank: Integer, crowding: Real, 
     return ranked_winners(a, b, rank, crowding)
 
 
+@compiled()
 def ranked_winners(a: Integer, b: Integer, rank: Integer, crowding: Real) -> Integer:
     """Return the winners (k,) of tournaments of a (k,) and b (k,): a where they tie."""
-    b_wins = (rank[b] < rank[a]) | ((rank[b] == rank[a]) & (crowding[b] > crowding[a]))
-    return np.where(b_wins, b, a)
+    winners = np.empty(a.size, dtype=np.int64)
+    for k in range(a.size):
+        one, other = a[k], b[k]
+        b_wins = rank[other] < rank[one] or (rank[other] == rank[one] and crowding[other] > crowding[one])
+        winners[k] = other if b_wins else one
+    return winners
 
 
 def simulated_binary_crossover(

@@ -22,16 +22,49 @@ def select_survivors(objectives: Real, size: int) -> tuple[Integer, NDArray[np.i
     Evol. Comput. 6(2), 2002.
     """
     rank, crowding = ranks_and_crowding(objectives, size)
-    last = int(np.searchsorted(np.cumsum(np.bincount(rank)), size))
-    front = np.flatnonzero(rank == last)
-    surplus = np.count_nonzero(rank <= last) - size
-    if surplus:
-        distance = crowding.take(front)
-        limit = np.partition(distance, surplus - 1)[surplus - 1]
-        below, tied = front[distance < limit], front[distance == limit]
-        rank[below], rank[tied[below.size - surplus :]] = last + 1, last + 1
-    index = np.flatnonzero(rank <= last)
-    return index, rank.take(index), crowding.take(index)
+    last, surplus, distances = last_front(rank, crowding, size)
+    limit = np.partition(distances, surplus - 1)[surplus - 1] if surplus else -np.inf
+    return survivors(rank, crowding, size, last, surplus, limit)
+
+
+@compiled()
+def last_front(rank: NDArray[np.int32], crowding: Real, size: int) -> tuple[int, int, Real]:
+    """Return the last front that survives, its number of individuals too many, and its crowding distances (k,)."""
+    counts = np.zeros(rank.size, dtype=np.int64)
+    for i in range(rank.size):
+        counts[rank[i]] += 1
+    last, ranked = 0, counts[0]
+    while ranked < size:
+        last += 1
+        ranked += counts[last]
+    distances, place = np.empty(counts[last]), 0
+    for i in range(rank.size):
+        if rank[i] == last:
+            distances[place] = crowding[i]
+            place += 1
+    return last, ranked - size, distances
+
+
+@compiled()
+def survivors(
+    rank: NDArray[np.int32], crowding: Real, size: int, last: int, surplus: int, limit: float
+) -> tuple[Integer, NDArray[np.int32], Real]:
+    """Return indices, fronts and crowding distances (size,) without a surplus of the last front.
+
+    It is those at a distance below the limit, and the last of those at the limit.
+    """
+    index, ranks, distances = np.empty(size, dtype=np.int64), np.empty(size, dtype=np.int32), np.empty(size)
+    for i in range(rank.size):
+        surplus -= rank[i] == last and crowding[i] < limit
+    place = size - 1
+    for i in range(rank.size - 1, -1, -1):
+        tied = rank[i] == last and crowding[i] == limit
+        if tied and surplus > 0:
+            surplus -= 1
+        elif rank[i] < last or (rank[i] == last and crowding[i] >= limit):
+            index[place], ranks[place], distances[place] = i, rank[i], crowding[i]
+            place -= 1
+    return index, ranks, distances
 
 
 def ranks_and_crowding(objectives: Real, size: int) -> tuple[NDArray[np.int32], Real]:
