@@ -3,7 +3,20 @@
 import numpy as np
 
 from suspension_ctrl.compiled import compiled
-from suspension_ctrl.response.lanes import WIDTH, at, less, load, plus, product, reciprocal, spread, store, total
+from suspension_ctrl.response.lanes import (
+    WIDTH,
+    at,
+    empty,
+    in_lines,
+    less,
+    load,
+    plus,
+    product,
+    reciprocal,
+    spread,
+    store,
+    total,
+)
 
 ROWS = np.random.default_rng(0).uniform(0.5, 2.0, (3, 2, 3 * WIDTH))
 
@@ -41,3 +54,26 @@ def test_a_sum_is_taken_by_halves():
 @compiled()
 def summed(array):
     return total(load(array, (0,)))
+
+
+@compiled()
+def made(rows, columns):
+    return empty((rows, columns)), empty((columns,))
+
+
+def test_rows_of_empty_arrays_are_lines_of_the_cache():
+    for _ in range(8):  # 32 bytes, to which numba aligns, would be 64 by chance
+        for one in (*made(3, 16), *made.py_func(3, 16), in_lines(np.ones((2, 8)))):
+            assert one.ctypes.data % 64 == 0
+            assert one.flags.c_contiguous
+            assert one.dtype == float
+    assert [one.shape for one in made(3, 16)] == [one.shape for one in made.py_func(3, 16)] == [(3, 16), (16,)]
+
+
+def test_an_empty_array_belongs_to_its_receiver_alone():
+    """As an array of numpy's `empty` in compiled code does: its memory is freed with it."""
+    assert [one.base.refcount for one in made(1, 8)] == [1, 1]
+
+
+def test_copies_in_lines_have_the_same_numbers():
+    np.testing.assert_array_equal(in_lines(ROWS), ROWS)

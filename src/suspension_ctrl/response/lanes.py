@@ -6,6 +6,7 @@ on many rows is written in lanes: it stays in registers, and its bits do not dep
 
 import operator
 from collections.abc import Callable
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,8 @@ Pair = tuple[Any, Any]
 """Real and imaginary parts of eight complex numbers."""
 
 _VECTOR, _INDEX = ir.VectorType(ir.DoubleType(), WIDTH), ir.IntType(32)
+_NUMBER = 8  # bytes
+_LINE = WIDTH * _NUMBER  # of the cache: eight numbers across two lines take twice as long to load
 
 
 class _Lanes(types.Type):
@@ -41,6 +44,21 @@ class _Model(models.PrimitiveModel):
 
 
 _LANES = _Lanes()
+
+
+def empty(shape: tuple[int, ...]) -> Any:
+    """Return an array to be filled, of which each multiple of eight numbers begins a line of the cache."""
+    size = int(np.prod(shape))
+    room = np.empty(size + WIDTH - 1)
+    first = -room.ctypes.data // _NUMBER % WIDTH
+    return room[first : first + size].reshape(shape)
+
+
+def in_lines(array: Real) -> Real:
+    """Return a copy of an array as of `empty`."""
+    found: Real = empty(array.shape)
+    found[...] = array
+    return found
 
 
 def load(array: Any, place: tuple[int, ...]) -> Lanes:
@@ -133,6 +151,18 @@ def _fits(kinds: tuple[Any, ...], *given: Any) -> bool:
     return all(map(isinstance, given, kinds))
 
 
+def _emptied(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+    kind, lengths = context.get_value_type(signature.return_type), cgutils.unpack_tuple(builder, values[0])
+    shape = [context.cast(builder, *each, types.intp) for each in zip(lengths, signature.args[0], strict=True)]
+    number = context.get_constant(types.intp, _NUMBER)
+    *strides, size = accumulate([number, *reversed(shape)], builder.mul)  # in bytes
+    memory = context.nrt.meminfo_alloc_aligned(builder, size, _LINE)
+    data = builder.bitcast(context.nrt.meminfo_data(builder, memory), kind.elements[4])
+    parent, count = cgutils.get_null_value(kind.elements[1]), builder.sdiv(size, number)
+    dimensions = (cgutils.pack_array(builder, each) for each in (shape, strides[::-1]))
+    return cgutils.make_anonymous_struct(builder, (memory, parent, count, number, data, *dimensions), kind)
+
+
 def _loaded(context: Any, builder: Any, signature: Any, values: Any) -> Any:
     return builder.load(_pointer(context, builder, signature.args[0], *values), align=8)
 
@@ -176,6 +206,8 @@ def _by(instruction: str) -> Callable[..., Any]:
     return lambda _context, builder, _signature, values: getattr(builder, instruction)(*values)
 
 
+type_callable(empty)(lambda _context: lambda shape: types.Array(types.float64, len(shape), "C"))
+lower_builtin(empty, types.BaseTuple)(_emptied)
 _register(load, _LANES, types.Array, types.BaseTuple)(_loaded)
 _register(store, types.none, _Lanes, types.Array, types.BaseTuple)(_stored)
 _register(spread, _LANES, types.Float)(_spread)

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..compiled import compiled, uncounted
 from ..quantities import Complex, Integer, Real
-from .lanes import WIDTH, Lanes, fused, load, spread, store, total
+from .lanes import WIDTH, Lanes, empty, fused, in_lines, load, spread, store, total
 from .ports import Ports
 
 _TOGETHER = 4
@@ -31,18 +31,21 @@ class OneStrut(NamedTuple):
         """Return the mean squares (p, k) of designs (p, 2), K [N/m] and C [N s/m], each as if alone."""
         last, n = designs.shape[0] - 1, self.denominator.shape[1]
         result = np.zeros((designs.shape[0], self.terms))
-        gain, power = np.empty((_TOGETHER, n)), np.empty((_TOGETHER, 5))
+        gain, power = empty((_TOGETHER, n)), np.empty((_TOGETHER, 5))
         for first in range(0, designs.shape[0], _TOGETHER):
             for p in range(_TOGETHER):
                 each = min(first + p, last)
                 fill_gains(self.denominator, designs[each, 0], designs[each, 1], p, gain, power)
-            for q in range(0, self.power.size, 2):
-                r = min(q + 1, self.power.size - 1)
-                ones, others = sums(self.numerators, q, r, gain, 0, 1, 2, 3)
-                for p in range(min(_TOGETHER, last + 1 - first)):
+            count, pairs = min(_TOGETHER, last + 1 - first), self.power.size // 2
+            for q in range(0, 2 * pairs, 2):
+                ones, others = sums_of_two(self.numerators, q, q + 1, gain)
+                for p in range(count):
                     result[first + p, self.term[q]] += ones[p] * power[p, self.power[q]]
-                    if r > q:
-                        result[first + p, self.term[r]] += others[p] * power[p, self.power[r]]
+                    result[first + p, self.term[q + 1]] += others[p] * power[p, self.power[q + 1]]
+            for q in range(2 * pairs, self.power.size):
+                ones = sums(self.numerators, q, gain, 0, 1, 2, 3)
+                for p in range(count):
+                    result[first + p, self.term[q]] += ones[p] * power[p, self.power[q]]
         return result
 
     @classmethod
@@ -62,7 +65,8 @@ class OneStrut(NamedTuple):
         denominator = _square_of_line(np.ones_like(p22), -p22, omega)
         filled = (0, 0), (0, -omega.size % (2 * WIDTH))
         numerators = np.pad(numerators[term, power], filled)
-        return cls(np.pad(denominator[1:], filled, mode="edge"), numerators, term, power, ports.m)
+        denominator = np.pad(denominator[1:], filled, mode="edge")
+        return cls(in_lines(denominator), in_lines(numerators), term, power, ports.m)
 
 
 class OneDesign(NamedTuple):
@@ -75,11 +79,11 @@ class OneDesign(NamedTuple):
         """Return the mean squares (p, k) of designs (p, 2)."""
         numerators, terms, exponents = self.strut.numerators, self.strut.term, self.strut.power
         result = np.zeros((designs.shape[0], self.strut.terms))
-        gain, power, last = np.empty((1, numerators.shape[1])), np.empty((1, 5)), numerators.shape[0] - 1
+        gain, power, last = empty((1, numerators.shape[1])), np.empty((1, 5)), numerators.shape[0] - 1
         for first in range(designs.shape[0]):
             fill_gains(self.strut.denominator, designs[first, 0], designs[first, 1], 0, gain, power)
             for q in range(0, last + 1, _TOGETHER):
-                found, _ = sums(gain, 0, 0, numerators, q, min(q + 1, last), min(q + 2, last), min(q + 3, last))
+                found = sums(gain, 0, numerators, q, min(q + 1, last), min(q + 2, last), min(q + 3, last))
                 for j in range(min(_TOGETHER, last + 1 - q)):
                     result[first, terms[q + j]] += found[j] * power[0, exponents[q + j]]
         return result
@@ -90,35 +94,47 @@ def fill_gains(denominator: Real, k: float, c: float, p: int, gain: Real, power:
     """Fill in row p of the scaled gains 1 / |1 + c D|^2 (4, n) and of the powers of a design (4, 5)."""
     half = gain.shape[1] // 2
     scale = 1.0 / (1.0 + k * k + c * c)  # keeps the products of two denominators in range
-    power[p, 0], power[p, 1], power[p, 2] = scale, scale * k, scale * c
-    power[p, 3], power[p, 4] = scale * k * k, scale * c * c
+    by_k, by_c, by_kk, by_cc = scale * k, scale * c, scale * k * k, scale * c * c
+    power[p, 0], power[p, 1], power[p, 2], power[p, 3], power[p, 4] = scale, by_k, by_c, by_kk, by_cc
+    factors = spread(scale), spread(by_k), spread(by_c), spread(by_kk), spread(by_cc)
     for i in range(0, half, WIDTH):  # one division for two frequencies: it takes as long as ten multiplications
-        one, other = loops_at(denominator, power, p, i), loops_at(denominator, power, p, half + i)
+        one, other = loops_at(denominator, factors, i), loops_at(denominator, factors, half + i)
         inverse = spread(1.0) / (one * other)
         store(inverse * other, gain, (p, i))
         store(inverse * one, gain, (p, half + i))
 
 
 @uncounted(forceinline=True)
-def loops_at(denominator: Real, power: Real, p: int, i: int) -> Lanes:
-    """Return |1 + c D|^2 times the scale at eight frequencies."""
-    found = fused(load(denominator, (0, i)), spread(power[p, 1]), spread(power[p, 0]))
+def loops_at(denominator: Real, factors: tuple[Lanes, ...], i: int) -> Lanes:
+    """Return |1 + c D|^2 times the scale at eight frequencies, by the powers of a design."""
+    found = fused(load(denominator, (0, i)), factors[1], factors[0])
     for j in range(1, 4):
-        found = fused(load(denominator, (j, i)), spread(power[p, j + 1]), found)
+        found = fused(load(denominator, (j, i)), factors[j + 1], found)
     return found
 
 
 @uncounted()
-def sums(left: Real, q: int, r: int, right: Real, a: int, b: int, c: int, d: int) -> tuple[Any, Any]:
-    """Return the sums of the products of rows q and r of `left` (i, n), each with four rows of `right` (k, n).
+def sums(left: Real, q: int, right: Real, a: int, b: int, c: int, d: int) -> tuple[float, float, float, float]:
+    """Return the sums of the products of row q of `left` (i, n) with four rows of `right` (k, n).
 
-    Two rows are loaded once for four others; a design has the same bits as one of four and alone.
+    A design has the same bits as one of four and alone.
     """
+    s = t = u = v = spread(0.0)
+    for i in range(0, left.shape[1], WIDTH):
+        x = load(left, (q, i))
+        s, t = fused(load(right, (a, i)), x, s), fused(load(right, (b, i)), x, t)
+        u, v = fused(load(right, (c, i)), x, u), fused(load(right, (d, i)), x, v)
+    return total(s), total(t), total(u), total(v)
+
+
+@uncounted()
+def sums_of_two(left: Real, q: int, r: int, right: Real) -> tuple[Any, Any]:
+    """Return `sums` of rows q and r of `left` (i, n), each with the four rows of `right`, loaded once for both."""
     s = t = u = v = spread(0.0)
     e = f = g = h = spread(0.0)
     for i in range(0, left.shape[1], WIDTH):
         x, y = load(left, (q, i)), load(left, (r, i))
-        one, two, three, four = load(right, (a, i)), load(right, (b, i)), load(right, (c, i)), load(right, (d, i))
+        one, two, three, four = load(right, (0, i)), load(right, (1, i)), load(right, (2, i)), load(right, (3, i))
         s, t, u, v = fused(one, x, s), fused(two, x, t), fused(three, x, u), fused(four, x, v)
         e, f, g, h = fused(one, y, e), fused(two, y, f), fused(three, y, g), fused(four, y, h)
     return (total(s), total(t), total(u), total(v)), (total(e), total(f), total(g), total(h))
