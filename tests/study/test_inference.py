@@ -53,6 +53,21 @@ def test_bootstrap_interval_is_that_of_plain_resampling():
     assert (ratio, low, high) == statistics.ratio_of_medians(first, second)
 
 
+@pytest.mark.parametrize("sizes", [(31, 31), (8, 31), (2, 3)])
+def test_bootstrap_interval_is_that_of_scipy(sizes):
+    """The same draws from samples in order; quantiles are interpolated in another form, some 1e-16."""
+    rng = np.random.default_rng(2)
+    first, second = (rng.lognormal(0.0, 0.3, size) for size in sizes)
+
+    def ratio(x, y, axis=-1):
+        return np.median(x, axis=axis) / np.median(y, axis=axis)
+
+    settings = {"n_resamples": statistics.RESAMPLES, "method": "percentile", "rng": 5}
+    wanted = stats.bootstrap((np.sort(first), np.sort(second)), ratio, **settings).confidence_interval
+    _, *interval = statistics.ratio_of_medians(first, second, seed=5)
+    np.testing.assert_allclose(interval, wanted, rtol=1e-14)
+
+
 def test_there_is_no_ratio_to_nothing():
     assert np.isnan(statistics.ratio_of_medians([1.0, 2.0], [0.0, 1.0])).all()
 
