@@ -3,8 +3,8 @@
 ``python benchmarks/beside.py OTHER`` runs ``scripts/compare.py`` of both in turn, after a run of each that fills
 numba's store, and prints a table: medians of wall-clock and processor time of whole processes, children included,
 and the ratio to each. ``--campaign`` runs 31 seeds of five algorithms on two processes too, once. OTHER is a
-folder, such as one by ``git worktree add --detach OTHER 3673b4d``. Early commits keep the reference front from one
-run to the next: they are timed with it, and without it in a row of their own.
+folder, such as one by ``git worktree add --detach OTHER 3673b4d``. Both keep the reference front from one run to
+the next: they are timed with it, and without it in rows of their own.
 """
 
 import argparse
@@ -22,7 +22,7 @@ import pandas as pd
 HERE = Path(__file__).resolve().parents[1]
 ALGORITHMS = "nsga2,moead-dra,nsga2-gamultiobj,random,sobol"
 KEPT = "SUSPENSION_CTRL_CACHE"
-"""Variable of the environment for the folder in which early commits keep reference fronts."""
+"""Variable of the environment for the folder in which reference fronts are kept."""
 
 
 def timed(checkout: Path, arguments: list[str], kept: Path) -> dict[str, float]:
@@ -41,15 +41,16 @@ def timed(checkout: Path, arguments: list[str], kept: Path) -> dict[str, float]:
 
 
 def in_turn(other: Path, arguments: list[str], repeats: int, *, warm: bool = True) -> Iterator[dict[str, Any]]:
-    """Yield a row per run: this checkout, the other, and the other without a front that it kept."""
+    """Yield a row per run: this checkout and the other, with a front that each kept, and without."""
     with TemporaryDirectory() as kept, TemporaryDirectory() as empty:
-        sides = {"this": (HERE, kept), "other": (other, kept), "other, nothing kept": (other, empty)}
+        sides = {"this": (HERE, kept), "other": (other, kept)}
+        sides |= {f"{name}, nothing kept": (checkout, empty) for name, (checkout, _) in sides.items()}
         if warm:
             for checkout in (HERE, other):
                 timed(checkout, arguments, Path(kept))
         for repeat in range(repeats):
             for name, (checkout, folder) in sides.items():
-                own = Path(folder) / (str(repeat) if folder == empty else "")
+                own = Path(folder) / (f"{name} {repeat}" if folder == empty else "")
                 yield {"side": name, "repeat": repeat, **timed(checkout, arguments, own)}
 
 

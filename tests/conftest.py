@@ -20,6 +20,8 @@ from suspension_ctrl.paper import experiment as paper
 
 Script = Callable[..., subprocess.CompletedProcess]
 
+os.environ["SUSPENSION_CTRL_CACHE"] = ""  # tests take no reference front that other commands have kept
+
 # Examples are drawn from a fixed stream, so that a failure can be had again; timings of examples say nothing here.
 settings.register_profile("suspension_ctrl", deadline=None, derandomize=True, max_examples=50)
 settings.load_profile("suspension_ctrl")

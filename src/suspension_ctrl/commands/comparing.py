@@ -18,6 +18,7 @@ from ..search.indicators import ReferenceFront
 from ..study import machine, reference, timing
 from ..study.campaign import Campaign
 from ..study.findings import findings, last_rows
+from ..study.kept_fronts import KeptFronts
 from ..study.reference import Reference
 from ..study.reference_files import load_reference
 from ..study.store import StoredRun, keeping
@@ -52,7 +53,7 @@ class Request:
         folder = results.results_folder(options["out"], resumed_by=studies.FILE)
         search = {name: getattr(study.search, name) for name in OF_SEARCH}
         lists = {name: ",".join(map(str, value)) for name, value in search.items() if isinstance(value, tuple)}
-        campaign = Campaign(comparison, folder, tolerance, stages.counted)
+        campaign = Campaign(comparison, folder, tolerance, stages.counted, KeptFronts.of_user())
         return cls(campaign, study, {**options, **search, **lists}, given)
 
     @property

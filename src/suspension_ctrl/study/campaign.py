@@ -4,6 +4,7 @@ import platform
 import warnings
 from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +15,7 @@ from ..search.constraints import InfeasibleWarning
 from ..search.indicators import ReferenceFront
 from . import lock, machine, plans, reference, timing
 from .comparison import Comparison
+from .kept_fronts import NONE_KEPT, KeptFronts
 from .reference import Reference
 from .store import FolderStore, Remembered, StoredRun, count_runs
 
@@ -36,6 +38,7 @@ class Campaign:
     folder: Path
     tolerance: float = reference.TOLERANCE  # largest relative change of the reference hypervolume by a finer grid
     watch: Callable[[Iterator[Any], int, str, int], Iterator[Any]] = lambda runs, _total, _text, _found: runs
+    fronts: KeptFronts = NONE_KEPT  # of grids, found by earlier comparisons
     _lock: Any = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -80,17 +83,25 @@ class Campaign:
         given: Reference | None = None,
         known: Callable[[], Real] | None = None,
     ) -> Reference | None:
-        """Return the reference front, stored in the folder: the given one or that of `reference.sought`."""
+        """Return the reference front, stored in the folder: the given one, one of `fronts` or that sought."""
         of_given = {"given": given and reference.summary(given.front)}
         kept = self._store(reference.FOLDER, "repeats", **of_given)
         if reference.NAME not in kept:
-            made = [run.name for run in self.comparison.timed_runs() if run.name in store]
-            finals = [timing.feasible_objectives(self.comparison.problem, store[name]) for name in made]
-            found = given or reference.sought(self.comparison.problem, finals, self.tolerance, known=known)
+            found = given or self._sought(store, known)
             if found is None:
                 return None
             kept[reference.NAME] = found.stored()
         return Reference.of(kept[reference.NAME])
+
+    def _sought(self, store: Mapping[str, StoredRun], known: Callable[[], Real] | None) -> Reference | None:
+        """Return the front of a grid, kept or found now, or that of `reference.sought`."""
+        problem = self.comparison.problem
+        if kept := self.fronts.find(problem, self.tolerance):
+            return kept
+        made = [run.name for run in self.comparison.timed_runs() if run.name in store]
+        finals = [timing.feasible_objectives(problem, store[name]) for name in made]
+        keep = partial(self.fronts.keep, problem, self.tolerance)
+        return reference.sought(problem, finals, self.tolerance, known=known, keep=keep)
 
     def judge(
         self, front: ReferenceFront, client: "Client | None" = None

@@ -74,18 +74,23 @@ def sought(
     most: int = MOST,
     seconds: float = SECONDS,
     known: Callable[[], Real] | None = None,
+    keep: Callable[[Reference], None] | None = None,
 ) -> Reference | None:
     """Return the front of a grid that settles, or else that of runs (n, m), the finest grid and what is known.
 
     `known` returns feasible objectives (k, m) that are found in another way, such as an exact front; it is called
-    if no grid settles. None without two feasible designs that differ in every objective.
+    if no grid settles; `keep` is called with the front of one that does, which depends on no run. None without two
+    feasible designs that differ in every objective.
     """
     grid = refined(problem, tolerance, most, seconds)
     if grid and grid.settles(tolerance):
         front = ReferenceFront.of(grid.objectives, grid.volume)
         changes = f"half as many values change by {grid.change:.1e} and a second grid by {grid.second:.1e}"
         origin = f"a {grid.describe(problem)} (hypervolume {front.volume:.4f}, which {changes})"
-        return Reference(front, origin)
+        found = Reference(front, origin)
+        if keep:
+            keep(found)
+        return found
     none = np.empty((0, len(problem.objectives)))
     also = none if known is None else known()
     best = best_of(np.concatenate([none, *runs, grid.objectives if grid else none, also]))
