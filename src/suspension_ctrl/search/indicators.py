@@ -7,11 +7,11 @@ from math import inf
 import moocore
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.spatial import cKDTree
 
 from .. import checks
 from ..compiled import compiled
 from ..quantities import Bool, Integer, Real, Record, frozen_array
+from .nearest import nearest_others
 from .spreading import farthest_first
 
 _TRIED = 1000  # rows of many
@@ -194,19 +194,12 @@ class ReferenceFront(Record):
         generation for multi-objective optimization using a convergence criterion", IEEE CEC 2006.
         """
         points = self.scaled(objectives)
-        tree, gaps = _neighbours(points)
-        if not gaps.all():  # equal points are one
-            tree, gaps = _neighbours(np.unique(points, axis=0))
+        gaps = nearest_others(points)
         if len(gaps) < 2:
             return float("nan")
-        ends = np.sum(tree.query(self._columns[:, self._columns.argmin(axis=1)].T)[0])
+        corners = self._columns[:, self._columns.argmin(axis=1)].T
+        ends = sum(np.sqrt(((points - corner) ** 2).sum(axis=1).min()) for corner in corners)
         return float((ends + np.abs(gaps - gaps.mean()).sum()) / (ends + gaps.sum()))
-
-
-def _neighbours(points: Real) -> tuple[cKDTree, Real]:
-    """Return points (n, m) as a tree, and the distance (n,) of each to the nearest other one."""
-    tree = cKDTree(points)
-    return tree, np.ravel(tree.query(points, k=[2])[0])  # the nearest is the point itself
 
 
 @compiled()

@@ -11,7 +11,7 @@ from ..quantities import Integer, Real
 
 _BLOCK = 128  # points side by side, which are neighbours
 _ROUNDING = 1 + 1e-9  # of a squared distance: far above 1e-15
-_FEW = 3_000_000  # distances up to which no function is compiled, which takes a second once
+_FEW = 300_000  # distances up to which no function is compiled, which takes a second once
 
 
 def farthest_first(points: Real, start: Integer, size: int) -> Integer:
