@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 from ..compiled import compilable, compiled
 from ..quantities import Integer, Real
 
-_BLOCK = 128  # points side by side, which are neighbours
+_BLOCK = 64  # points side by side, which are neighbours
 _ROUNDING = 1 + 1e-9  # of a squared distance: far above 1e-15
 _FEW = 300_000  # distances up to which no function is compiled, which takes a second once
 
