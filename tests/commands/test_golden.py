@@ -147,8 +147,8 @@ def test_json_holds_what_is_printed_and_quiet_the_folder(called):
 
 
 def test_a_closed_pipe_leaves_all_files(checkout, tmp_path):
-    """As ``scripts/optimum.py | head -1`` closes it."""
-    name, *arguments = map(str, COMMANDS["optimum"])
+    """As ``scripts/ride.py | head -1`` closes it."""
+    name, *arguments = map(str, COMMANDS["ride"])
     command = [sys.executable, str(checkout / "scripts" / f"{name}.py"), *arguments, "--out", "out"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=tmp_path) as process:
         assert process.stdout.readline()

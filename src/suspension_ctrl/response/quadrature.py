@@ -1,6 +1,7 @@
 """Integrals over frequency as weighted sums: Gauss-Legendre nodes in the square root of frequency."""
 
 from collections.abc import Iterable
+from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -13,6 +14,9 @@ from .lanes import WIDTH
 
 _PARTS = 1000
 _LEAST = 16  # nodes of a panel for 1e-9 beside a slow pole, K/C of a soft and heavily damped strut
+
+
+_legendre = lru_cache(maxsize=32)(roots_legendre)  # 8,192 nodes take most of a second
 
 
 class Rule(NamedTuple):
@@ -33,7 +37,7 @@ def frequency_nodes(band: tuple[float, float], nodes: int, breakpoints: Iterable
     checks.at_least("nodes", nodes, 2)
     edges = np.sqrt([low, *(f for f in sorted(breakpoints) if low < f < high), high])
     panels = edges.size - 1
-    x, w = roots_legendre(nodes if panels == 1 else max(_LEAST, -(-nodes // panels)))
+    x, w = _legendre(nodes if panels == 1 else max(_LEAST, -(-nodes // panels)))
     f, weight = zip(*(_panel(x, w, start, end) for start, end in pairwise(edges)), strict=True)
     return Rule(np.concatenate(f), np.concatenate(weight))
 

@@ -119,10 +119,10 @@ class Scoring:
         if nodes is not None:
             nodes = checks.at_least("nodes", nodes, 2)
         with uncollected():  # the first that is compiled in a process, or loaded: numba sets itself up
-            taken = nodes or next((n for n in NODES if self._error(n) < RESOLVED), NODES[-1])
-            error = self._error(taken)
-        if error < RESOLVED:
-            return taken
+            for taken in (nodes,) if nodes else NODES:
+                error = self._error(taken)
+                if error < RESOLVED:
+                    return taken
         several = any(case.wheels > 1 for case in self.cases) and not self.band[0]
         hint = "; under several wheels a band may have to begin above 0 Hz" if several else ""
         got = f"{taken}, which is off by {error:.1g} at its corners{hint}"
