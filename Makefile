@@ -16,8 +16,9 @@ PEERS := $(VENV)/.peers
 compare: $(READY)
 	$(BIN)/python scripts/compare.py $(ARGS)
 
+# Two processes with a thread of linear algebra each: threads of both would wait for one another.
 test: $(READY)
-	$(BIN)/python -m pytest -n 2 --dist worksteal $(ARGS)
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 --dist worksteal $(ARGS)
 
 bench: $(PEERS)
 	$(BIN)/python benchmarks/benchmark.py $(or $(ARGS),--docs docs)
