@@ -21,13 +21,15 @@ import pandas as pd
 
 HERE = Path(__file__).resolve().parents[1]
 ALGORITHMS = "nsga2,moead-dra,nsga2-gamultiobj,random,sobol"
+BYTECODE = "PYTHONDONTWRITEBYTECODE"
+"""Variable of the environment that is empty here: modules are translated by the first run alone."""
 KEPT = "SUSPENSION_CTRL_CACHE"
 """Variable of the environment for the folder in which reference fronts are kept."""
 
 
 def timed(checkout: Path, arguments: list[str], kept: Path) -> dict[str, float]:
     """Return wall-clock and processor time [s] of ``scripts/compare.py`` of a checkout in a folder of its own."""
-    paths = {"PYTHONPATH": str(checkout / "src"), KEPT: str(kept)}
+    paths = {"PYTHONPATH": str(checkout / "src"), KEPT: str(kept), BYTECODE: ""}
     script = [sys.executable, str(checkout / "scripts" / "compare.py")]
     with TemporaryDirectory() as folder:
         before, begun = os.times(), perf_counter()

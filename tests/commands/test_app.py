@@ -1,5 +1,6 @@
 """The command line: help without the library, units in it, bad input in one line, streams of any encoding."""
 
+import gc
 import importlib.metadata
 import os
 import re
@@ -9,6 +10,7 @@ import tomllib
 
 import pytest
 
+from suspension_ctrl import commands
 from suspension_ctrl.commands import main, options
 from suspension_ctrl.study.comparison import ALGORITHMS
 
@@ -40,6 +42,15 @@ def test_help_fits_80_columns_and_has_units_and_an_example(called, monkeypatch, 
     assert done.returncode == 0
     assert max(map(len, done.stdout.splitlines())) <= 80
     assert f"  suspension-ctrl {name}" in done.stdout.split("Examples:")[1]
+
+
+def test_a_command_seldom_looks_for_garbage(called):
+    before = gc.get_threshold()
+    try:
+        assert called("ride", "--help").returncode == 0
+        assert gc.get_threshold() == (commands.NEW_OBJECTS, *before[1:])
+    finally:
+        gc.set_threshold(*before)
 
 
 def test_every_unit_of_every_help_text_is_printed(called):

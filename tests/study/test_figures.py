@@ -168,11 +168,11 @@ def test_final_populations_show_every_design_in_the_units_of_its_axes():
             "SWS [mm]",
         )
         for ax, column, factor in ((upper, "ACC [m/s^2]", 1), (lower, "DTL [N]", 1e-3)):
-            assert [marks.get_label() for marks in ax.collections] == list(ALGORITHMS)
-            for marks, name in zip(ax.collections, ALGORITHMS, strict=True):
+            assert [marks.get_label() for marks in ax.lines] == list(ALGORITHMS)
+            for marks, name in zip(ax.lines, ALGORITHMS, strict=True):
                 part = table[(table.algorithm == name) & (table.population == n)]
                 expected = np.stack([1e3 * part["SWS [m]"], factor * part[column]], axis=1)
-                np.testing.assert_allclose(marks.get_offsets(), expected, rtol=1e-14)
+                np.testing.assert_allclose(marks.get_xydata(), expected, rtol=1e-14)
 
 
 def test_final_populations_are_of_two_algorithms_at_most():

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from contextlib import AbstractContextManager, suppress
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Self
 
@@ -61,7 +62,7 @@ class Request:
         """The problem of the study."""
         return self.study.problem
 
-    @property
+    @cached_property
     def of_paper(self) -> bool:
         """Whether the problem is the paper's, with any weighting."""
         return paper.is_papers(self.problem, band=True)

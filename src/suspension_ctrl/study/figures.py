@@ -121,8 +121,8 @@ def _legend_below(figure: Figure, ax: Axes, **style: Any) -> None:
 
 def final_populations(populations: pd.DataFrame, across: str, up: Sequence[str]) -> Figure:
     """Draw columns `up` of final populations over column `across`, one or two algorithms, rings and dots."""
-    ring: dict[str, Any] = {"s": 22, "facecolors": "none", "edgecolors": COLOURS[0], "linewidths": 0.5}
-    mark: dict[str, Any] = {"s": 4, "color": COLOURS[1], "linewidths": 0}
+    ring: dict[str, Any] = {"ms": 4.7, "mfc": "none", "color": COLOURS[0], "mew": 0.5}
+    mark: dict[str, Any] = {"ms": 2.0, "color": COLOURS[1], "mew": 0}
     names = populations.algorithm.unique().tolist()
     if len(names) > 2:
         raise ValueError(f"populations must be of one or two algorithms, got {names}")
@@ -138,7 +138,7 @@ def final_populations(populations: pd.DataFrame, across: str, up: Sequence[str])
         for ax, objective in zip(axes, up, strict=True):
             for algorithm, group in part.groupby("algorithm", sort=False):
                 label = escaping.figure(str(algorithm))
-                ax.scatter(group[across], group[objective], label=label, **styles[algorithm])
+                ax.plot(group[across], group[objective], "o", label=label, **styles[algorithm])
             ax.set_ylabel(escaping.figure(objective))
         axes[-1].set_xlabel(escaping.figure(across))
         axes[0].set_title(f"N = {population}, {iterations} iterations", fontsize=10)
