@@ -54,7 +54,7 @@ def compilable(**options: Any) -> Callable[[F], F]:
 
 
 class _Frozen:
-    """Whether somebody else has frozen objects, which stay frozen; counting a million takes a tenth of a second."""
+    """Whether somebody else has frozen objects, which stay so; counting a million takes a tenth of a second."""
 
     found = False
 
