@@ -14,6 +14,7 @@ from ..vehicles.assembly import ResponseName
 from ..vehicles.feedback import gains_by_order
 from ..vehicles.varied import Varied
 from ..vehicles.vehicle import Vehicle, assembled
+from .combined import Combination, fill_scores
 from .linearisation import check_reached, linear_vehicles, powers_of_laws, working_points
 from .load_case import LoadCase
 from .mapped import mean_squares_of, unmapped
@@ -60,6 +61,11 @@ class Kernel(NamedTuple):
     def one_by_one(self) -> "Kernel":
         """Return the kernel for compiled loops that have one design after the other."""
         return self._replace(cases=tuple(map(one_by_one, self.cases)))
+
+    @property
+    def combination(self) -> Combination:
+        """How the scores follow from the mean squares."""
+        return Combination(*self[1:])
 
     def scores(self, mean_squares: Sequence[Real]) -> Real:
         """Return the scores (p, s) by mean squares (p, k) in c cases, bit by bit those of each design alone.
@@ -166,12 +172,13 @@ class Scores:
 
     def evaluate(self, designs: Real, nodes: Nodes, threads: int = 1) -> Real:
         """Return the scores (p, s) of designs (p, v); functions of designs are called on this thread."""
-        result = np.empty((len(self.scores), len(designs))).T
+        rows = np.empty((len(self.scores), len(designs)))
 
         def fill(part: slice) -> list[Real]:
-            return self._fill(result[part], designs[part], nodes)
+            apart = threads > 1 and part.stop - part.start < len(designs)
+            return self._fill(rows, part, designs[part], nodes, apart)
 
-        squares = self.in_blocks(fill, len(designs), nodes, threads)
+        squares, result = self.in_blocks(fill, len(designs), nodes, threads), rows.T
         if self.functions:
             by_case = [np.concatenate(each) for each in zip(*squares, strict=True)]
             self.fill_functions(result, designs, nodes, by_case, self.functions)
@@ -187,20 +194,26 @@ class Scores:
         passed = designs * times * numbers_in(self.kernel(nodes).cases)
         return in_blocks(function, designs, passed, threads)
 
-    def _fill(self, scores: Real, designs: Real, nodes: Nodes) -> list[Real]:
-        """Fill in scores (p, s) of designs (p, v) without functions; return the mean squares (p, k) of cases."""
-        kernel = self.kernel(nodes)
+    def _fill(self, rows: Real, part: slice, designs: Real, nodes: Nodes, apart: bool) -> list[Real]:
+        """Fill in scores without functions of designs (p, v), a part of the columns of rows (s, n).
+
+        They are compiled if other threads work on other parts: numpy hands Python to and fro between threads, for
+        longer than it computes. Return the mean squares (p, k) of cases for functions.
+        """
+        kernel, found = self.kernel(nodes), rows[:, part]
         squares = squares_by_case(self._groups(nodes), designs)
-        if self._simple:
+        if apart:
+            if not fill_scores(kernel.combination, squares, rows, part.start):
+                reached(found.T, designs)
+        elif self._simple:
             which, factor = self._simple
-            found = scores.T
             np.multiply(reached(squares[0], designs).T[which], factor, out=found)
             np.sqrt(found, out=found)
-            if not self._plain:  # each pass hands the interpreter from thread to thread
+            if not self._plain:
                 found *= kernel.scale[:, None]
                 found += kernel.offset[:, None]
         else:
-            scores[:] = reached(kernel.scores(squares), designs)
+            found[:] = reached(kernel.scores(squares), designs).T
         return squares if self.functions else []
 
     def fill_functions(
