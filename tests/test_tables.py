@@ -170,6 +170,20 @@ def test_a_table_wider_than_a_page_stands_in_blocks_with_its_keys(tmp_path):
     assert "| a           |                       1.0 |" in markdown
 
 
+@given(
+    st.lists(st.tuples(st.floats(), st.integers(-(2**62), 2**62), st.sampled_from(["", "a,b", "=1", 'say "x"']))),
+    st.sampled_from([["x"], ["x", "n"], ["x", "text"], ["n", "x", "x"]]),
+)
+def test_a_table_is_the_text_that_pandas_writes(rows, columns):
+    """In parts of two rows; of real numbers alone, and beside whole numbers and texts."""
+    frame = pd.DataFrame(rows, columns=["x", "n", "text"]).astype({"x": float})[columns]
+    frame = frame.rename(columns={"x": 'x, "half" [m]'})
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(tables, "ROWS", 2)
+        found = "".join(tables.csv_parts(frame))
+    assert found == escaping.frame(frame, escaping.csv).to_csv(index=False, lineterminator="\n")
+
+
 def test_texts_of_a_column_are_read_as_they_were_written(tmp_path):
     names = ["=1+1", "knee, \x1b", "µ"]
     tables.write_csv(tmp_path / "t.csv", pd.DataFrame({"design": names, "x": [1.0, 2.0, 3.0]}))

@@ -78,7 +78,7 @@ class FolderStore(MutableMapping[str, StoredRun]):
         record = {}
         with keeping(self._folder):
             for part, frame in zip(_PARTS, (run.final, run.course), strict=True):
-                content = escaping.frame(frame, escaping.csv).to_csv(index=False, lineterminator="\n").encode()
+                content = "".join(tables.csv_parts(frame)).encode()
                 tables.write_bytes(self._path(part, name), content)
                 record[part] = {"rows": len(frame), "sha256": sha256(content).hexdigest()}
             tables.write_json(self._path(_RECORDS, name), record)

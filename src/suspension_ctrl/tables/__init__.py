@@ -32,6 +32,9 @@ UNFINISHED = ".unfinished-"
 MEGABYTES = 100
 """Largest size of a file of numbers [MB]."""
 
+ROWS = 10_000
+"""Rows of a table that become text at a time."""
+
 PAGE = 90
 """Characters across a page of Markdown or LaTeX."""
 
@@ -136,8 +139,24 @@ def sync_folder(folder: Path) -> None:
 
 def write_csv(path: Path, frame: "pd.DataFrame") -> None:
     """Write a table without its index; texts are escaped against formulas in spreadsheets."""
+
+    def write(temporary: Path) -> None:
+        with temporary.open("w", encoding="utf-8", newline="") as file:
+            file.writelines(csv_parts(frame))
+
+    write_whole(path, write)
+
+
+def csv_parts(frame: "pd.DataFrame") -> Iterator[str]:
+    """Yield the text of `write_csv` in parts, as by pandas; real numbers take two thirds of its time."""
     escaped = escaping.frame(frame, escaping.csv)
-    write_whole(path, lambda temporary: escaped.to_csv(temporary, index=False))
+    yield escaped.iloc[:0].to_csv(index=False, lineterminator="\n")
+    for start in range(0, len(escaped), ROWS):
+        part = escaped.iloc[start : start + ROWS]
+        if set(part.dtypes) == {np.dtype(float)} and not part.isna().to_numpy().any():
+            yield "".join(f"{','.join(map(repr, row))}\n" for row in part.to_numpy().tolist())
+        else:
+            yield part.to_csv(index=False, header=False, lineterminator="\n")
 
 
 def write_bytes(path: Path, content: bytes) -> None:
