@@ -159,7 +159,7 @@ class Scores:
             )
         return self._kernels[nodes]
 
-    def _groups(self, nodes: Nodes) -> list[Shared]:
+    def groups(self, nodes: Nodes) -> list[Shared]:
         """Return the cases of the kernel, those that share a plant as one."""
         if nodes not in self._shared:
             self._shared[nodes] = shared(self.kernel(nodes).cases)
@@ -201,7 +201,7 @@ class Scores:
         longer than it computes. Return the mean squares (p, k) of cases for functions.
         """
         kernel, found = self.kernel(nodes), rows[:, part]
-        squares = squares_by_case(self._groups(nodes), designs)
+        squares = squares_by_case(self.groups(nodes), designs)
         if apart:
             if not fill_scores(kernel.combination, squares, rows, part.start):
                 reached(found.T, designs)

@@ -1,55 +1,37 @@
-"""Blocks of two struts in registers beside the adjoint of the strut loop, which has any number of them."""
+"""Derivatives of blocks of two struts in registers, of one load case and of two, beside numpy."""
 
 import numpy as np
+import pytest
 
-from suspension_ctrl.response.gradients import many_struts, two_struts
+import struts_by_numpy
+from suspension_ctrl.response.gradients import two_struts
 from suspension_ctrl.response.gradients.wanted import Wanted
-from suspension_ctrl.response.many_struts import ManyStruts
 
-SIZES = [(2, 1, 3), (2, 2, 2)]
-"""Struts, sources and responses of two blocks."""
-WANTED = Wanted(np.array([[1.0, 2.0, 0.0, 3.0], [1.0, 2.0, 0.5, 0.0]]), np.array([False, True]))
-
-
-def random_struts(n: int) -> ManyStruts:
-    rng = np.random.default_rng(0)
-    rows = [0.1 ** (part == 0) * rng.normal(size=(count, 2, n)) for q, s, k in SIZES
-            for part, count in enumerate((q * q, q * s, k * s, k * q))]  # fmt: skip
-    gain = rng.normal(size=(4, 2, 2, 2))
-    gain[:, :, 0, 1] = gain[:, :, 1, 0] = 0.0
-    return ManyStruts(
-        omega=rng.uniform(0.5, 2.0, n),
-        rows=np.concatenate(rows),
-        sizes=np.array(SIZES),
-        response=np.array([0, 2, 1, 1, 0]),
-        channel=np.array([2, 0, 0, 1]),
-        gain=gain.reshape(4, -1),
-        order=np.array([0, 1, 2, 0]),
-        origin=rng.normal(size=4),
-    )
-
-
-STRUTS = random_struts(24)
+FACTOR = np.array([[1.0, 2.0, 0.0, 3.0], [1.0, 2.0, 0.5, 0.0]])
+LARGEST = np.array([False, True])
 DESIGNS = np.random.default_rng(1).normal(size=(5, 4))
+SIZES = [(2, 4, 3), (2, 2, 2)]
 
 
-def test_derivatives_are_those_of_the_adjoint():
-    """Numbers of the order of one are rounded some hundred times; mean squares have the bits of values alone."""
-    squares, slopes = two_struts.with_slopes(STRUTS, WANTED, DESIGNS)
-    _, expected = many_struts.with_slopes(STRUTS, WANTED, DESIGNS)
-    np.testing.assert_array_equal(squares, STRUTS(DESIGNS))
-    np.testing.assert_allclose(slopes, expected, rtol=1e-11, atol=1e-12 * np.abs(expected).max())
+@pytest.mark.parametrize("cases", [1, 2])
+def test_derivatives_are_those_of_linear_equations(cases):
+    """Numbers of the order of one are rounded some hundred times."""
+    struts = struts_by_numpy.random_struts(SIZES, [False, False], cases)
+    squares, slopes = map(np.array, zip(*(struts_by_numpy.with_slopes(struts, x) for x in DESIGNS), strict=True))
+    wanted = Wanted(np.kron(np.eye(cases), FACTOR), np.tile(LARGEST, cases))
+    counted = np.random.default_rng(2).random((len(DESIGNS), len(wanted.largest))) < 0.7
+    products = squares[:, None] * wanted.factor
+    best = products == products.max(axis=2, keepdims=True)
+    weight = wanted.factor * np.where(wanted.largest[:, None], best, 1.0) * counted[:, :, None]
+    found = two_struts.differentiated(struts, wanted, DESIGNS, squares, counted)
+    np.testing.assert_allclose(found, weight @ slopes, rtol=1e-11, atol=1e-12 * np.abs(slopes).max())
+    alone = two_struts.differentiated(struts, wanted, DESIGNS[3:4], squares[3:4], counted[3:4])
+    np.testing.assert_array_equal(alone, found[3:4])
 
 
-def test_a_design_has_the_same_derivatives_among_others_as_alone():
-    together = two_struts.with_slopes(STRUTS, WANTED, DESIGNS)[1]
-    np.testing.assert_array_equal(two_struts.with_slopes(STRUTS, WANTED, DESIGNS[3:4])[1], together[3:4])
-
-
-def test_blocks_of_other_sizes_coupled_struts_and_odd_numbers_of_nodes_do_not_fit():
-    coupled = STRUTS.gain.copy()
-    coupled[2, 5] = 1.0
-    assert two_struts.fits(STRUTS)
-    assert not two_struts.fits(STRUTS._replace(gain=coupled))
-    assert not two_struts.fits(STRUTS._replace(sizes=np.array([(2, 1, 3), (3, 2, 2)])))
-    assert not two_struts.fits(random_struts(23))
+def test_blocks_of_other_sizes_and_coupled_struts_do_not_fit():
+    assert two_struts.fits(struts_by_numpy.random_struts(SIZES, [False, False]))
+    assert not two_struts.fits(struts_by_numpy.random_struts([(2, 1, 3), (3, 2, 2)], [False, False]))
+    coupled = struts_by_numpy.random_struts(SIZES, [False, False])
+    coupled.gain[2, 5] = 1.0
+    assert not two_struts.fits(coupled)

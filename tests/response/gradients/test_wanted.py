@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from suspension_ctrl.response.gradients.wanted import Wanted, combine, fill_weights
+from suspension_ctrl.response.gradients.wanted import Wanted, combine, fill_weights, fold, leave_out
 
 SQUARES = np.array([[9.0, 9.0, 9.0], [3.0, 2.0, 5.0]])
 WANTED = Wanted(np.array([[1.0, 4.0, 0.0], [2.0, 4.0, 1.0]]), np.array([False, True]))
@@ -29,3 +29,15 @@ def test_of_equal_ones_the_first_is_the_largest_whatever_rounding_says():
     for squares in ([1.0, 2.0, 2.0 * (1 + 1e-12)], [1.0, 2.0 * (1 + 1e-12), 2.0]):
         fill_weights(Wanted(np.ones((1, 3)), np.array([True])), np.array([squares]), 0, weight)
         np.testing.assert_array_equal(weight, [[0.0, 1.0, 0.0]])
+
+
+def test_weights_of_distinct_mean_squares_are_sums_of_those_of_their_terms_by_case():
+    folded = np.empty(4)
+    fold(np.array([1, 0, 1]), np.array([1.0, 2.0, 4.0, 8.0, 16.0, 32.0]), folded)
+    np.testing.assert_array_equal(folded, [2.0, 5.0, 16.0, 40.0])
+
+
+def test_combinations_that_do_not_count_have_no_weight():
+    weight = np.ones((2, 3))
+    leave_out(np.array([[False, False], [True, False]]), 1, weight)
+    np.testing.assert_array_equal(weight, [[1.0, 1.0, 1.0], [0.0, 0.0, 0.0]])

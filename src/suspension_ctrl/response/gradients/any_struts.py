@@ -17,10 +17,10 @@ from ..network_rows import (
 )
 from ..working_point import room_for_points
 from .joints import fill_rows_and_joints
-from .many_struts import ENTRY, Loops, close, fill_force, fill_values, fold, loops_of, moments, set_to
+from .many_struts import ENTRY, Loops, close, fill_force, fill_values, loops_of, moments, set_to
 from .network_rows import Adjoint, adjoint_of, clear, pull, pull_share
 from .one_port import total_of
-from .wanted import Wanted, fill_weights
+from .wanted import Wanted, fill_weights, fold
 from .working_point import (
     Point,
     Settled,

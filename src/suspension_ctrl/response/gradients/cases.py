@@ -1,4 +1,4 @@
-"""Mean squares of a load case over designs, with the derivatives of what is wanted of them."""
+"""Mean squares of a load case over designs, with the derivatives of what is wanted of them in one pass."""
 
 from collections.abc import Callable
 from typing import Any
@@ -7,12 +7,11 @@ import numpy as np
 
 from ...quantities import Real
 from ..any_struts import AnyStruts
-from ..many_struts import ManyStruts
 from ..mapped import Mapped, slopes_of, unmapped
 from ..mean_squares import Case
 from ..one_port import OnePort
 from ..one_strut import OneStrut
-from . import any_struts, linear_port, many_struts, one_port, one_strut, two_struts
+from . import any_struts, linear_port, one_port, one_strut
 from .wanted import Wanted
 
 
@@ -22,15 +21,8 @@ def _of_port(port: OnePort, wanted: Wanted, designs: Real) -> tuple[Real, Real]:
     return method(port, wanted, designs)
 
 
-def _of_struts(struts: ManyStruts, wanted: Wanted, designs: Real) -> tuple[Real, Real]:
-    """Return these of springs, dampers and inerters, in registers where struts come in twos."""
-    method = two_struts.with_slopes if two_struts.fits(struts) else many_struts.with_slopes
-    return method(struts, wanted, designs)
-
-
 _BY_CLASS: dict[type, Callable[[Any, Wanted, Real], tuple[Real, Real]]] = {
     OneStrut: one_strut.with_slopes,
-    ManyStruts: _of_struts,
     OnePort: _of_port,
     AnyStruts: any_struts.with_slopes,
 }

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...compiled import compilable, compiled, uncounted
+from ...compiled import compilable, uncounted
 from ...quantities import Bool, Integer, Real
 from ..many_struts import (
     ManyStruts,
@@ -17,11 +17,8 @@ from ..many_struts import (
     copy,
     eliminate,
     fill_loop,
-    fill_stiffness,
     sum_of_squares,
 )
-from ..network_rows import fill
-from .wanted import Wanted, fill_weights
 
 ENTRY = 5
 """Column of a block's first entry of D."""
@@ -42,25 +39,6 @@ class Loops(NamedTuple):
     force: Real  # (2 q) of a source: sum of weight y* T, then m
     found: Real  # (m,), distinct mean squares
     weight: Real  # (m,), of them in a combination
-
-
-@compiled(nogil=True)
-def with_slopes(struts: ManyStruts, wanted: Wanted, designs: Real) -> tuple[Real, Real]:
-    """Return the mean squares (p, k) of designs (p, v), and the derivatives (p, s, v) of what is wanted."""
-    count, terms, loops = designs.shape[0], struts.channel.size, loops_of(struts)
-    squares, slopes = np.empty((count, terms)), np.zeros((count, wanted.largest.size, designs.shape[1]))
-    added, weight = np.empty(designs.shape[1]), np.empty((wanted.largest.size, terms))
-    for p in range(count):
-        for v in range(added.size):
-            added[v] = designs[p, v] - struts.origin[v]
-        close_all(struts, loops, added)
-        for term in range(terms):
-            squares[p, term] = loops.found[struts.channel[term]]
-        fill_weights(wanted, squares, p, weight)
-        for s in range(wanted.largest.size):
-            fold(struts.channel, weight[s], loops.weight)
-            add_slopes(struts, loops, slopes[p, s])
-    return squares, slopes
 
 
 @compilable()
@@ -103,26 +81,6 @@ def fill_inputs(struts: ManyStruts, loops: Loops) -> None:
             loops.reached[entry] |= struts.gain[v, entry] != 0.0
 
 
-@compilable()
-def fold(channel: Integer, weight: Real, folded: Real) -> None:
-    """Fill in the weights of distinct mean squares by those of terms (k,)."""
-    fill(folded, 0.0)
-    for term in range(channel.size):
-        folded[channel[term]] += weight[term]
-
-
-@uncounted()
-def close_all(struts: ManyStruts, loops: Loops, added: Real) -> None:
-    """Solve the loops of all blocks for variables with values `added` (v,), and fill in responses and squares."""
-    fill(loops.found, 0.0)
-    for b in range(loops.block.shape[0]):
-        q, entry = loops.block[b, 0], loops.block[b, ENTRY]
-        square = slice(entry, entry + q * q)
-        fill_stiffness(added, struts, entry, loops.present[square], loops.stiffness[square])
-        close(struts, loops, b)
-        fill_values(struts, loops, b)
-
-
 @uncounted()
 def close(struts: ManyStruts, loops: Loops, b: int) -> None:
     """Solve the loop of a block of filled stiffness, and fill in 1 + D C."""
@@ -162,21 +120,6 @@ def fill_values(struts: ManyStruts, loops: Loops, b: int) -> None:
             for j in range(q):
                 add_product(1.0, by_strut[i * q + j], loops.tension[j], value)
             loops.found[struts.response[output + i]] += sum_of_squares(value)
-
-
-@uncounted()
-def add_slopes(struts: ManyStruts, loops: Loops, slopes: Real) -> None:
-    """Add the derivatives (v,) of a combination of mean squares by the variables of closed blocks."""
-    for b in range(loops.block.shape[0]):
-        q, s, _, _, right, entry, _, _ = loops.block[b]
-        for source in range(s):
-            for i in range(q if fill_force(struts, loops, b, source) else 0):
-                for j in range(q):
-                    if loops.reached[entry + i * q + j]:
-                        solved = loops.loop[entry + right + j * (q + s + q) + q + source]
-                        own = moments(loops.force[q + i], solved, struts.omega)
-                        for v in range(slopes.size):
-                            slopes[v] += 2 * struts.gain[v, entry + i * q + j] * own[struts.order[v]]
 
 
 @uncounted()

@@ -7,45 +7,39 @@ the dynamic stiffness of both struts take four products, and those of its square
 import numpy as np
 
 from ...compiled import compiled, uncounted
-from ...quantities import Integer, Real
+from ...quantities import Bool, Integer, Real
 from ..lanes import WIDTH, Lanes, Pair, at, fused, less, load, plus, product, reciprocal, spread, store, total
 from ..many_struts import ManyStruts, element_at
 from ..two_struts import Element, stiffness_at
-from .many_struts import fold
-from .wanted import Wanted, combine, fill_weights
+from .wanted import Wanted, combine, fill_weights, fold, leave_out
 
 
 def fits(struts: ManyStruts) -> bool:
-    """Whether all blocks have two struts that no variable couples, at a multiple of eight nodes."""
-    two = (struts.sizes[:, 0] == 2).all() and struts.omega.size % WIDTH == 0
+    """Whether all blocks have two struts that no variable couples."""
+    two = (struts.sizes[:, 0] == 2).all()
     return bool(two and not struts.gain.reshape(len(struts.gain), -1, 4)[:, :, 1:3].any())
 
 
-def with_slopes(struts: ManyStruts, wanted: Wanted, designs: Real) -> tuple[Real, Real]:
-    """Return the mean squares (p, k) of designs (p, v), and the derivatives (p, s, v) of what is wanted."""
-    squares = struts(designs)
-    return squares, differentiated(struts, wanted, designs, squares)
-
-
 @compiled(nogil=True)
-def differentiated(struts: ManyStruts, wanted: Wanted, designs: Real, squares: Real) -> Real:
-    """Return the derivatives (p, s, v) of what is wanted, of designs (p, v) with mean squares (p, k)."""
+def differentiated(struts: ManyStruts, wanted: Wanted, designs: Real, squares: Real, counted: Bool) -> Real:
+    """Return the derivatives (p, s, v) of what is wanted, of designs (p, v) with mean squares (p, k).
+
+    Those of combinations that are not `counted` (p, s) are 0.
+    """
     (count, variables), combinations, channels, most = designs.shape, wanted.largest.size, 0, 0
     for term in range(struts.channel.size):
         channels = max(channels, struts.channel[term] + 1)
     for b in range(struts.sizes.shape[0]):
         most = max(most, struts.sizes[b, 2])
-    added, weight = np.empty(variables), np.empty((combinations, struts.channel.size))
-    folded, heard, moments = (
-        np.empty((combinations, channels)),
-        np.empty(most, np.int64),
-        np.empty((most, 6, WIDTH)),
-    )
+    channels, most = channels * struts.cases, most * struts.cases
+    added, weight, folded = np.empty(variables), np.empty(wanted.factor.shape), np.empty((combinations, channels))
+    heard, moments = np.empty((most, 2), np.int64), np.empty((most, 6, WIDTH))
     slopes, result = np.empty((variables, channels)), np.empty((count, combinations, variables))
     for p in range(count):
         for v in range(variables):
             added[v] = designs[p, v] - struts.origin[v]
         fill_weights(wanted, squares, p, weight)
+        leave_out(counted, p, weight)
         for s in range(combinations):
             fold(struts.channel, weight[s], folded[s])
         fill_slopes(struts, added, folded, heard, moments, slopes)
@@ -65,41 +59,52 @@ def fill_slopes(
     for b in range(struts.sizes.shape[0]):
         q, s, k = struts.sizes[b]
         rows, response = struts.rows[row : row + (q + k) * (q + s)], struts.response[output : output + k]
-        number = choose(weight, response, heard)
+        number = choose(weight, response, struts.cases, heard)
         one, other = element_at(struts, added, entry), element_at(struts, added, entry + 3)
-        fill_moments(struts.omega, rows, one, other, s, k, heard[:number], moments)
+        fill_moments(struts.omega, rows, one, other, s, k, s // struts.cases, heard[:number], moments)
         for h in range(number):
+            channel = heard[h, 1] * (slopes.shape[1] // struts.cases) + response[heard[h, 0]]
             for v in range(slopes.shape[0]):
                 for j in range(2):
                     gain = struts.gain[v, entry + 3 * j]
                     if gain != 0.0:
                         change = total(load(moments, (h, 3 * j + struts.order[v], 0)))
-                        slopes[v, response[heard[h]]] += 2.0 * gain * change
+                        slopes[v, channel] += 2.0 * gain * change
         row, entry, output = row + (q + k) * (q + s), entry + q * q, output + k
 
 
 @uncounted()
-def choose(weight: Real, response: Integer, heard: Integer) -> int:
-    """Fill in and count the responses of a block (k,) of which the mean squares have a weight (s, m)."""
-    number = 0
-    for i in range(response.size):
-        for s in range(weight.shape[0]):
-            if weight[s, response[i]] != 0.0:
-                heard[number] = i
-                number += 1
-                break
+def choose(weight: Real, response: Integer, cases: int, heard: Integer) -> int:
+    """Fill in and count the responses of a block (k,) and load cases (h, 2) that have a weight (s, m)."""
+    number, channels = 0, weight.shape[1] // cases
+    for case in range(cases):
+        for i in range(response.size):
+            for s in range(weight.shape[0]):
+                if weight[s, case * channels + response[i]] != 0.0:
+                    heard[number, 0], heard[number, 1] = i, case
+                    number += 1
+                    break
     return number
 
 
 @uncounted(error_model="numpy")
 def fill_moments(
-    omega: Real, rows: Real, one: Element, other: Element, sources: int, k: int, heard: Integer, moments: Real
+    omega: Real,
+    rows: Real,
+    one: Element,
+    other: Element,
+    sources: int,
+    k: int,
+    own: int,
+    heard: Integer,
+    moments: Real,
 ) -> None:
-    """Fill in half of the changes of squares of the responses heard (i, 6, 8), by K, C and b of both struts.
+    """Fill in half of the changes of squares of the responses heard (h, 6, 8), by K, C and b of both struts.
 
-    The rows (l, 2, n) and the solution of a block of k responses are as of `add_two_struts`.
+    The rows (l, 2, n) and the solution of a block of k responses are as of `add_two_struts`; of the sources each
+    load case has its own, as many as all others.
     """
-    for i in range(heard.size):
+    for i in range(heard.shape[0]):
         for j in range(6):
             store(spread(0.0), moments, (i, j, 0))
     for t in range(0, omega.size, WIDTH):
@@ -110,14 +115,19 @@ def fill_moments(
         b, c = product(p12, second), product(p21, first)
         inverse = reciprocal(less(product(a, d), b, c))
         across, back = product(p12, first), product(p21, second)
+        begin, end, case = 0, 0, -1
         for source in range(sources):
+            if source == (case + 1) * own:
+                begin, case = end, case + 1
+                while end < heard.shape[0] and heard[end, 1] == case:
+                    end += 1
             x, y = at(rows, 4 + source, t), at(rows, 4 + sources + source, t)
             e, f = product(plus(product(d, x), b, y), inverse), product(plus(product(a, y), c, x), inverse)
             tension, u, v = (product(e, first), product(f, second)), product(e, inverse), product(f, inverse)
             by_first, by_second = (product(d, u), product(back, u)), (product(across, v), product(a, v))
-            for i in range(heard.size):
-                part = 4 + 2 * sources + heard[i] * sources + source
-                strut = 4 + 2 * sources + k * sources + 2 * heard[i]
+            for i in range(begin, end):
+                part = 4 + 2 * sources + heard[i, 0] * sources + source
+                strut = 4 + 2 * sources + k * sources + 2 * heard[i, 0]
                 left, right = at(rows, strut, t), at(rows, strut + 1, t)
                 value = plus(plus(at(rows, part, t), left, tension[0]), right, tension[1])
                 add_moments(w, value, plus(product(left, by_first[0]), right, by_first[1]), i, 0, moments)

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from ...compiled import uncounted
-from ...quantities import Bool, Real
+from ...quantities import Bool, Integer, Real
 
 TIED = 1e-9
 """Share by which a mean square must be larger than one before it: of equal ones the first is the largest."""
@@ -31,6 +31,14 @@ def fill_weights(wanted: Wanted, squares: Real, p: int, weight: Real) -> None:
 
 
 @uncounted()
+def leave_out(counted: Bool, p: int, weight: Real) -> None:
+    """Set the derivatives (s, k) of combinations to 0 that are not `counted` (p, s) for a design."""
+    for s in range(weight.shape[0]):
+        for k in range(0 if counted[p, s] else weight.shape[1]):
+            weight[s, k] = 0.0
+
+
+@uncounted()
 def combine(weight: Real, slopes: Real, p: int, result: Real) -> None:
     """Fill in the derivatives of the combinations of a design (p, s, v) by those of its mean squares (v, k)."""
     for s in range(weight.shape[0]):
@@ -39,3 +47,14 @@ def combine(weight: Real, slopes: Real, p: int, result: Real) -> None:
         for k in range(weight.shape[1]):
             for v in range(slopes.shape[0] if weight[s, k] != 0.0 else 0):
                 result[p, s, v] += weight[s, k] * slopes[v, k]
+
+
+@uncounted()
+def fold(channel: Integer, weight: Real, folded: Real) -> None:
+    """Fill in the weights (m,) of the distinct mean squares of each load case by those of its terms (k,)."""
+    cases = weight.size // max(channel.size, 1)
+    for m in range(folded.size):
+        folded[m] = 0.0
+    for term in range(weight.size):
+        case = term // channel.size
+        folded[case * (folded.size // cases) + channel[term - case * channel.size]] += weight[term]
