@@ -131,6 +131,16 @@ def test_a_number_that_is_not_finite_is_outside(value):
         checks.rows_within("designs", np.array([[0.5, 0.0, 2e5], [0.5, value, 2e5]]), LOWER, UPPER)
 
 
+@pytest.mark.parametrize("count", [1, 63, 64, 65, 200])
+def test_one_row_outside_is_found_among_many(count):
+    for place in {0, count // 2, count - 1}:
+        for value in (-3.0, 1e9, np.nan):
+            rows = np.full((count, 3), [0.5, 0.0, 2e5])
+            rows[place, 1] = value
+            with pytest.raises(ValueError, match=r"^designs must lie within"):
+                checks.rows_within("designs", rows, LOWER, UPPER)
+
+
 def test_rounding_may_pass_a_bound():
     """By 1e-9 of the range, here 4; by twice as much not."""
     checks.rows_within("designs", np.array([[0.5, 2 + 3.9e-9, 2e5]]), LOWER, UPPER)

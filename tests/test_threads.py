@@ -4,6 +4,7 @@ import _thread
 import signal
 import threading
 import time
+import weakref
 
 import numpy as np
 import pytest
@@ -61,6 +62,19 @@ def test_the_first_error_is_raised_and_what_waits_is_not_begun():
         in_blocks(fail, 100, MUCH, 2)
     assert len(begun) < 100
     assert in_blocks(lambda part: part.start, 2, MUCH, 2) == [0, 1]  # the threads live on
+
+
+def test_nothing_is_kept_of_what_was_worked_on():
+    def work():
+        given = np.ones(3)
+        in_blocks(lambda part: given[part].sum(), 3, MUCH, 2)
+        return weakref.ref(given)
+
+    found = work()
+    until = time.monotonic() + 10
+    while found() is not None and time.monotonic() < until:  # the other thread may be about to forget it
+        time.sleep(0.001)
+    assert found() is None
 
 
 def test_an_interrupt_ends_it_soon():

@@ -6,10 +6,11 @@ Each row has its result by itself, so that the bits do not depend on the number 
 import os
 from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar
-from functools import lru_cache
+from functools import cache
+from queue import SimpleQueue
+from threading import Lock, Thread
 from typing import Any, TypeVar
 
 from . import checks
@@ -69,12 +70,13 @@ def in_blocks(function: Callable[[slice], T], rows: int, work: int, threads: int
                 errors[place] = error
                 waiting.clear()
 
-    helpers = [_pool(os.getpid(), threads - 1).submit(work_on) for _ in range(min(threads, blocks) - 1)]
+    helpers = [_Help(work_on) for _ in range(min(threads, blocks) - 1)]
     try:
+        for helper in helpers:
+            _asked(os.getpid(), threads - 1).put(helper)
         work_on()
         for helper in helpers:
-            if not helper.cancel():  # one that has not begun is not needed
-                helper.result()
+            helper.end()
     finally:  # an interrupt too
         waiting.clear()
     if errors:
@@ -82,10 +84,44 @@ def in_blocks(function: Callable[[slice], T], rows: int, work: int, threads: int
     return results
 
 
-@lru_cache(maxsize=4)
-def _pool(process: int, threads: int) -> ThreadPoolExecutor:
-    """Return the threads of a process, which a fork does not take along."""
-    return ThreadPoolExecutor(threads, thread_name_prefix=f"suspension-ctrl-{process}")
+class _Help:
+    """Work that another thread may take up, until it is not needed any more.
+
+    Futures of a pool take a tenth of a millisecond to begin and to end.
+    """
+
+    def __init__(self, work: Callable[[], None]) -> None:
+        self._work, self._begun, self._running = work, Lock(), Lock()
+        self._running.acquire()
+
+    def __call__(self) -> None:
+        if self._begun.acquire(blocking=False):
+            try:
+                self._work()
+            finally:
+                self._running.release()
+
+    def end(self) -> None:
+        """Wait for the end of work that has begun; leave out work that has not."""
+        if not self._begun.acquire(blocking=False):
+            self._running.acquire()
+
+
+@cache
+def _asked(_process: int, threads: int) -> "SimpleQueue[_Help]":
+    """Return where help is asked for, with so many threads of a process, which a fork does not take along."""
+    asked: SimpleQueue[_Help] = SimpleQueue()
+    for _ in range(threads):
+        Thread(target=_help, args=(asked,), name="suspension_ctrl", daemon=True).start()
+    return asked
+
+
+def _help(asked: "SimpleQueue[_Help]") -> None:
+    """Take up work for ever."""
+    while True:
+        help_ = asked.get()
+        help_()
+        del help_  # with arrays that it holds
 
 
 def numbers_in(part: Any) -> int:
