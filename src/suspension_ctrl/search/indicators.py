@@ -33,9 +33,17 @@ def non_dominated(objectives: ArrayLike) -> Bool:
     values = checks.reals("objectives must be", objectives)
     if values.ndim != 2:
         raise ValueError(f"objectives must have shape (n, m), got {values.shape}")
-    whole: Bool = np.asarray(~np.isnan(values).any(axis=1))
+    whole = _whole(values)
     whole[whole] = moocore.is_nondominated(_for_sweep(values[whole]), keep_weakly=True)
     return whole
+
+
+def _whole(values: Real) -> Bool:
+    """Return a mask (n,) of the rows of values (n, m) without NaN."""
+    lost = np.isnan(values)
+    if not lost.any():  # mostly, and faster than row by row
+        return np.ones(len(values), dtype=bool)
+    return np.asarray(~lost.any(axis=1))
 
 
 def _for_sweep(objectives: Real) -> Real:
@@ -123,7 +131,7 @@ class ReferenceFront(Record):
 
         Its hypervolume is computed unless it is given.
         """
-        objectives = objectives[~np.isnan(objectives).any(axis=1)]
+        objectives = objectives[_whole(objectives)]
         ideal, nadir = objectives.min(axis=0), objectives.max(axis=0)
         whole = cls(objectives, ideal, nadir, 0.0)
         volume = whole.hypervolume(objectives) if volume is None else volume
@@ -139,7 +147,7 @@ class ReferenceFront(Record):
         values, size = checks.reals("objectives must be", objectives), np.abs(self.ideal)
         ranges = self.nadir - self.ideal
         scale = np.where(ranges > 0, ranges, np.where(size > 0, size, 1.0))
-        return (values[~np.isnan(values).any(axis=1)] - self.ideal) / scale
+        return (values[_whole(values)] - self.ideal) / scale
 
     def hypervolume(self, objectives: ArrayLike) -> float:
         """Return the volume dominated by objectives (n, m) up to 1.1 in scaled objectives [-].
@@ -197,8 +205,8 @@ class ReferenceFront(Record):
         gaps = nearest_others(points)
         if len(gaps) < 2:
             return float("nan")
-        corners = self._columns[:, self._columns.argmin(axis=1)].T
-        ends = sum(np.sqrt(((points - corner) ** 2).sum(axis=1).min()) for corner in corners)
+        corners, columns = self._columns[:, self._columns.argmin(axis=1)], points.T.copy()
+        ends = sum(np.sqrt(((columns - corner[:, np.newaxis]) ** 2).sum(axis=0).min()) for corner in corners.T)
         return float((ends + np.abs(gaps - gaps.mean()).sum()) / (ends + gaps.sum()))
 
 
