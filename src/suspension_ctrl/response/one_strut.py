@@ -92,16 +92,31 @@ class OneDesign(NamedTuple):
 @uncounted(error_model="numpy")
 def fill_gains(denominator: Real, k: float, c: float, p: int, gain: Real, power: Real) -> None:
     """Fill in row p of the scaled gains 1 / |1 + c D|^2 (4, n) and of the powers of a design (4, 5)."""
-    half = gain.shape[1] // 2
+    half, factors = gain.shape[1] // 2, fill_powers(k, c, p, power)
+    for i in range(0, half, WIDTH):
+        one, other = gains_at(denominator, factors, i, half + i)
+        store(one, gain, (p, i))
+        store(other, gain, (p, half + i))
+
+
+@uncounted(error_model="numpy", forceinline=True)
+def fill_powers(k: float, c: float, p: int, power: Real) -> tuple[Lanes, ...]:
+    """Fill in row p of the scaled powers 1, K, C, K^2, C^2 of a design (4, 5), and return each eight times."""
     scale = 1.0 / (1.0 + k * k + c * c)  # keeps the products of two denominators in range
     by_k, by_c, by_kk, by_cc = scale * k, scale * c, scale * k * k, scale * c * c
     power[p, 0], power[p, 1], power[p, 2], power[p, 3], power[p, 4] = scale, by_k, by_c, by_kk, by_cc
-    factors = spread(scale), spread(by_k), spread(by_c), spread(by_kk), spread(by_cc)
-    for i in range(0, half, WIDTH):  # one division for two frequencies: it takes as long as ten multiplications
-        one, other = loops_at(denominator, factors, i), loops_at(denominator, factors, half + i)
-        inverse = spread(1.0) / (one * other)
-        store(inverse * other, gain, (p, i))
-        store(inverse * one, gain, (p, half + i))
+    return spread(scale), spread(by_k), spread(by_c), spread(by_kk), spread(by_cc)
+
+
+@uncounted(error_model="numpy", forceinline=True)
+def gains_at(denominator: Real, factors: tuple[Lanes, ...], i: int, j: int) -> tuple[Lanes, Lanes]:
+    """Return scaled gains at eight frequencies from i and at eight from j, by the powers of a design.
+
+    One division serves both: it takes as long as ten multiplications.
+    """
+    one, other = loops_at(denominator, factors, i), loops_at(denominator, factors, j)
+    inverse = spread(1.0) / (one * other)
+    return inverse * other, inverse * one
 
 
 @uncounted(forceinline=True)
@@ -138,19 +153,6 @@ def sums_of_two(left: Real, q: int, r: int, right: Real) -> tuple[Any, Any]:
         s, t, u, v = fused(one, x, s), fused(two, x, t), fused(three, x, u), fused(four, x, v)
         e, f, g, h = fused(one, y, e), fused(two, y, f), fused(three, y, g), fused(four, y, h)
     return (total(s), total(t), total(u), total(v)), (total(e), total(f), total(g), total(h))
-
-
-@compiled(inline="always")
-def polynomial(coefficients: Real, powers: tuple[float, ...], i: int) -> float:
-    """Return the first of the powers plus the sum of the others times column i of the coefficients (4, n)."""
-    constant, k, c, kk, cc = powers
-    return (
-        constant
-        + coefficients[0, i] * k
-        + coefficients[1, i] * c
-        + coefficients[2, i] * kk
-        + coefficients[3, i] * cc
-    )
 
 
 def _square_of_line(a: Complex, b: Complex, omega: Real) -> Real:

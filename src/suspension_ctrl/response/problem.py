@@ -318,6 +318,8 @@ class RideProblem(Record):
         compiled = self.scores.compiled and (robust is None or robust.scattered.scores.compiled)
         samples = 1 if robust is None else robust.statistics.weight.shape[1]
         parts = self.scores.in_blocks(found, len(x), self._rules, number(threads) if compiled else 1, samples)
+        if len(parts) == 1:
+            return parts[0]
         values, jacobian = map(np.concatenate, zip(*parts, strict=True))
         return values, jacobian
 

@@ -205,7 +205,14 @@ class Scores:
         if apart:
             if not fill_scores(kernel.combination, squares, rows, part.start):
                 reached(found.T, designs)
-        elif self._simple:
+        else:
+            self.fill_roots(found, squares, designs, nodes)
+        return squares if self.functions else []
+
+    def fill_roots(self, found: Real, squares: Sequence[Real], designs: Real, nodes: Nodes) -> None:
+        """Fill in scores (s, p) without functions, of designs (p, v) with mean squares (p, k) in each case."""
+        kernel = self.kernel(nodes)
+        if self._simple:
             which, factor = self._simple
             np.multiply(reached(squares[0], designs).T[which], factor, out=found)
             np.sqrt(found, out=found)
@@ -214,7 +221,6 @@ class Scores:
                 found += kernel.offset[:, None]
         else:
             found[:] = reached(kernel.scores(squares), designs).T
-        return squares if self.functions else []
 
     def fill_functions(
         self, scores: Real, designs: Real, nodes: Nodes, mean_squares: Sequence[Real], columns: Sequence[int]

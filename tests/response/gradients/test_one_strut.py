@@ -16,6 +16,7 @@ DENSITIES = np.random.default_rng(0).uniform(0.5, 1.5, (3, F.size))
 PORTS = Ports.of(DAMPED_QUARTER, F, DAMPED_QUARTER.responses)
 STRUT = OneStrut.around(PORTS, 2 * np.pi * F, DENSITIES)
 EACH = Wanted(np.eye(3), np.zeros(3, dtype=bool))
+DESIGNS = np.random.default_rng(1).uniform([1e3, 1e3], [1e5, 1e4], (20, 2))
 
 
 def closed(design: np.ndarray) -> np.ndarray:
@@ -40,11 +41,34 @@ def test_derivatives_are_those_of_complex_steps(spring, damper):
 
 
 def test_mean_squares_are_those_of_the_case_and_designs_are_worked_out_each_for_itself():
-    designs = np.random.default_rng(1).uniform([1e3, 1e3], [1e5, 1e4], (20, 2))
-    squares, slopes = with_slopes(STRUT, EACH, designs)
-    np.testing.assert_allclose(squares, STRUT(designs), rtol=1e-13)
-    alone = np.concatenate([with_slopes(STRUT, EACH, design[None])[1] for design in designs])
+    squares, slopes = with_slopes(STRUT, EACH, DESIGNS)
+    np.testing.assert_array_equal(squares, STRUT(DESIGNS))
+    alone = np.concatenate([with_slopes(STRUT, EACH, design[None])[1] for design in DESIGNS])
     np.testing.assert_array_equal(slopes, alone)
+
+
+def part(first: int, stop: int) -> OneStrut:
+    """Numerators from the first to before the stop, of one term."""
+    numerators, power = STRUT.numerators[first:stop], STRUT.power[first:stop]
+    return STRUT._replace(numerators=numerators, term=np.zeros(power.size, dtype=int), power=power)
+
+
+def test_every_numerator_counts_once():
+    """They are summed four at a time: the last are one to four."""
+    each = [with_slopes(part(q, q + 1), EACH, DESIGNS)[1][:, 0] for q in range(STRUT.power.size)]
+    for count in range(1, len(each) + 1):
+        slopes = with_slopes(part(0, count), EACH, DESIGNS)[1][:, 0]
+        np.testing.assert_allclose(slopes, sum(each[:count]), rtol=1e-10)
+
+
+def test_the_largest_is_chosen_for_each_design():
+    squares, slopes = with_slopes(STRUT, EACH, DESIGNS)
+    factor = 1.0 / squares[[1]] * [[1.0, 1.01, 1.02]]  # by which they are nearly alike at one of the designs
+    best = (squares * factor).argmax(axis=1)
+    assert len(set(best)) > 1
+    found = with_slopes(STRUT, Wanted(factor, np.array([True])), DESIGNS)[1][:, 0]
+    rows = np.arange(len(DESIGNS))
+    np.testing.assert_allclose(found, factor[0, best, None] * slopes[rows, best], rtol=1e-14)
 
 
 def test_no_size_of_coefficients_overflows_before_its_square():

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from suspension_ctrl.response.gradients.wanted import Wanted, combine, fill_weights, fold, leave_out
+from suspension_ctrl.response.gradients.wanted import Wanted, combine, fill_weights, fold, leave_out, searched
 
 SQUARES = np.array([[9.0, 9.0, 9.0], [3.0, 2.0, 5.0]])
 WANTED = Wanted(np.array([[1.0, 4.0, 0.0], [2.0, 4.0, 1.0]]), np.array([False, True]))
@@ -41,3 +41,8 @@ def test_combinations_that_do_not_count_have_no_weight():
     weight = np.ones((2, 3))
     leave_out(np.array([[False, False], [True, False]]), 1, weight)
     np.testing.assert_array_equal(weight, [[1.0, 1.0, 1.0], [0.0, 0.0, 0.0]])
+
+
+def test_sums_have_the_same_weights_for_all_designs():
+    assert searched(WANTED)
+    assert not searched(WANTED._replace(largest=np.array([False, False])))

@@ -33,10 +33,12 @@ def with_jacobian(scores: Scores, designs: Real, nodes: Nodes, bounds: tuple[Rea
     """
     kernel, row = scores.kernel(nodes), _plan(scores, nodes).row
     squares, worst, slopes = _by_case(scores, designs, nodes)
-    values = kernel.scores(squares)
+    values = np.empty((kernel.scale.size, len(designs))).T
+    scores.fill_roots(values.T, squares, designs, nodes)
     root = (values - kernel.offset) / kernel.scale
     half = 0.5 * kernel.scale / np.where(root > 0, root, np.inf)
-    jacobian = half[:, :, None] * _total(kernel, worst, [_rows(each, row) for each in slopes])
+    jacobian = _total(kernel, worst, [_rows(each, row) for each in slopes])
+    jacobian *= half[:, :, None]
     if not scores.compiled:
         tangents = [np.zeros((*found.shape, designs.shape[1])) for found in squares]
         for tangent, own, each in zip(tangents, _plan(scores, nodes).alone, slopes, strict=True):
@@ -80,7 +82,9 @@ def _combinations(kernel: Kernel) -> tuple[list[Wanted], Integer]:
     _, first, row = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     order = first.argsort()  # as they come: derivatives of different scores need no copy
     first, row = first[order], order.argsort()[row.ravel()]
-    return [Wanted(squares[first], kernel.worst_term[first]) for squares in kernel.squares], row
+    several = (np.count_nonzero(kernel.squares, axis=2) > 1).any(axis=0)  # the largest of one needs no search
+    largest = (kernel.worst_term & several)[first]
+    return [Wanted(squares[first], largest) for squares in kernel.squares], row
 
 
 def _of_functions(scores: Scores, case: int) -> list[int]:

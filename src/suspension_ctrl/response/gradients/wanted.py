@@ -22,12 +22,22 @@ def fill_weights(wanted: Wanted, squares: Real, p: int, weight: Real) -> None:
     for s in range(wanted.largest.size):
         best, most = 0, -1.0
         for k in range(squares.shape[1]):
-            product = wanted.factor[s, k] * squares[p, k]
             weight[s, k] = 0.0 if wanted.largest[s] else wanted.factor[s, k]
+        for k in range(squares.shape[1] if wanted.largest[s] else 0):
+            product = wanted.factor[s, k] * squares[p, k]
             if product > most * (1.0 + TIED):
                 best, most = k, product
         if wanted.largest[s]:
             weight[s, best] = wanted.factor[s, best]
+
+
+@uncounted()
+def searched(wanted: Wanted) -> bool:
+    """Whether weights depend on mean squares: where the largest of several products counts."""
+    found = False
+    for s in range(wanted.largest.size):
+        found = found or wanted.largest[s]
+    return found
 
 
 @uncounted()
