@@ -14,7 +14,7 @@ from ..vehicles.assembly import ResponseName
 from ..vehicles.feedback import gains_by_order
 from ..vehicles.varied import Varied
 from ..vehicles.vehicle import Vehicle, assembled
-from .combined import Combination, fill_scores
+from .combined import Combination, fill_scores, larger
 from .linearisation import check_reached, linear_vehicles, powers_of_laws, working_points
 from .load_case import LoadCase
 from .mapped import mean_squares_of, unmapped
@@ -105,12 +105,12 @@ class Kernel(NamedTuple):
                     term = self.squares[c, s, k] * found[0, k]
                     if not self.worst_term[s]:
                         value += term
-                    elif not term <= value:  # NaN too
-                        value = term
+                    else:
+                        value = larger(term, value)
                 if not self.worst_case[s]:
                     total[s] += self.shares[c] * value
-                elif not value <= total[s]:
-                    total[s] = value
+                else:
+                    total[s] = larger(value, total[s])
         for s in range(total.size):
             total[s] = self.scale[s] * sqrt(total[s]) + self.offset[s]
         return total
