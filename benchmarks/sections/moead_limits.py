@@ -18,6 +18,7 @@ from suspension_ctrl.compiled import call, compilable, linked, verb_of
 from suspension_ctrl.search.decomposition import ZERO_WEIGHT, weight_vectors
 from suspension_ctrl.search.neighbours import neighbourhoods
 from suspension_ctrl.search.operators import mutated_value
+from suspension_ctrl.search.sweep import EvaluateChild
 
 SOURCE = Path(__file__).parents[1] / "moead_dra.c"
 LOOP, UF1 = "UF1, the same loop in C", "UF1, MoeadDra"
@@ -135,11 +136,13 @@ def bare_run(problem: Problem, population: int, generations: int) -> Callable[[i
     def run(seed: int) -> tuple[float, float]:
         rng = np.random.default_rng(seed)
         parents = rng.integers(0, population, generations * population)
-        evaluate, lower, upper = linked(verb_of(kernel)), np.array(problem.lower), np.array(problem.upper)
+        evaluate, lower, upper = EvaluateChild(verb_of(kernel)), np.array(problem.lower), np.array(problem.upper)
         begin = process_time()
         designs = lower + (upper - lower) * rng.random((population, lower.size))
         values = problem.evaluate(designs)
-        bare(evaluate, rng, designs, values, weights, near, parents, lower, upper, max(2, population // 100))
+        bare(
+            linked(evaluate), rng, designs, values, weights, near, parents, lower, upper, max(2, population // 100)
+        )
         return process_time() - begin, np.nan
 
     return run
@@ -160,7 +163,7 @@ def bare(
 ) -> None:
     """Make, evaluate and place a child of each parent, as MOEA/D-DE does with three objectives, in one loop."""
     n, d = designs.shape
-    ideal, costs, child = np.full(3, np.inf), np.empty(n), np.empty(d)
+    ideal, costs, child, found = np.full(3, np.inf), np.empty(n), np.empty(d), np.empty(3)
     everyone, worse = np.arange(n), np.empty(n, dtype=np.int64)
     for p in range(n):
         lowered(ideal, values[p])
@@ -179,7 +182,7 @@ def bare(
             if rng.random() < 1 / d:
                 value = mutated_value(value, rng.random(), lower[v], upper[v], 20.0)
             child[v] = value
-        found = call(evaluate, (child,))
+        call(evaluate, (child, found))
         if lowered(ideal, found):
             for p in range(n):
                 costs[p] = cost(weights, p, *gaps(values[p], ideal))

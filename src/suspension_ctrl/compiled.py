@@ -10,15 +10,25 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from itertools import count
-from types import FunctionType
 from typing import Any, NamedTuple, TypeVar
 
+import numpy as np
 from numba import njit, typeof, types
 from numba.core import cgutils
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler, Flags
 from numba.core.errors import TypingError
-from numba.extending import is_jitted, lower_builtin, register_jitable, type_callable
+from numba.core.registry import cpu_target
+from numba.extending import (
+    intrinsic,
+    is_jitted,
+    lower_builtin,
+    models,
+    register_jitable,
+    register_model,
+    type_callable,
+)
+from numba.np.arrayobj import make_array
 
 F = TypeVar("F", bound=Callable[..., Any])
 _Library: Any = JITCodeLibrary  # most of numba has no annotations
@@ -188,21 +198,14 @@ def entry(function: Any, arguments: tuple[Any, ...]) -> Any:
     """
     if not is_jitted(function):
         return function
-    return _overload(function, tuple(map(_kind_of, arguments))).entry_point
+    return _overload(function, tuple(map(typeof, arguments))).entry_point
 
 
 def _overload(function: Any, kinds: tuple[Any, ...]) -> Any:
-    """Return what numba compiled of a function for types of arguments, None if it cannot for just these."""
+    """Return what numba compiled of a function for types of arguments."""
     if kinds not in function.overloads:
         function.get_call_template(kinds, {})  # compiles, or loads from numba's store
-    return function.overloads.get(kinds)
-
-
-def _kind_of(value: Any) -> Any:
-    """Return the type of an argument; that of a linked verb is known."""
-    if isinstance(value, Linked):
-        return types.NamedTuple((_KINDS[value.address], types.int64), Linked)
-    return typeof(value)
+    return function.overloads[kinds]
 
 
 def call(verb: Any, arguments: tuple[Any, ...]) -> Any:
@@ -218,19 +221,18 @@ def _type_of_call(context: Any) -> Callable[..., Any]:
 def _lowered_call(context: Any, builder: Any, signature: Any, values: Any) -> Any:
     function, given, inner = _typed(context.typing_context, *signature.args)
     (kind, _), (verb, arguments) = signature.args, values
+    arguments = cgutils.unpack_tuple(builder, arguments)
     if is_linked(kind):
-        verb, address = cgutils.unpack_tuple(builder, verb)
-        kind = kind.types[0]
+        return _jump(context, builder, inner, cgutils.unpack_tuple(builder, verb), arguments)
+    if isinstance(kind, _AtAddress):
+        kind, verb = kind.verb, builder.load(_pointer(context, builder, verb, kind.verb))
     verb = _borrowed(builder, kind, verb)
-    settings, arguments = (cgutils.unpack_tuple(builder, value) for value in (verb, arguments))
-    passed = [*arguments, *settings] if is_spread(kind) else [verb, *arguments]
+    passed = [*arguments, *cgutils.unpack_tuple(builder, verb)] if is_spread(kind) else [verb, *arguments]
     cast = [context.cast(builder, *each) for each in zip(passed, given, inner.args, strict=True)]
-    if is_linked(signature.args[0]):
-        return _jump(context, builder, address, inner, cast)
     return context.get_function(function, inner)(builder, cast)
 
 
-lower_builtin(call, types.BaseTuple, types.BaseTuple)(_lowered_call)
+lower_builtin(call, types.Any, types.BaseTuple)(_lowered_call)
 
 
 def _borrowed(builder: Any, kind: Any, value: Any) -> Any:
@@ -246,11 +248,12 @@ def _borrowed(builder: Any, kind: Any, value: Any) -> Any:
     return value
 
 
-def _jump(context: Any, builder: Any, address: Any, signature: Any, arguments: Any) -> Any:
-    """Call the function at an address by numba's own convention; an exception is handed on to the caller."""
-    convention, result = context.call_conv, signature.return_type
+def _jump(context: Any, builder: Any, signature: Any, verb: Any, vectors: Any) -> Any:
+    """Call a linked verb by numba's own convention; an exception is handed on to the caller."""
+    convention, (address, memory), result = context.call_conv, verb, signature.return_type
     function = builder.inttoptr(address, convention.get_function_type(result, signature.args).as_pointer())
-    status, value = convention.call_function(builder, function, result, signature.args, arguments)
+    given = [_start(context, builder, memory), *vectors]
+    status, value = convention.call_function(builder, function, result, signature.args, given)
     with cgutils.if_unlikely(builder, status.is_error):
         convention.return_status_propagate(builder, status)
     return value
@@ -262,66 +265,94 @@ def _typed(context: Any, verb: Any, arguments: Any) -> tuple[Any, tuple[Any, ...
     A method gets the verb, then the arguments; a user's compiled function the arguments, then the settings.
     """
     if is_linked(verb):
-        signature = _LINKED[verb.types[0]].signature
-        if _given(verb.types[0], arguments.types) != signature.args:
-            raise TypingError(f"a linked verb takes arrays {_VECTOR}, got {arguments.types}")
-        return None, signature.args, signature
-    given = _given(verb, arguments.types)
-    found = context.resolve_value_type(verb.instance_class.__call__)
+        if arguments.types != (_VECTOR, _VECTOR):
+            raise TypingError(f"a linked verb takes two arrays {_VECTOR}, got {arguments.types}")
+        return None, (), types.int64(types.voidptr, _VECTOR, _VECTOR)
+    kind = verb.verb if isinstance(verb, _AtAddress) else verb
+    given = (*arguments.types, *kind.types) if is_spread(kind) else (kind, *arguments.types)
+    found = context.resolve_value_type(kind.instance_class.__call__)
     return found, given, context.resolve_function_type(found, given, {})
 
 
-def _given(kind: Any, arguments: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return the types that a verb's function gets, by the types of verb and arguments."""
-    return (*arguments, *kind.types) if is_spread(kind) else (kind, *arguments)
-
-
 class Linked(NamedTuple):
-    """A verb of arrays (k,) of real numbers, and the address of its compiled function.
+    """A verb of two arrays (k,) of real numbers that returns a whole number: where its function and settings lie.
 
-    Numba copies the code of a function into each caller and optimises it there again; across an address it does
-    not. An address belongs to a process: verbs are linked where a loop begins and not kept.
+    Numba copies the code of a function into each caller and optimises it there again, and compiles the caller anew
+    for each type of settings; across an address it does neither. Addresses belong to a process: verbs are linked
+    where a loop begins. Whoever links a verb holds its arrays.
     """
 
-    verb: Any
-    address: int
+    function: int
+    memory: Any  # integers, with the settings
 
 
-_VECTOR = types.float64[::1]
-_LINKED: dict[Any, Any] = {}  # by type of verb what numba compiled, for good: the code at an address must stay
-_KINDS: dict[int, Any] = {}  # types of verbs by address
+_VECTOR, _MEMORY = types.float64[::1], types.int64[::1]
 
 
-def linked(verb: Any, vectors: int = 1) -> Any:
-    """Return a verb of so many arrays (k,) with its address, or as it is if it cannot be compiled for them."""
-    function, kind = _callee(type(verb).__call__, storable(verb)), typeof(verb)
-    if not is_jitted(function):  # NUMBA_DISABLE_JIT
+class _AtAddress(types.Type):
+    """Numba's type of the address of a verb."""
+
+    def __init__(self, verb: Any) -> None:
+        self.verb = verb
+        super().__init__(f"at_address({verb})")
+
+
+register_model(_AtAddress)(models.OpaqueModel)
+
+
+def _start(context: Any, builder: Any, memory: Any) -> Any:
+    """Return the address at which memory starts."""
+    return builder.bitcast(make_array(_MEMORY)(context, builder, memory).data, cgutils.voidptr_t)
+
+
+def _pointer(context: Any, builder: Any, address: Any, verb: Any) -> Any:
+    """Return an address as that of a verb of a type."""
+    return builder.bitcast(address, context.get_value_type(verb).as_pointer())
+
+
+def _copy(_context: Any, verb: Any, _memory: Any) -> Any:
+    """Copy a verb into memory."""
+
+    def lowered(context: Any, builder: Any, _signature: Any, values: Any) -> Any:
+        builder.store(values[0], _pointer(context, builder, _start(context, builder, values[1]), verb))
+        return context.get_dummy_value()
+
+    return types.none(verb, _MEMORY), lowered
+
+
+_copy_to: Any = intrinsic(_copy)
+
+
+def _remember(verb: Any, memory: Any) -> None:
+    _copy_to(verb, memory)
+
+
+def _recall(verb: Any, first: Any, second: Any) -> int:
+    found: int = call(verb, (first, second))
+    return found
+
+
+_NO_COUNTS: dict[str, Any] = {"_nrt": False}
+_NO_WRAPPER: dict[str, Any] = {"no_cpython_wrapper": True}
+_REMEMBER = njit(**_NO_COUNTS)(_remember), compiled(**_NO_COUNTS)(_remember)
+_RECALL = njit(**_NO_WRAPPER)(_recall), compiled(**_NO_WRAPPER)(_recall)
+
+
+def linked(verb: Any) -> Any:
+    """Return where a verb lies in memory; without numba the verb as it is."""
+    if not is_jitted(_REMEMBER[0]):  # NUMBA_DISABLE_JIT
         return verb
-    made = _overload(function, _given(kind, (_VECTOR,) * vectors))
-    if made is None:  # a user's function, compiled for other types of arguments alone
-        return verb
-    address = made.library.get_pointer_to_function(made.fndesc.llvm_func_name)
-    _LINKED[kind], _KINDS[address] = made, kind
-    return Linked(verb, address)
-
-
-@lru_cache
-def _callee(function: Any, stored: bool) -> Any:
-    """Return a verb's function, compiled without the wrapper for callers in Python.
-
-    Under a name of its own: numba's store knows functions by name, and one with the wrapper may be there.
-    """
-    if is_jitted(function):
-        return function
-    twin = FunctionType(function.__code__, function.__globals__)
-    twin.__module__, twin.__qualname__ = function.__module__, f"{function.__qualname__}_linked"
-    decorator: Any = compiled if stored else njit
-    return decorator(no_cpython_wrapper=True)(twin)
+    kind, stored = typeof(verb), storable(verb)
+    target = cpu_target.target_context
+    memory = np.empty(-(-target.get_abi_sizeof(target.get_value_type(kind)) // 8), dtype=np.int64)
+    _overload(_REMEMBER[stored], (kind, _MEMORY)).entry_point(verb, memory)
+    made = _overload(_RECALL[stored], (_AtAddress(kind), _VECTOR, _VECTOR))
+    return Linked(made.library.get_pointer_to_function(made.fndesc.llvm_func_name), memory)
 
 
 def is_linked(verb: Any) -> bool:
     """Whether a verb's type is `Linked`."""
-    return verb.instance_class is Linked
+    return getattr(verb, "instance_class", None) is Linked
 
 
 def is_spread(verb: Any) -> bool:

@@ -10,6 +10,10 @@ from suspension_ctrl.search import decomposition
 from suspension_ctrl.search.neighbours import neighbourhoods
 
 
+def chosen_by(rng, utility, corners, size):
+    return call_compiled(decomposition.ByTournament(10), rng, utility, corners, size)
+
+
 @pytest.mark.parametrize("m", [2, 3, 4])
 @pytest.mark.parametrize("n", [20, 105])
 def test_weights_lie_on_the_simplex_and_begin_with_its_corners(n, m):
@@ -62,7 +66,7 @@ def test_tchebycheff_is_equation_14(f, weight, ideal):
 def test_corners_and_different_others_are_chosen(n, seed):
     utility = np.random.default_rng(seed).random(n)
     corners = np.array([n - 1, 0, 7])  # wherever they stand
-    chosen = decomposition.choose_subproblems(np.random.default_rng(seed), utility, corners, n // 5, 10)
+    chosen = chosen_by(np.random.default_rng(seed), utility, corners, n // 5)
     assert chosen.size == n // 5
     assert np.unique(chosen).size == chosen.size
     np.testing.assert_array_equal(chosen[:3], corners)
@@ -74,18 +78,16 @@ def test_higher_utilities_are_chosen_more_often():
     rng = np.random.default_rng(0)
     counts = np.zeros(100)
     for _ in range(500):
-        counts[decomposition.choose_subproblems(rng, utility, np.array([0, 1, 2]), 20, 10)[3:]] += 1
+        counts[chosen_by(rng, utility, np.array([0, 1, 2]), 20)[3:]] += 1
     assert counts[80:].mean() > 4 * counts[40:60].mean()
-    all_equal = [
-        decomposition.choose_subproblems(rng, np.ones(100), np.array([0]), 20, 10)[1:] for _ in range(2000)
-    ]
+    all_equal = [chosen_by(rng, np.ones(100), np.array([0]), 20)[1:] for _ in range(2000)]
     share = np.bincount(np.ravel(all_equal), minlength=100)[1:]
     assert (np.abs(share - 38000 / 99) < 5 * np.sqrt(38000 / 99)).all()  # ties fall evenly
 
 
 def test_everyone_can_be_chosen():
     """As many as there are: the last tournaments have a single candidate."""
-    chosen = decomposition.choose_subproblems(np.random.default_rng(0), np.ones(9), np.array([0, 1]), 9, 10)
+    chosen = chosen_by(np.random.default_rng(0), np.ones(9), np.array([0, 1]), 9)
     np.testing.assert_array_equal(np.sort(chosen), np.arange(9))
 
 

@@ -56,7 +56,7 @@ def test_steps_are_handed_what_the_definition_says():
         assert (objectives[changed] == value).all()
         if len(weights) % 20 == 0:  # the first of an iteration
             spans.append(old.max(axis=0) - old_ideal)
-        weights.append(scaled)
+        weights.append(scaled.copy())
 
     def spy_utility(utility, last, objectives, *rest):
         before.append((last.copy(), objectives.copy()))

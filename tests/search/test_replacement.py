@@ -94,11 +94,11 @@ def test_replacements_in_a_sweep_are_those_one_by_one(m, c):
     ranges = np.array([rng.permutation(40)[:15] for _ in born])
     assert (np.diff(np.minimum.accumulate(born[:, 0])) < 0).sum() > 3
     assert c == 0 or 20 < (violations(born, m) > 0).sum() < 180
-    one, whole = ReplaceWorse(4), ReplaceInSweep.of(ReplaceWorse(4), 40, m)
+    one, whole = ReplaceWorse(4), ReplaceInSweep.of(ReplaceWorse(4), np.arange(40), np.empty(m))
     for span in (1.0, 2.0):
         found = []
         for verb in (one, whole):
-            whole.start()
+            whole.kept.known.fill(np.nan)
             draws = np.random.default_rng(0)
             ends = designs.copy(), values.copy(), weights / span, values[:, :m].min(axis=0)
             for child, value, partners in zip(children, born, ranges, strict=True):

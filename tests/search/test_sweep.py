@@ -4,13 +4,14 @@ import re
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 from numba import njit
 
 from functions import c2dtlz2, dtlz2, srn, zdt1
-from suspension_ctrl import MoeadDra, minimise
+from suspension_ctrl import FailureWarning, MoeadDra, Problem, minimise
 from suspension_ctrl.paper import experiment as paper
-from suspension_ctrl.search import decomposition, sweep
+from suspension_ctrl.search import sweep
 
 
 def halfway(rng, child, parent, lower, upper):
@@ -37,20 +38,25 @@ def bad_kernel(design):
     return np.array([np.nan, 1.0, 1.0])
 
 
+@njit
+def failing_kernel(x):
+    rest = 1.0 + x[1] + x[2]
+    return np.array([x[0] if x[0] > 0.01 else np.nan, rest * (1.0 - x[0] ** 2)])
+
+
 @pytest.mark.parametrize(
     "problem",
     [dtlz2(4), paper.ride_problem(), c2dtlz2(4, compiled=False), srn()],
     ids=["no kernel", "kernel", "constraints, no kernel", "constraints, kernel"],
 )
-def test_compiled_and_plain_sweeps_make_the_same_run(problem, monkeypatch):
+def test_compiled_and_plain_sweeps_make_the_same_run(problem):
     """The compiled loop, the same function as plain Python, and every step of it as plain Python."""
     optimiser = MoeadDra(population=30, utility_period=3)
     runs = [minimise(problem, optimiser, iterations=8, seed=2)]
     toolbox = optimiser.toolbox(problem)
     toolbox.register("evaluate", lambda designs: problem.evaluate(designs))
     runs.append(minimise(problem, optimiser, iterations=8, seed=2, toolbox=toolbox))
-    monkeypatch.setattr(decomposition, "chosen_by", decomposition.chosen_by.py_func)
-    for name in sweep.VERBS:
+    for name in ("choose_subproblems", *sweep.VERBS):
         toolbox.register(name, getattr(toolbox, name).args[0].__call__)
     runs.append(minimise(problem, optimiser, iterations=8, seed=2, toolbox=toolbox))
     for other in runs[1:]:
@@ -108,6 +114,28 @@ def test_compiled_sweep_counts_its_evaluations():
         replace(problem, kernel=(counting_kernel, (calls,))), MoeadDra(population=37), iterations=9, seed=0
     )
     assert calls[0] == 9 * 7 == run.evaluations - 37
+
+
+@pytest.mark.parametrize("normalise", [True, False])
+def test_iterations_in_one_call_are_those_one_by_one(normalise):
+    """With a callback each is a call of its own; failures of the kernel end a call, and so do new utilities."""
+    problem = Problem(
+        evaluate=lambda rows: np.array([failing_kernel(row) for row in rows]),
+        lower=(0.0,) * 3,
+        upper=(1.0,) * 3,
+        objectives=("f1", "f2"),
+        kernel=(failing_kernel, ()),
+    )
+    optimiser = MoeadDra(population=30, normalise=normalise, utility_period=7)
+    with pytest.warns(FailureWarning):
+        whole = minimise(problem, optimiser, iterations=60, seed=3)
+    with pytest.warns(FailureWarning):
+        single = minimise(problem, optimiser, iterations=60, seed=3, callback=lambda run: False)
+    assert whole.failures == single.failures > 5
+    np.testing.assert_array_equal(whole.designs, single.designs)
+    columns = ["iteration", "evaluations", "ideal_f1", "ideal_f2"]
+    pd.testing.assert_frame_equal(whole.history[columns], single.history[columns])
+    assert (whole.history.seconds.diff().iloc[1:] > 0).all()
 
 
 @pytest.mark.parametrize(

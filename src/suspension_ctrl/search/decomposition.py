@@ -9,9 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compilable, compiled
+from ..compiled import compilable, uncounted
 from ..quantities import Integer, Real, frozen_array
 from .constraints import violations
+from .operators import draw_below
 from .spreading import farthest_first
 
 ZERO_WEIGHT = 1e-4
@@ -37,30 +38,37 @@ def tchebycheff(values: Real, weights: Real, ideal: Real) -> Real:
     return np.asarray((weights * np.abs(values[:, : ideal.size] - ideal)).max(axis=1))
 
 
-def choose_subproblems(
-    rng: np.random.Generator, utility: Real, corners: Integer, size: int, tournament: int
-) -> Integer:
-    """Return the subproblems (size,) of an iteration: the corners, then winners of tournaments by utility."""
-    draws = rng.random((size - corners.size, tournament))
-    return chosen_by(draws, utility, corners, np.arange(utility.size), np.empty(size, dtype=np.int64))
+class ByTournament(NamedTuple):
+    """Choice of the subproblems of an iteration: the corners, then winners of tournaments by utility."""
+
+    tournament: int
+
+    @compilable()
+    def __call__(self, rng: np.random.Generator, utility: Real, corners: Integer, size: int) -> Integer:
+        """Return the subproblems (size,), from utilities (N,) and corners (m,)."""
+        chosen, unchosen = np.empty(size, dtype=np.int64), np.empty(utility.size, dtype=np.int64)
+        choose(rng, utility, corners, self.tournament, unchosen, chosen)
+        return chosen
 
 
-@compiled()
-def chosen_by(draws: Real, utility: Real, corners: Integer, open_: Integer, chosen: Integer) -> Integer:
-    """Fill and return `chosen` (c,): corners, then winners drawn from `open_` (N,); the first drawn wins a tie."""
+@uncounted()
+def choose(
+    rng: np.random.Generator, utility: Real, corners: Integer, tournament: int, unchosen: Integer, chosen: Integer
+) -> None:
+    """Fill `chosen` (k,): corners, then winners; the first drawn wins a tie. `unchosen` (N,) is work space."""
+    for i in range(unchosen.size):
+        unchosen[i] = i
     for c in range(chosen.size):
-        left, best = open_.size - c, np.int64(0)
+        left, best = unchosen.size - c, np.int64(0)
         if c < corners.size:
-            while open_[best] != corners[c]:
+            while unchosen[best] != corners[c]:
                 best += 1
         else:
-            best = np.int64(draws[c - corners.size, 0] * left)
-            for t in range(1, draws.shape[1]):
-                rival = np.int64(draws[c - corners.size, t] * left)
-                best = rival if utility[open_[rival]] > utility[open_[best]] else best
-        chosen[c] = open_[best]
-        open_[best] = open_[left - 1]
-    return chosen
+            for t in range(tournament):
+                rival = draw_below(rng, left)
+                best = rival if t == 0 or utility[unchosen[rival]] > utility[unchosen[best]] else best
+        chosen[c] = unchosen[best]
+        unchosen[best] = unchosen[left - 1]
 
 
 class MatingRange(NamedTuple):
@@ -75,6 +83,21 @@ class MatingRange(NamedTuple):
         if rng.random() < self.probability:
             return neighbours[i]
         return self.everyone
+
+
+class RangeInSweep(NamedTuple):
+    """`MatingRange` without counts of references to arrays, which whoever calls it holds."""
+
+    probability: float
+
+    @uncounted()
+    def __call__(
+        self, rng: np.random.Generator, _i: int, near: Integer, everyone: Integer, _neighbours: Integer
+    ) -> Integer:
+        """Return the partners of a subproblem: its neighbours `near` (T,) or all (N,)."""
+        if rng.random() < self.probability:
+            return near
+        return everyone
 
 
 def updated_utility(

@@ -1,8 +1,8 @@
 """The loop around every search: budget, seed, times, callback, and the `Run` at its end."""
 
-import itertools
 import warnings
 from collections.abc import Callable, Iterator, Sequence
+from itertools import zip_longest
 from math import inf, nan
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING, Any
@@ -144,6 +144,10 @@ def resumed(
     return search.until(count, limits["seconds"], callback)
 
 
+_UNSEEN = 0.1
+"""Seconds of iterations that may pass while neither budget nor interruption ends the search."""
+
+
 class _Search:
     """A search with its toolbox, generator, log and present state."""
 
@@ -190,6 +194,8 @@ class _Search:
                     break
                 if len(self.rows) > last or perf_counter() >= end:
                     break
+                if not callback:
+                    self.problem.together = self._together(last + 1 - len(self.rows), end)
         except BaseException as error:
             error.run = self.run()  # type: ignore[attr-defined]
             raise
@@ -200,19 +206,27 @@ class _Search:
             warnings.warn(self.problem.summary(run.evaluations), FailureWarning, stacklevel=3)
         return run
 
+    def _together(self, left: float, end: float) -> int:
+        """Return how many of the iterations left may pass unseen: those of `_UNSEEN`, or of half the time left."""
+        if len(self.rows) < 3:  # the first iteration may compile
+            return 1
+        pace = max(self.rows[-1][2] - self.rows[-2][2], 1e-9)
+        return int(max(1, min(left, min(_UNSEEN, (end - perf_counter()) / 2) / pace)))
+
     def _states(self) -> Iterator[State]:
-        """Yield the states of the search; append a row to the log for each."""
-        number, _, wall, cpu, *phases = self.rows[-1] if self.rows else (-1, 0, 0.0, 0.0)
+        """Yield the states of the search; append a row to the log for each iteration."""
+        spent = self.rows[-1][: 4 + len(self.optimiser.phases)] if self.rows else (-1, 0, 0.0, 0.0)
         clock = PhaseClock(self.toolbox, self.optimiser.phases)
-        clock.seconds.update(zip(clock.seconds, phases, strict=False))
+        clock.seconds.update(zip(clock.seconds, spent[4:], strict=False))
         search = self.optimiser.search(self.problem, self.toolbox, self.rng, self.state)
-        for iteration in itertools.count(int(number) + 1):
+        while True:
+            number, _, wall, cpu, *_ = before = spent
             wall_start, cpu_start = perf_counter(), process_time()
             state = next(search)
-            wall, cpu = wall + perf_counter() - wall_start, cpu + process_time() - cpu_start
-            phases = [*clock.seconds.values()]
-            ideal = [value if value < WORST else nan for value in state.ideal.tolist()]
-            self.rows.append((iteration, state.evaluations, wall, cpu, *phases, *ideal))
+            course = state.ideal[None] if state.course is None else state.course
+            times = wall + perf_counter() - wall_start, cpu + process_time() - cpu_start
+            spent = number + len(course), state.evaluations, *times, *clock.seconds.values()
+            self.rows += _rows(before, spent, course)
             self.state, self.generator = state, self.rng.bit_generator.state
             yield state
 
@@ -232,6 +246,16 @@ class _Search:
             seed=self.seed, log=log, failures=problem.failures, repeats=problem.repeats,
             checkpoint=Checkpoint(self.optimiser, self.state, self.generator),
         )  # fmt: skip
+
+
+def _rows(before: tuple[float, ...], spent: tuple[float, ...], course: Real) -> Iterator[tuple[float, ...]]:
+    """Yield the rows of iterations by their ideal points (k, m), which share equally what was spent in all."""
+    ideals = np.where(course < WORST, course, nan).tolist()
+    for share, ideal in enumerate(ideals[:-1], 1):
+        passed = (a + (b - a) * share / len(ideals) for a, b in zip_longest(before, spent, fillvalue=0.0))
+        iteration, evaluations, *seconds = passed
+        yield int(iteration), int(evaluations), *seconds, *ideal
+    yield *spent, *ideals[-1]
 
 
 def _start_designs(problem: Minimisable, start: Any) -> Real:

@@ -59,6 +59,7 @@ class SearchProblem:
         self.evaluate = problem.evaluate
         self.kernel = None if problem.kernel is None else self.coding.kernel(problem.kernel)
         self.sweep: Any = None  # of MOEA/D-DRA, compiled at its first use
+        self.together = 1  # iterations that may pass up to the next state of the search
         self.compared = self.kernel is None
         self.strict, self.failures, self.first = strict, 0, ""
         self.repeats = 0  # designs with known values

@@ -19,7 +19,8 @@ from .population import Settings, State
 from .problem import Minimisable
 from .replacement import ReplaceWorse
 from .selection import select_survivors
-from .sweep import Decomposed, sweep_batch, sweep_sequential
+from .subproblems import Decomposed
+from .sweep import sweep_batch, sweep_sequential
 
 _SWEEPS = {"sequential": sweep_sequential, "batch": sweep_batch}
 
@@ -134,7 +135,7 @@ class MoeadDra(Settings):
         toolbox = Toolbox()
         toolbox.register("sample", operators.sample_uniform, lower=lower, upper=upper)
         toolbox.register("evaluate", problem.evaluate)
-        toolbox.register("choose_subproblems", decomposition.choose_subproblems, tournament=self.tournament)
+        toolbox.register("choose_subproblems", call_compiled, decomposition.ByTournament(self.tournament))
         mating_range = decomposition.MatingRange(float(self.neighbour_probability), np.arange(self.population))
         toolbox.register("mating_range", call_compiled, mating_range)
         toolbox.register("reproduce", call_compiled, operators.DifferentialChild(float(self.scale_factor)))
@@ -153,8 +154,8 @@ class MoeadDra(Settings):
         size, m = self.population, len(problem.objectives)
         vectors = decomposition.weight_vectors(size, m)
         corners = vectors.argmax(axis=0)  # the unit vectors, wherever they stand
-        weights = np.where(vectors == 0, decomposition.ZERO_WEIGHT, vectors) / self._scales(m)
-        neighbours = neighbourhoods(size, m, self.neighbours)
+        vectors = np.where(vectors == 0, decomposition.ZERO_WEIGHT, vectors) / self._scales(m)
+        neighbours, chosen = neighbourhoods(size, m, self.neighbours), self.evaluations_per_iteration(m)
         if state is None:
             designs = np.array(toolbox.sample(rng, size), dtype=float)
             values = problem.values(toolbox.evaluate, designs)
@@ -169,18 +170,20 @@ class MoeadDra(Settings):
             utility, before = state.memory["utility"].copy(), state.memory["before"]
             iteration = int(state.memory["iteration"])
         known = frozen_array(utility)
-        population = Decomposed(designs, values, ideal, weights, neighbours)
+        population = Decomposed.of(
+            designs, values, ideal, vectors, self.normalise, neighbours, corners, utility, chosen
+        )
         while True:
-            iteration += 1
-            if self.normalise:
-                population = population._replace(weights=weights / population.span())
-            chosen = toolbox.choose_subproblems(rng, utility, corners, self.evaluations_per_iteration(m))
-            toolbox.sweep(rng, chosen, population, toolbox, problem)
+            together = min(problem.together, self.utility_period - iteration % self.utility_period)
+            course = toolbox.sweep(rng, population, np.empty((together, m)), toolbox, problem)
+            iteration += len(course)
+            evaluations += len(course) * chosen
             if iteration % self.utility_period == 0:
-                utility = toolbox.update_utility(utility, before, values, population.weights, ideal)
+                utility[:] = toolbox.update_utility(utility, before, values, population.weights, ideal)
                 known, before = frozen_array(utility), frozen_array(values)
-            evaluations += chosen.size
-            yield State.of(designs, values, ideal, evaluations, utility=known, before=before, iteration=iteration)
+            yield State.of(
+                designs, values, ideal, evaluations, course, utility=known, before=before, iteration=iteration
+            )
 
     def _scales(self, objectives: int) -> Real:
         given = np.ones(objectives) if self.objective_scales is None else self.objective_scales

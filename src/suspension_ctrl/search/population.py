@@ -122,13 +122,17 @@ class State(Population):
     ideal: Real  # (m,) least value so far of each objective, of feasible designs once there is one
     evaluations: int  # so far
     memory: Mapping[str, Real]  # further arrays from which the algorithm continues
+    course: Real | None = None  # (k, m) ideal points after the iterations since the last state, if not of one
 
     @classmethod
-    def of(cls, designs: Real, values: Real, ideal: Real, evaluations: int, **memory: ArrayLike) -> "State":
+    def of(
+        cls, designs: Real, values: Real, ideal: Real, evaluations: int, course: Real | None = None,
+        **memory: ArrayLike,
+    ) -> "State":  # fmt: skip
         """Return the state of a population with these values (n, m + c)."""
         return cls(
             designs=designs, objectives=values[:, : ideal.size], constraints=values[:, ideal.size :],
-            ideal=frozen_array(ideal), evaluations=evaluations,
+            ideal=frozen_array(ideal), evaluations=evaluations, course=course,
             memory=FrozenMapping({name: _kept(value) for name, value in memory.items()}),
         )  # fmt: skip
 

@@ -42,26 +42,23 @@ class Kept(NamedTuple):
 
     costs: Real  # (N,) `cost_of` individuals at the ideal point `known`
     known: Real  # (m,) NaN: none
-    whose: Integer  # (k,) all whose costs are needed
+    everyone: Integer  # (N,)
     gaps: Real  # (m,) work space, |F - z| of the child
     worse: Integer  # (k,) work space, indices of those that the child betters
 
 
 class ReplaceInSweep(NamedTuple):
-    """`ReplaceWorse` in a sweep, within which nothing else changes the population."""
+    """`ReplaceWorse` in sweeps, within which nothing else changes the population."""
 
     limit: int
     kept: Kept
 
     @classmethod
-    def of(cls, verb: ReplaceWorse, size: int, objectives: int) -> "ReplaceInSweep":
-        """Return the verb for populations of a size."""
-        everyone, gaps = np.arange(size), np.empty(objectives)
-        return cls(verb.limit, Kept(np.empty(size), np.empty(objectives), everyone, gaps, everyone.copy()))
-
-    def start(self) -> None:
-        """Begin a sweep: weights and population may have changed."""
-        self.kept.known.fill(np.nan)
+    def of(cls, verb: ReplaceWorse, everyone: Integer, known: Real) -> "ReplaceInSweep":
+        """Return the verb for a population (N,), whose costs are known at an ideal point (m,), NaN: not yet."""
+        return cls(
+            verb.limit, Kept(np.empty(everyone.size), known, everyone, np.empty_like(known), everyone.copy())
+        )
 
     @uncounted()
     def __call__(
@@ -100,7 +97,7 @@ def replace(
         moved |= kept.known[j] != ideal[j]
         kept.known[j], kept.gaps[j] = ideal[j], abs(child_values[j] - ideal[j])
     if moved:
-        for i in kept.whose:
+        for i in kept.everyone:
             kept.costs[i] = cost_of(values[i], weights[i], ideal)
     count = find_worse(violation, partners, values, weights, kept)
     # Drawing `limit` of the worse partners equals taking the first ones in a random order of all partners.
@@ -120,19 +117,25 @@ def replace(
 def find_worse(violation: float, partners: Integer, values: Real, weights: Real, kept: Kept) -> int:
     """Put partners that a child of this violation and these gaps betters into `kept.worse`; return their count."""
     m, costs, worse, gaps = weights.shape[1], kept.costs, kept.worse, kept.gaps
-    # Without branches, which a processor would guess wrongly: two or three objectives without a loop, whoever is
-    # compared is written to the end, and indices have no sign, which numba would test.
+    # Without branches, which a processor would guess wrongly: whoever is compared is written to the end. Indices
+    # have no sign, which numba would test. A loop over objectives would double the time of two or three.
     count, first, second, last = np.uint64(0), gaps[0], gaps[1], gaps[m - 1]
+    if violation == 0.0 and m <= 3:
+        for k in range(partners.size):
+            i = np.uint64(partners[k])
+            a, b, c = weights[i, 0] * first, weights[i, 1] * second, weights[i, m - 1] * last
+            a = b if b > a else a
+            a = c if c > a else a
+            worse[count] = i
+            count += np.uint64(a < costs[i])
+        return int(count)
     for k in range(partners.size):
         i = np.uint64(partners[k])
-        a, b, c = weights[i, 0] * first, weights[i, 1] * second, weights[i, m - 1] * last
-        a = b if b > a else a
-        a = c if c > a else a
-        for j in range(2, m - 1):
-            b = weights[i, j] * gaps[j]
-            a = b if b > a else a
+        better = violation == 0.0 or violation < violation_of(values[i], m)
+        if violation == 0.0:
+            for j in range(m):
+                better &= weights[i, j] * gaps[j] < costs[i]
         worse[count] = i
-        better = a < costs[i] if violation == 0.0 else violation < violation_of(values[i], m)
         count += np.uint64(better)
     return int(count)
 

@@ -1,4 +1,4 @@
-"""One iteration of MOEA/D-DRA over the chosen subproblems: from mating range to replacement."""
+"""Iterations of MOEA/D-DRA: the choice of subproblems, then from mating range to replacement for each."""
 
 from collections.abc import Callable
 from functools import partial
@@ -10,110 +10,103 @@ from numba import njit
 from numba.core.errors import NumbaError
 from numba.extending import is_jitted
 
-from ..compiled import call, call_compiled, compilable, compiled, entry, linked, storable, verb_of
+from ..compiled import Linked, call, call_compiled, compilable, compiled, entry, linked, verb_of
 from ..quantities import Integer, Real
 from .clock import untimed
-from .constraints import feasible_objectives
-from .decomposition import MatingRange
+from .decomposition import ByTournament, MatingRange, RangeInSweep, choose
 from .evaluation import WORST, SearchProblem
 from .replacement import ReplaceInSweep, ReplaceWorse
-from .reproduction import OUTSIDE, WRONG_SIZE, ChildByVerbs, child_maker
-
-
-class Decomposed(NamedTuple):
-    """A population with one individual per subproblem; a sweep changes its arrays in place."""
-
-    designs: Real  # (N, d)
-    values: Real  # (N, m + c), objectives, then constraints
-    ideal: Real  # (m,) least value seen of each objective, of feasible designs once there is one
-    weights: Real  # (N, m) weight vectors over the spans of the objectives
-    neighbours: Integer  # (N, T) nearest subproblems of each, itself first
-
-    def span(self) -> Real:
-        """Return the span (m,) from ideal point to worst feasible design (any, if none), 1 where it is zero."""
-        m, evaluated = self.ideal.size, self.values[:, 0] < WORST
-        found = self.values if evaluated.all() else self.values[evaluated]
-        feasible = feasible_objectives(found, m)
-        columns = np.ascontiguousarray(
-            (feasible if len(feasible) else found[:, :m]).T
-        )  # numpy is quick along these
-        span = columns.max(axis=1, initial=-np.inf) - self.ideal
-        return np.where(span > 0, span, 1.0)
+from .reproduction import OUTSIDE, WRONG_SIZE, ChildByVerbs, ChildInSweep, child_maker
+from .subproblems import Decomposed, scale_weights
 
 
 def sweep_sequential(
-    rng: np.random.Generator, chosen: Integer, population: Decomposed, toolbox: Toolbox, problem: SearchProblem
-) -> None:
-    """Work on the chosen subproblems in order, each child after the replacements of the one before.
+    rng: np.random.Generator, population: Decomposed, course: Real, toolbox: Toolbox, problem: SearchProblem
+) -> Real:
+    """Carry out up to as many iterations as `course` (k, m) has rows; return the rows of those that were.
+
+    A row is the ideal point after an iteration. The chosen subproblems are worked on in order, each child after
+    the replacements of the one before.
 
     Runs compiled if every verb is compiled and the problem has a kernel, otherwise in Python with the same draws.
-    A kernel is compared with `evaluate` after the first sweep.
+    An iteration whose choice of subproblems is exchanged runs alone, and one in which a design could not be
+    evaluated is the last. A kernel is compared with `evaluate` after the first call.
     """
-    children = np.empty((chosen.size, population.designs.shape[1]))
-    born = np.empty((chosen.size, population.values.shape[1]))
+    children = np.empty((population.chosen.size, population.designs.shape[1]))
+    born = np.empty((population.chosen.size, population.values.shape[1]))
     sweep = problem.sweep or swept_by(toolbox, problem, population)
-    if isinstance(sweep.verbs[UPDATE], ReplaceInSweep):
-        sweep.verbs[UPDATE].start()
-    given = rng, np.ascontiguousarray(chosen), population, problem.strict, children, born, *sweep.verbs
+    if not sweep.tournament:
+        course = course[:1]
+        population.begin(rng, toolbox)
+    given = rng, population, sweep.tournament, course, problem.strict, children, born, *sweep.verbs
     if not problem.sweep:
         try:
             problem.sweep = sweep._replace(run=entry(sweep.run, given))
         except NumbaError as error:
             raise ValueError(f"verbs must compile together, got {str(error).splitlines()[0]}") from None
-    made, failures = problem.sweep.run(*given)
+    iterations, made, failures = problem.sweep.run(*given)
     if made < 0:
         raise ValueError(_FAULTS[made])
     if sweep.compiled:
         problem.take(children[:made], born[:made], failures)
+    return course[:iterations]
 
 
 class Sweep(NamedTuple):
-    """The loop of a search's sweeps and its verbs, in the order of `work_on`."""
+    """The loop of a search's iterations and its verbs, in the order of `iterate`."""
 
-    run: Callable[..., tuple[int, int]]
+    run: Callable[..., tuple[int, int, int]]
+    tournament: int  # by which the loop chooses subproblems; 0: they are chosen before
     verbs: tuple[Any, ...]
     compiled: bool
 
 
-UPDATE = 2  # place of the replacement among the verbs of `work_on`
-
-
 def swept_by(toolbox: Toolbox, problem: SearchProblem, population: Decomposed) -> Sweep:
-    """Return what carries out the sweeps of a search."""
+    """Return what carries out the iterations of a search."""
     found = [compiled_verb(untimed(getattr(toolbox, name))) for name in VERBS]
     found.append(compiled_evaluation(toolbox, problem))
     if None in found:
         mating_range, reproduce, repair, mutate, update = (getattr(toolbox, name) for name in VERBS)
         make = ChildByVerbs(reproduce, repair, mutate, None)
 
+        def range_of(rng: np.random.Generator, i: int, _near: Any, _everyone: Any, neighbours: Integer) -> Integer:
+            return np.asarray(mating_range(rng, i, neighbours))
+
         def evaluate_one(child: Real, value: Real) -> int:
             value[:] = problem.values(toolbox.evaluate, child[np.newaxis])[0]
             return 0
 
-        return Sweep(work_on, (mating_range, make, update, evaluate_one), False)
+        return Sweep(iterate, 0, (range_of, make, update, evaluate_one), False)
     mating_range, reproduce, repair, mutate, update, evaluate = found
     make = child_maker(reproduce, repair, mutate, np.array([problem.lower, problem.upper]))
-    if not isinstance(mating_range, MatingRange):
-        mating_range = CheckedRange(mating_range)
     if isinstance(update, ReplaceWorse):
-        update = ReplaceInSweep.of(update, *population.weights.shape)
-    run = _STORED if all(map(storable, found)) else _FRESH
-    return Sweep(run, (mating_range, make, update, linked(EvaluateChild(evaluate), vectors=2)), True)
+        update = ReplaceInSweep.of(update, population.everyone, population.known)
+    place = linked(EvaluateChild(evaluate))
+    if tuple(map(type, (mating_range, make, update, place))) == _OWN:
+        run, mating_range = _UNCOUNTED, RangeInSweep(mating_range.probability)
+    else:
+        run, mating_range = _COUNTED, CheckedRange(mating_range)
+    choice = compiled_verb(untimed(toolbox.choose_subproblems))
+    tournament = choice.tournament if isinstance(choice, ByTournament) else 0
+    return Sweep(run, tournament, (mating_range, make, update, place), True)
 
 
 def sweep_batch(
-    rng: np.random.Generator, chosen: Integer, population: Decomposed, toolbox: Toolbox, problem: SearchProblem
-) -> None:
-    """Make the children of all chosen subproblems, evaluate them in one call, replace in order."""
-    designs, values, ideal, weights, neighbours = population
-    ranges = [toolbox.mating_range(rng, i, neighbours) for i in chosen]
-    children = np.empty((chosen.size, designs.shape[1]))
-    for row, (i, partners) in enumerate(zip(chosen, ranges, strict=True)):
+    rng: np.random.Generator, population: Decomposed, course: Real, toolbox: Toolbox, problem: SearchProblem
+) -> Real:
+    """Carry out an iteration with all children made of the population at its start; return its row of `course`."""
+    population.begin(rng, toolbox)
+    designs, values, ideal, weights = population.designs, population.values, population.ideal, population.weights
+    ranges = [toolbox.mating_range(rng, i, population.neighbours) for i in population.chosen]
+    children = np.empty((len(ranges), designs.shape[1]))
+    for row, (i, partners) in enumerate(zip(population.chosen, ranges, strict=True)):
         child = toolbox.reproduce(rng, designs, i, partners)
         children[row] = toolbox.mutate(rng, toolbox.repair(rng, child, designs[i]))
     born = problem.values(toolbox.evaluate, children)
     for child, value, partners in zip(children, born, ranges, strict=True):
         toolbox.update(rng, child, value, partners, designs, values, weights, ideal)
+    course[0] = ideal
+    return course[:1]
 
 
 VERBS = ("mating_range", "reproduce", "repair", "mutate", "update")
@@ -130,10 +123,50 @@ _FAULTS = {
 """Errors of compiled verbs, by the mark of `work_on`."""
 
 
+def iterate(
+    rng: np.random.Generator,
+    population: Decomposed,
+    tournament: int,
+    course: Real,
+    strict: bool,
+    children: Real,
+    born: Real,
+    mating_range: Any,
+    make: Any,
+    update: Any,
+    evaluate: Any,
+) -> tuple[int, int, int]:
+    """Carry out iterations, as many as `course` (k, m) has rows, and fill these with the ideal points after them.
+
+    Ends with the first in which there is a failure. Returns the number of iterations and what `work_on` returns of
+    the last.
+    """
+    designs, values, ideal, vectors, normalise, neighbours, corners, utility = population[:8]
+    weights, known, everyone, unchosen, chosen = population[8:]
+    made, failures = 0, 0
+    for t in range(course.shape[0]):
+        if tournament > 0:
+            if normalise:
+                scale_weights(vectors, values, ideal, weights, known)
+            choose(rng, utility, corners, tournament, unchosen, chosen)
+        placed = designs, values, weights, ideal
+        made, failures = work_on(
+            rng, chosen, placed, neighbours, everyone, strict, children, born, mating_range, make, update, evaluate
+        )
+        for j in range(course.shape[1]):
+            course[t, j] = ideal[j]
+        if made < chosen.size or failures > 0:
+            return t + 1, made, failures
+    return course.shape[0], made, failures
+
+
+@compilable()
 def work_on(
     rng: np.random.Generator,
     chosen: Integer,
-    population: Decomposed,
+    placed: tuple[Real, Real, Real, Real],
+    neighbours: Integer,
+    everyone: Integer,
     strict: bool,
     children: Real,
     born: Real,
@@ -147,11 +180,11 @@ def work_on(
     Fills `children` (k, e) and their values `born` (k, m + c). If `strict` it ends at the first that cannot be
     evaluated. In place of the number there is a mark of `_FAULTS` for wrong results.
     """
-    designs, values, ideal, weights, neighbours = population
+    designs, values, weights, ideal = placed
     failures = 0
     for k in range(chosen.size):
         i, child, value = chosen[k], children[k], born[k]
-        partners = call(mating_range, (rng, i, neighbours))
+        partners = call(mating_range, (rng, i, neighbours[i], everyone, neighbours))
         if partners.size < 2:
             return NOBODY, failures
         fault = call(make, (rng, designs, i, partners, child))
@@ -167,20 +200,28 @@ def work_on(
     return chosen.size, failures
 
 
-_STORED, _FRESH = compiled()(work_on), njit(work_on)
+_OWN = MatingRange, ChildInSweep, ReplaceInSweep, Linked
+"""Verbs that need no counts of references to arrays."""
+
+_OPTIONS: dict[str, Any] = {"_nrt": False}
+_UNCOUNTED, _COUNTED = compiled(**_OPTIONS)(iterate), njit(iterate)
 
 
 class CheckedRange(NamedTuple):
-    """A user's mating range, empty in place of one with indices of nobody."""
+    """A mating range, empty in place of one with indices of nobody."""
 
     mating_range: Any
 
     @compilable()
-    def __call__(self, rng: np.random.Generator, i: int, neighbours: Integer) -> Integer:
+    def __call__(
+        self, rng: np.random.Generator, i: int, _near: Integer, everyone: Integer, neighbours: Integer
+    ) -> Integer:
         """Return the partners (k,) of subproblem i."""
         partners: Integer = call(self.mating_range, (rng, i, neighbours))
+        if partners.size > everyone.size:
+            return partners[:0]
         for p in partners:
-            if not 0 <= p < neighbours.shape[0]:
+            if not 0 <= p < everyone.size:
                 return partners[:0]
         return partners
 
