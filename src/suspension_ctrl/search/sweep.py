@@ -120,7 +120,7 @@ _FAULTS = {
     WRONG_SIZE: "reproduce, repair and mutate must return a value for each variable, got another number",
     OUTSIDE: "repair and mutate must return designs within the bounds, got one outside",
 }
-"""Errors of compiled verbs, by the mark of `work_on`."""
+"""Errors of compiled verbs, by the mark of `iterate`."""
 
 
 def iterate(
@@ -138,66 +138,34 @@ def iterate(
 ) -> tuple[int, int, int]:
     """Carry out iterations, as many as `course` (k, m) has rows, and fill these with the ideal points after them.
 
-    Ends with the first in which there is a failure. Returns the number of iterations and what `work_on` returns of
-    the last.
+    In each, make, evaluate and place one child for each chosen subproblem, in order. Returns the number of
+    iterations, of children and failures of the last: the first with a failure; if `strict` it ends there. In place
+    of the number of children there is a mark of `_FAULTS` for wrong results. Fills `children` (k, e) and their
+    values `born` (k, m + c).
     """
     designs, values, ideal, vectors, normalise, neighbours, corners, utility = population[:8]
     weights, known, everyone, unchosen, chosen = population[8:]
-    made, failures = 0, 0
-    for t in range(course.shape[0]):
+    t, failures = 0, 0
+    while t < course.shape[0] and failures == 0:
         if tournament > 0:
             if normalise:
                 scale_weights(vectors, values, ideal, weights, known)
             choose(rng, utility, corners, tournament, unchosen, chosen)
-        placed = designs, values, weights, ideal
-        made, failures = work_on(
-            rng, chosen, placed, neighbours, everyone, strict, children, born, mating_range, make, update, evaluate
-        )
+        for k in range(chosen.size):
+            i, child, value = chosen[k], children[k], born[k]
+            partners = call(mating_range, (rng, i, neighbours[i], everyone, neighbours))
+            fault = NOBODY if partners.size < 2 else call(make, (rng, designs, i, partners, child))
+            failed = fault if fault < 0 else call(evaluate, (child, value))
+            if failed < 0:
+                return t, failed, failures
+            failures += failed
+            if failures > 0 and strict:
+                return t, k + 1, failures
+            call(update, (rng, child, value, partners, designs, values, weights, ideal))
         for j in range(course.shape[1]):
             course[t, j] = ideal[j]
-        if made < chosen.size or failures > 0:
-            return t + 1, made, failures
-    return course.shape[0], made, failures
-
-
-@compilable()
-def work_on(
-    rng: np.random.Generator,
-    chosen: Integer,
-    placed: tuple[Real, Real, Real, Real],
-    neighbours: Integer,
-    everyone: Integer,
-    strict: bool,
-    children: Real,
-    born: Real,
-    mating_range: Any,
-    make: Any,
-    update: Any,
-    evaluate: Any,
-) -> tuple[int, int]:
-    """Make, evaluate and place one child for each chosen subproblem, in order; return their number and failures.
-
-    Fills `children` (k, e) and their values `born` (k, m + c). If `strict` it ends at the first that cannot be
-    evaluated. In place of the number there is a mark of `_FAULTS` for wrong results.
-    """
-    designs, values, weights, ideal = placed
-    failures = 0
-    for k in range(chosen.size):
-        i, child, value = chosen[k], children[k], born[k]
-        partners = call(mating_range, (rng, i, neighbours[i], everyone, neighbours))
-        if partners.size < 2:
-            return NOBODY, failures
-        fault = call(make, (rng, designs, i, partners, child))
-        if fault < 0:
-            return fault, failures
-        failed = call(evaluate, (child, value))
-        if failed < 0:
-            return failed, failures
-        failures += failed
-        if failures > 0 and strict:
-            return k + 1, failures
-        call(update, (rng, child, value, partners, designs, values, weights, ideal))
-    return chosen.size, failures
+        t += 1
+    return t, chosen.size, failures
 
 
 _OWN = MatingRange, ChildInSweep, ReplaceInSweep, Linked
