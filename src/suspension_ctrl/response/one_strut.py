@@ -30,7 +30,8 @@ class OneStrut(NamedTuple):
     def __call__(self, designs: Real) -> Real:
         """Return the mean squares (p, k) of designs (p, 2), K [N/m] and C [N s/m], each as if alone."""
         last, n = designs.shape[0] - 1, self.denominator.shape[1]
-        result = np.zeros((designs.shape[0], self.terms))
+        result = np.empty((designs.shape[0], self.terms))
+        clear(result)
         gain, power = empty((_TOGETHER, n)), np.empty((_TOGETHER, 5))
         for first in range(0, designs.shape[0], _TOGETHER):
             for p in range(_TOGETHER):
@@ -43,7 +44,7 @@ class OneStrut(NamedTuple):
                     result[first + p, self.term[q]] += ones[p] * power[p, self.power[q]]
                     result[first + p, self.term[q + 1]] += others[p] * power[p, self.power[q + 1]]
             for q in range(2 * pairs, self.power.size):
-                ones = sums(self.numerators, q, gain, 0, 1, 2, 3)
+                ones = sums(self.numerators, q, gain)
                 for p in range(count):
                     result[first + p, self.term[q]] += ones[p] * power[p, self.power[q]]
         return result
@@ -78,15 +79,24 @@ class OneDesign(NamedTuple):
     def __call__(self, designs: Real) -> Real:
         """Return the mean squares (p, k) of designs (p, 2)."""
         numerators, terms, exponents = self.strut.numerators, self.strut.term, self.strut.power
-        result = np.zeros((designs.shape[0], self.strut.terms))
+        result = np.empty((designs.shape[0], self.strut.terms))
+        clear(result)
         gain, power, last = empty((1, numerators.shape[1])), np.empty((1, 5)), numerators.shape[0] - 1
         for first in range(designs.shape[0]):
             fill_gains(self.strut.denominator, designs[first, 0], designs[first, 1], 0, gain, power)
-            for q in range(0, last + 1, _TOGETHER):
-                found = sums(gain, 0, numerators, q, min(q + 1, last), min(q + 2, last), min(q + 3, last))
-                for j in range(min(_TOGETHER, last + 1 - q)):
+            for q in range(0, last + 1, 8):
+                found = sums_of_eight(numerators, q, last, gain)
+                for j in range(min(8, last + 1 - q)):
                     result[first, terms[q + j]] += found[j] * power[0, exponents[q + j]]
         return result
+
+
+@uncounted()
+def clear(values: Real) -> None:
+    """Fill in zeros (p, k): `np.zeros` takes long to compile."""
+    for p in range(values.shape[0]):
+        for k in range(values.shape[1]):
+            values[p, k] = 0.0
 
 
 @uncounted(error_model="numpy")
@@ -129,16 +139,16 @@ def loops_at(denominator: Real, factors: tuple[Lanes, ...], i: int) -> Lanes:
 
 
 @uncounted()
-def sums(left: Real, q: int, right: Real, a: int, b: int, c: int, d: int) -> tuple[float, float, float, float]:
-    """Return the sums of the products of row q of `left` (i, n) with four rows of `right` (k, n).
+def sums(left: Real, q: int, right: Real) -> tuple[float, float, float, float]:
+    """Return the sums of the products of row q of `left` (i, n) with the four rows of `right` (4, n).
 
     A design has the same bits as one of four and alone.
     """
     s = t = u = v = spread(0.0)
     for i in range(0, left.shape[1], WIDTH):
         x = load(left, (q, i))
-        s, t = fused(load(right, (a, i)), x, s), fused(load(right, (b, i)), x, t)
-        u, v = fused(load(right, (c, i)), x, u), fused(load(right, (d, i)), x, v)
+        s, t = fused(load(right, (0, i)), x, s), fused(load(right, (1, i)), x, t)
+        u, v = fused(load(right, (2, i)), x, u), fused(load(right, (3, i)), x, v)
     return total(s), total(t), total(u), total(v)
 
 
@@ -153,6 +163,25 @@ def sums_of_two(left: Real, q: int, r: int, right: Real) -> tuple[Any, Any]:
         s, t, u, v = fused(one, x, s), fused(two, x, t), fused(three, x, u), fused(four, x, v)
         e, f, g, h = fused(one, y, e), fused(two, y, f), fused(three, y, g), fused(four, y, h)
     return (total(s), total(t), total(u), total(v)), (total(e), total(f), total(g), total(h))
+
+
+@uncounted()
+def sums_of_eight(left: Real, q: int, last: int, right: Real) -> tuple[float, ...]:
+    """Return the sums of eight rows of `left` (i, n) from row q, the last again where there are no more.
+
+    Of products with the one row of `right` (1, n), loaded once for all.
+    """
+    s = t = u = v = spread(0.0)
+    e = f = g = h = spread(0.0)
+    j, k, m = min(q + 1, last), min(q + 2, last), min(q + 3, last)
+    a, b, c, d = min(q + 4, last), min(q + 5, last), min(q + 6, last), min(q + 7, last)
+    for i in range(0, left.shape[1], WIDTH):
+        x = load(right, (0, i))
+        s, t = fused(load(left, (q, i)), x, s), fused(load(left, (j, i)), x, t)
+        u, v = fused(load(left, (k, i)), x, u), fused(load(left, (m, i)), x, v)
+        e, f = fused(load(left, (a, i)), x, e), fused(load(left, (b, i)), x, f)
+        g, h = fused(load(left, (c, i)), x, g), fused(load(left, (d, i)), x, h)
+    return total(s), total(t), total(u), total(v), total(e), total(f), total(g), total(h)
 
 
 def _square_of_line(a: Complex, b: Complex, omega: Real) -> Real:

@@ -13,7 +13,7 @@ from ..compiled import compilable, uncounted
 from ..quantities import Integer, Real, frozen_array
 from .constraints import violations
 from .operators import draw_below
-from .spreading import farthest_first
+from .spreading import ONE_SET, farthest_first
 
 ZERO_WEIGHT = 1e-4
 """Replaces a weight of zero, so that every subproblem depends on every objective."""
@@ -30,7 +30,7 @@ def weight_vectors(size: int, objectives: int) -> Real:
     rng = np.random.default_rng(_SAMPLE_SEED)
     candidates = rng.dirichlet(np.ones(objectives), max(5000, 5 * size))
     points = np.concatenate([np.eye(objectives), candidates])
-    return frozen_array(points[farthest_first(points, np.arange(objectives), size)])
+    return frozen_array(points[farthest_first(points, np.arange(objectives), size, ONE_SET)])
 
 
 def tchebycheff(values: Real, weights: Real, ideal: Real) -> Real:

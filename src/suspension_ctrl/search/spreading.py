@@ -11,15 +11,16 @@ from ..quantities import Integer, Real
 
 _BLOCK = 64  # points side by side, which are neighbours
 _ROUNDING = 1 + 1e-9  # of a squared distance: far above 1e-15
-_FEW = 300_000  # distances up to which no function is compiled, which takes a second once
+_FEW, ONE_SET = 300_000, 3_000_000
+"""Distances up to which nothing is compiled, which takes a second once: of sets that come again, and of one."""
 
 
-def farthest_first(points: Real, start: Integer, size: int) -> Integer:
+def farthest_first(points: Real, start: Integer, size: int, few: int = _FEW) -> Integer:
     """Return the indices (size,) of finite points (n, m): those of `start`, then repeatedly the farthest point.
 
     Of equally distant ones it is the first; copies of chosen points come last.
     """
-    return (by_points if size * len(points) <= _FEW else by_blocks)(points, start, size)
+    return (by_points if size * len(points) <= few else by_blocks)(points, start, size)
 
 
 def by_points(points: Real, start: Integer, size: int) -> Integer:
