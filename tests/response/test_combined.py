@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from suspension_ctrl.response.combined import fill_scores
-from suspension_ctrl.response.scores import Kernel
+from suspension_ctrl.response.kernel import Kernel
 
 RNG = np.random.default_rng(0)
 WORST = np.array([False, False, True, True])
@@ -41,16 +41,3 @@ def test_a_design_without_a_number_in_any_term_or_case_has_none():
             np.testing.assert_array_equal(rows, one.scores(found).T)
             assert np.isnan(rows[:, 5]).tolist() == (SQUARES[case, :, term] > 0).tolist()
             assert not np.isnan(np.delete(rows, 5, axis=1)).any()
-
-
-def test_a_design_alone_has_the_scores_of_many_and_those_without_a_number():
-    for missing in (None, 0, 1):
-        found = [each[:1].copy() for each in FOUND]
-        if missing is not None:
-            found[missing][:] = np.nan
-        one = kernel(3)
-        alone = one._replace(cases=tuple((lambda _, own=own: own) for own in found))
-        with np.errstate(invalid="ignore"):
-            scores = [alone.__call__(np.ones(2)), one.scores(found)[0]]
-        np.testing.assert_allclose(*scores, rtol=1e-14)
-        assert np.isnan(scores[0]).all() == (missing is not None)

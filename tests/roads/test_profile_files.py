@@ -5,7 +5,6 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
 
 from suspension_ctrl import (
@@ -17,6 +16,7 @@ from suspension_ctrl import (
     load_profile,
     load_road,
     save_profile,
+    tables,
 )
 
 
@@ -108,11 +108,11 @@ def test_a_profile_that_cannot_be_written_leaves_the_one_before(tmp_path, monkey
     save_profile(path, Profile([0, 1, 2], np.zeros((3, 1))))
     before = path.read_bytes()
 
-    def full(frame, target, **options):
-        Path(target).write_text("distance [m],hei", encoding="utf-8")
+    def full(_frame):
+        yield "distance [m],hei"
         raise OSError("No space left on device")
 
-    monkeypatch.setattr(pd.DataFrame, "to_csv", full)
+    monkeypatch.setattr(tables, "csv_parts", full)
     with pytest.raises(OSError, match="No space left"):
         save_profile(path, Profile([0, 1, 2], np.ones((3, 1))))
     assert path.read_bytes() == before

@@ -17,6 +17,7 @@ from ..vehicles.unit_slips import warn_of_slip
 from ..vehicles.vehicle import Struts, Vehicle
 from .bands import OwnBand, band_of
 from .bounds import checked_bounds
+from .kernel import Kernel
 from .load_case import LoadCase, Road, load_cases
 from .mean_squares import Nodes
 from .measures.limits import Limit
@@ -25,7 +26,7 @@ from .placed_nodes import checked_accuracy
 from .problem_texts import representation, sentences, sentences_of_cases
 from .robust_scores import RobustKernel
 from .scatter import Scatter, Tolerance, scatter_of
-from .scores import Kernel, Scores
+from .scores import Scores
 from .scoring import Scoring, judged_by
 from .weightings import Weighting, checked
 

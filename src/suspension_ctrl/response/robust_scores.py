@@ -8,8 +8,9 @@ import numpy as np
 from ..compiled import call, compilable
 from ..quantities import Integer, Real
 from ..vehicles.formulas import Formulas, fill
+from .kernel import Kernel
 from .scattered import Scattered
-from .scores import Kernel, Score, Scores
+from .scores import Score, Scores
 
 _ROWS = 1 << 15  # samples of designs in one call
 

@@ -12,8 +12,8 @@ import tomlkit
 from ... import escaping
 from ...quantities import Complex, Integer, Real, column_headers
 from ...response.certificates import Certificate
+from ...response.kernel import Kernel
 from ...response.problem import RideProblem
-from ...response.scores import Kernel
 from ...search.problem import headers_of
 from ...tables.headers import readable, shown_range, shown_unit, shown_value
 from ...tables.rounding import rounded

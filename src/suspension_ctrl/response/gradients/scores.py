@@ -7,8 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ...quantities import Bool, Integer, Real
+from ..kernel import Kernel
 from ..mean_squares import Nodes
-from ..scores import Kernel, Scores, reached
+from ..scores import Scores, reached
 from ..shared_plants import squares_by_case
 from . import functions
 from .cases import with_slopes
