@@ -265,7 +265,9 @@ def rows_within(name: str, rows: NDArray[np.float64], lower: ArrayLike, upper: A
 def _extremes(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the least and the largest (d,) of rows (n, d), 64 side by side: numpy is slow along short rows."""
     (n, d), together = rows.shape, 64
-    wide, rest = np.split(rows, [n // together * together])
+    if n <= 4 * together:
+        return rows.min(axis=0, initial=np.inf), rows.max(axis=0, initial=-np.inf)
+    wide, rest = rows[: n // together * together], rows[n // together * together :]
     wide = wide.reshape(n // together, together * d)
     least, largest = wide.min(axis=0, initial=np.inf), wide.max(axis=0, initial=-np.inf)
     least = np.concatenate([least.reshape(together, d), rest]).min(axis=0)

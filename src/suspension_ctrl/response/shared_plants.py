@@ -33,7 +33,9 @@ def squares_by_case(groups: Sequence[Shared], designs: Real) -> list[Real]:
     """Return the mean squares (p, k) of designs (p, v) in each load case."""
     found: dict[int, Real] = {}
     for case, numbers in groups:
-        found |= zip(numbers, np.split(mean_squares_of(case, designs), len(numbers), axis=1), strict=True)
+        squares = mean_squares_of(case, designs)
+        parts = [squares] if len(numbers) == 1 else np.split(squares, len(numbers), axis=1)
+        found |= zip(numbers, parts, strict=True)
     return [found[number] for number in range(len(found))]
 
 
