@@ -13,6 +13,7 @@ from typing import Annotated, Any
 
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from typer import Option
 
@@ -174,20 +175,33 @@ def exponent_table(timings: pd.DataFrame) -> pd.DataFrame:
 
 
 def picture(timings: pd.DataFrame) -> Figure:
-    """Draw a plot for each curve, seconds against size, both logarithmic, ours thick."""
+    """Draw a plot for each curve, seconds against size, both logarithmic, ours thick; then the legend of runs."""
     figure = Figure(figsize=(11, 13), layout="constrained")
-    axes = figure.subplots(4, 2).ravel()
-    for ax, curve in zip(axes, growth.CURVES, strict=False):
+    *axes, legend = figure.subplots(4, 2).ravel()
+    for ax, curve in zip(axes, growth.CURVES, strict=True):
         part = timings[timings.curve == curve.name]
         for line, own in part.groupby("line", sort=False):
             medians, thick = own.groupby("size").seconds.median(), OURS in str(line) or curve.of == "design"
             ax.loglog(medians.index, medians, "o-", ms=4, lw=2.2 if thick else 1.0, label=line)
+        sizes = sorted(part["size"].unique())
+        ax.set_xticks(sizes, [f"{size:,}" for size in sizes], fontsize=8)
+        ax.minorticks_off()
+        _show_a_decade(ax)
         ax.set(xlabel=curve.size, ylabel=f"seconds per {curve.of}")
         ax.grid(alpha=0.3)
-        if len(part):
-            ax.legend(fontsize=7)
-    axes[-1].remove()
+        if curve.of == "design":
+            ax.legend(fontsize=8)
+    legend.axis("off")
+    legend.legend(*axes[-1].get_legend_handles_labels(), loc="center", title="per run")
     return figure
+
+
+def _show_a_decade(ax: Axes) -> None:
+    """Widen the vertical axis to a factor of ten: scatter is not to look like growth."""
+    low, high = ax.get_ylim()
+    if high < 10 * low:
+        middle = np.sqrt(low * high)
+        ax.set_ylim(middle / 10**0.5, middle * 10**0.5)
 
 
 def page(

@@ -42,4 +42,6 @@ def test_the_page_tells_growth_and_what_a_cluster_would_take():
     ]
     assert ["load cases, per design", "full car", "1 to 1,000", "1,000 µs", "1.00"] in cells
     assert ["2", "8.3 min", "8.3 min"] in cells  # 10^9 designs of a microsecond on two cores
-    assert len(script.picture(table).axes) == len(growth.CURVES)
+    *plots, legend = script.picture(table).axes
+    assert len(plots) == len(growth.CURVES)
+    assert legend.get_legend()
