@@ -189,7 +189,7 @@ def picture(timings: pd.DataFrame) -> Figure:
         _show_a_decade(ax)
         ax.set(xlabel=curve.size, ylabel=f"seconds per {curve.of}")
         ax.grid(alpha=0.3)
-        if curve.of == "design":
+        if len(part) and curve.of == "design":
             ax.legend(fontsize=8)
     legend.axis("off")
     legend.legend(*axes[-1].get_legend_handles_labels(), loc="center", title="per run")
