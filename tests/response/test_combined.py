@@ -25,7 +25,7 @@ def kernel(cases: int) -> Kernel:
 @given(st.integers(1, 3), st.integers(0, 7), st.integers(0, 12))
 def test_a_part_of_the_rows_has_the_bits_of_numpy(cases, start, count):
     rows, found = np.full((4, 20), 7.0), [each[:count] for each in FOUND[:cases]]
-    assert fill_scores(kernel(cases).combination, found, rows, start)
+    assert fill_scores(kernel(cases), found, rows, start)
     np.testing.assert_array_equal(rows[:, start : start + count], kernel(cases).scores(found).T)
     np.testing.assert_array_equal(np.delete(rows, range(start, start + count), axis=1), 7.0)
 
@@ -37,7 +37,7 @@ def test_a_design_without_a_number_in_any_term_or_case_has_none():
             found = [each.copy() for each in FOUND]
             found[case][5, term] = np.nan
             rows, one = np.empty((4, 20)), kernel(3)
-            assert not fill_scores(one.combination, found, rows, 0)
+            assert not fill_scores(one, found, rows, 0)
             np.testing.assert_array_equal(rows, one.scores(found).T)
             assert np.isnan(rows[:, 5]).tolist() == (SQUARES[case, :, term] > 0).tolist()
             assert not np.isnan(np.delete(rows, 5, axis=1)).any()

@@ -2,62 +2,51 @@
 
 from collections.abc import Sequence
 from math import sqrt
-from typing import NamedTuple
 
 import numpy as np
 
 from ..compiled import compiled, uncounted
-from ..quantities import Bool, Real
+from ..quantities import Real
+from .kernel import Kernel, larger
 
 
-class Combination(NamedTuple):
-    """How s scores follow from the mean squares of c load cases."""
-
-    squares: Real  # (c, s, k), factors of the mean squares of each case, zeros where it has fewer
-    shares: Real  # (c,), sum 1
-    worst_term: Bool  # (s,), whether the largest of the terms counts, or their sum
-    worst_case: Bool  # (s,), whether the largest of the cases counts, or their mean
-    scale: Real  # (s,), factor of the root of that
-    offset: Real  # (s,), added last
-
-
-def fill_scores(combination: Combination, mean_squares: Sequence[Real], rows: Real, start: int) -> bool:
+def fill_scores(kernel: Kernel, mean_squares: Sequence[Real], rows: Real, start: int) -> bool:
     """Fill in scores in columns of rows (s, n), the first at `start`, by mean squares (p, k) in c cases.
 
     They have the bits of `Kernel.scores`. Return whether all are numbers.
     """
-    value, complete = np.empty(len(mean_squares[0])), True
+    kernel, value, complete = kernel._replace(cases=()), np.empty(len(mean_squares[0])), True  # compiled once for all
     for c, found in enumerate(mean_squares):
-        complete = add_case(combination, c, np.ascontiguousarray(found), value, rows, start)
+        complete = add_case(kernel, c, np.ascontiguousarray(found), value, rows, start)
     return complete
 
 
 @compiled(nogil=True, error_model="numpy")
-def add_case(combination: Combination, case: int, found: Real, value: Real, rows: Real, start: int) -> bool:
+def add_case(kernel: Kernel, case: int, found: Real, value: Real, rows: Real, start: int) -> bool:
     """Add the mean squares (p, k) of a case to columns of rows (s, n); with the last case they become scores.
 
     `value` (p,) is room for the squares of one score. Return whether all are numbers.
     """
-    last, missing = case == combination.shares.size - 1, 0
+    last, missing = case == kernel.shares.size - 1, 0
     for s in range(rows.shape[0]):
         row = rows[s, start : start + value.size]
-        fill_squares(combination, case, s, found, value)
-        add_share(combination.shares[case], case == 0, combination.worst_case[s], value, row)
+        fill_squares(kernel, case, s, found, value)
+        add_share(kernel.shares[case], case == 0, kernel.worst_case[s], value, row)
         if last:
-            missing += fill_roots(combination.scale[s], combination.offset[s], row)
+            missing += fill_roots(kernel.scale[s], kernel.offset[s], row)
     return missing == 0
 
 
 @uncounted()
-def fill_squares(combination: Combination, case: int, s: int, found: Real, value: Real) -> None:
+def fill_squares(kernel: Kernel, case: int, s: int, found: Real, value: Real) -> None:
     """Fill in the sum or the largest (p,) of the terms of a score."""
     for i in range(value.size):
         value[i] = 0.0
     for k in range(found.shape[1]):
-        factor = combination.squares[case, s, k]
+        factor = kernel.squares[case, s, k]
         if factor == 0.0:
             continue
-        if combination.worst_term[s]:
+        if kernel.worst_term[s]:
             for i in range(value.size):
                 value[i] = larger(factor * found[i, k], value[i])
         else:
@@ -81,9 +70,3 @@ def fill_roots(scale: float, offset: float, row: Real) -> int:
         row[i] = scale * sqrt(row[i]) + offset
         missing += row[i] != row[i]
     return missing
-
-
-@uncounted(forceinline=True)
-def larger(one: float, other: float) -> float:
-    """Return the larger of two numbers, NaN if one of them is."""
-    return one if one > other or one != one else other

@@ -6,9 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import call, compilable
+from ..compiled import call, compilable, uncounted
 from ..quantities import Bool, Real
-from .combined import Combination, larger
 from .mean_squares import Case, one_by_one
 
 
@@ -26,11 +25,6 @@ class Kernel(NamedTuple):
     def one_by_one(self) -> "Kernel":
         """Return the kernel for compiled loops that have one design after the other."""
         return self._replace(cases=tuple(map(one_by_one, self.cases)))
-
-    @property
-    def combination(self) -> Combination:
-        """How the scores follow from the mean squares."""
-        return Combination(*self[1:])
 
     def scores(self, mean_squares: Sequence[Real]) -> Real:
         """Return the scores (p, s) by mean squares (p, k) in c cases, bit by bit those of each design alone.
@@ -79,3 +73,9 @@ class Kernel(NamedTuple):
         for s in range(total.size):
             total[s] = self.scale[s] * sqrt(total[s]) + self.offset[s]
         return total
+
+
+@uncounted(forceinline=True)
+def larger(one: float, other: float) -> float:
+    """Return the larger of two numbers, NaN if one of them is."""
+    return one if one > other or one != one else other

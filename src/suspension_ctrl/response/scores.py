@@ -133,7 +133,7 @@ class Scores:
         kernel, found = self.kernel(nodes), rows[:, part]
         squares = squares_by_case(self.groups(nodes), designs)
         if apart:
-            if not fill_scores(kernel.combination, squares, rows, part.start):
+            if not fill_scores(kernel, squares, rows, part.start):
                 reached(found.T, designs)
         else:
             self.fill_roots(found, squares, designs, nodes)
