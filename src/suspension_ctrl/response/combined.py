@@ -15,7 +15,7 @@ def fill_scores(kernel: Kernel, mean_squares: Sequence[Real], rows: Real, start:
 
     They have the bits of `Kernel.scores`. Return whether all are numbers.
     """
-    kernel, value, complete = kernel._replace(cases=()), np.empty(len(mean_squares[0])), True  # compiled once for all
+    kernel, value, complete = kernel._replace(cases=()), np.empty(len(mean_squares[0])), True  # compiled once
     for c, found in enumerate(mean_squares):
         complete = add_case(kernel, c, np.ascontiguousarray(found), value, rows, start)
     return complete
