@@ -49,7 +49,7 @@ SETTINGS: dict[str, Any] = {
     "memory_designs": 1_000_000,
     "strut_nodes": 256,
     "strut_designs": {struts.QUARTER: 4000, struts.FULL: 400, struts.TRUCK: 400},
-    "roofline_designs": {struts.QUARTER: 10_000, struts.FULL: 2000, struts.TRUCK: 400},
+    "roofline_designs": {struts.QUARTER: 10_000, struts.FULL: 10_000, struts.TRUCK: 2000},
     "roofline_population": 10_000,
     "derivative_cases": tuple(row.case for row in derivatives.ROWS),
     "populations": (500, 1000, 4000, 16_000),

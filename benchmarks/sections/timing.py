@@ -39,8 +39,8 @@ def take_turns(
     """Time each contender `repeats` times after a first call that warms it up.
 
     The order is turned round from one repeat to the next. Who takes longer than `limit` seconds in the first
-    call has had its turn: that call is its only one. Calls shorter than `least` seconds are repeated within a
-    timing until they make up that time.
+    call has had its turn: that call is its only one. Calls shorter than `least` seconds, a second first one tells,
+    are repeated within a timing until they make up that time.
 
     Returns
     -------
@@ -54,7 +54,8 @@ def take_turns(
         if first.seconds > limit:
             rows.append(_row(name, 1, first))
         else:
-            calls[name] = max(1, ceil(least / first.seconds))
+            warm = first if first.seconds < least or not least else timed(prepare(0))  # loaded, compiled
+            calls[name] = max(1, ceil(least / warm.seconds))
     for repeat in range(1, repeats + 1):
         gc.collect()
         order = list(calls) if repeat % 2 else list(reversed(calls))

@@ -17,8 +17,9 @@ from . import checks
 
 T = TypeVar("T")
 
-_BLOCK, _LEAST = 1 << 24, 1 << 21
-"""Numbers that a block passes through, some milliseconds' work, and the least that are worth a thread."""
+_BLOCK, _LEAST, _LATE = 1 << 24, 1 << 21, 1 << 19
+"""Numbers that a block passes through, some milliseconds' work; the least that are worth a thread; and those that
+the caller's thread passes through before another one has begun: its first block is so much larger."""
 
 _most: ContextVar[int | None] = ContextVar("most", default=None)
 
@@ -53,7 +54,8 @@ def in_blocks(function: Callable[[slice], T], rows: int, work: int, threads: int
     when it is done with one. An exception is that of the first part that has one.
     """
     blocks = max(1, min(rows, work // _LEAST, -(-(work // _BLOCK + 1) // threads) * threads))
-    edges = [rows * i // blocks for i in range(blocks + 1)]
+    alone = rows * _LATE // work if threads > 1 < blocks else 0
+    edges = [0, *(alone + (rows - alone) * i // blocks for i in range(1, blocks + 1))]
     waiting = deque(enumerate(map(slice, edges, edges[1:])))
     results: list[Any] = [None] * blocks
     errors: dict[int, Exception] = {}
