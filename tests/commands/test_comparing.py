@@ -11,6 +11,9 @@ import pytest
 from suspension_ctrl import Iso8608Road, RideProblem, escaping, load_study, load_vehicle, save_system
 from suspension_ctrl.commands import reports
 from suspension_ctrl.commands.studies import chosen_study
+from suspension_ctrl.search.indicators import ReferenceFront
+from suspension_ctrl.study.kept_fronts import KeptFronts
+from suspension_ctrl.study.reference import TOLERANCE, Reference
 
 TINY = ("--populations", "20,25", "--iterations", 2, "--repeats", 1)
 PICTURES = {"populations.png", "populations.pdf"}
@@ -64,10 +67,23 @@ def test_another_speed_with_a_given_reference_front_is_not_beside_the_paper(call
     done = called("compare", "--speed", 30, "--algorithms", "moead-dra", *sizes, *given, "--out", "out")
     assert done.returncode == 0, done.stderr
     assert_nothing_of_the_paper(done, tmp_path / "out")
+    assert re.search(r"^reference front in .* s, given$", done.stderr, re.MULTILINE)
     assert "The reference front is of 'front.csv'." in " ".join(done.stdout.split())
     reference = pd.read_csv(tmp_path / "out" / "reference.csv")
     assert reference.to_dict("list") == {"ACC [m/s^2]": [1, 3], "SWS [m]": [0.025, 0.05], "DTL [N]": [2000, 1000]}
     assert "Road: power law: " in done.stdout
+
+
+def test_a_front_of_an_earlier_comparison_is_said_to_be_kept(called, tmp_path, monkeypatch):
+    monkeypatch.setenv("SUSPENSION_CTRL_CACHE", str(tmp_path / "kept"))
+    front = ReferenceFront.of(np.array([[1.0, 0.05, 3000.0], [3.0, 0.01, 1000.0]]))
+    problem = chosen_study(vehicle="minaker_half").problem
+    KeptFronts.of_user().keep(problem, TOLERANCE, Reference(front, "a grid"))
+    sizes = ("--populations", 20, "--iterations", 1, "--repeats", 1)
+    done = called("compare", "--vehicle", "minaker_half", "--algorithms", "random", *sizes, "--out", "out")
+    assert done.returncode == 0, done.stderr
+    assert re.search(r"^reference front in .* s, kept from an earlier comparison$", done.stderr, re.MULTILINE)
+    assert "The reference front is of a grid." in " ".join(done.stdout.split())
 
 
 @pytest.mark.drawn
@@ -94,7 +110,7 @@ def test_compare_on_a_study_goes_on_and_judges_quality(called, checkout, tmp_pat
 
     again = called(*command, "--quality", "--seeds", 2, "--target", 0.9)
     assert again.returncode == 0, again.stderr
-    for text in (r"timed runs, 6 of 6 in .* s, 6 found", r"reference front in .* s, found"):
+    for text in (r"timed runs, 6 of 6 in .* s, 6 found", r"reference front in .* s, found in out"):
         assert re.search(f"^{text}$", again.stderr, re.MULTILINE)
     assert {path: path.stat().st_mtime_ns for path in (out / "timed" / "runs").iterdir()} == before
     assert {f"{kind}_n{n}.png" for kind in ("anytime", "boxes", "attainment") for n in (20, 25)} <= {

@@ -20,9 +20,9 @@ def test_a_stage_is_said_at_its_end_with_its_time(capfd):
     out, error = capfd.readouterr()
     assert out == ""
     assert re.fullmatch(r"reference front in 0\.\d s\n", error)
-    with stages.stage("reference front", found=True):
+    with stages.stage("reference front", origin="given"):
         pass
-    assert re.fullmatch(r"reference front in 0\.\d s, found\n", capfd.readouterr().err)
+    assert re.fullmatch(r"reference front in 0\.\d s, given\n", capfd.readouterr().err)
 
 
 def test_a_stage_that_fails_is_not_said_to_have_ended(capfd):

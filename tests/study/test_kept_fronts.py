@@ -41,9 +41,11 @@ def campaign_of(problem: Problem, folder: Path, fronts: Path | None, tolerance: 
 def test_a_later_comparison_takes_the_front_without_a_grid(tmp_path):
     """It evaluates the 64 designs of its own plan and of the front's; a grid has at least 100 and 200."""
     made, again = Line(), Line()
-    first = campaign_of(problem_of(made), tmp_path / "a", tmp_path / "fronts").reference({})
-    second = campaign_of(problem_of(again), tmp_path / "b", tmp_path / "fronts").reference({})
-    assert second == first
+    makes = campaign_of(problem_of(made), tmp_path / "a", tmp_path / "fronts")
+    takes = campaign_of(problem_of(again), tmp_path / "b", tmp_path / "fronts")
+    assert makes.kept_front is None
+    first, second = makes.reference({}), takes.reference({})
+    assert second == first == takes.kept_front
     assert second.origin.startswith("a grid of ")
     assert (made.evaluated > 300, again.evaluated) == (True, 2 * 64)
 

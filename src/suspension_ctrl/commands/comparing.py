@@ -111,7 +111,7 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
     reports.write_times(request, store, timed)
     reports.say_times(request, store, timed)
     terminal.say()
-    with stages.stage("reference front", found=campaign.has_reference):
+    with stages.stage("reference front", origin=_origin(request)):
         known = None if request.options["quick"] else finder(request.problem, float(timed.seconds.sum()))
         reference = campaign.reference(store, request.reference, known)
     if reference is None:
@@ -125,6 +125,16 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
     reports.say_quality(request, timed, reference)
     terminal.say()
     return 0 if cluster is None else _judge(request, cluster, store, outcome, reference.front)
+
+
+def _origin(request: Request) -> str:
+    """Return where the reference front is found without a search, in words; "" if it has to be sought."""
+    campaign = request.campaign
+    if campaign.has_reference:
+        return f"found in {campaign.folder}"
+    if request.reference:
+        return "given"
+    return "kept from an earlier comparison" if campaign.kept_front else ""
 
 
 def write_page(request: Request, store: Mapping[str, StoredRun], outcome: Outcome) -> None:

@@ -23,12 +23,12 @@ def counted(items: Iterable[T], total: int, text: str, found: int = 0) -> Iterat
 
 
 @contextmanager
-def stage(text: str, *, found: bool = False) -> Iterator[None]:
-    """Show a spinner during the block, in a terminal only; then say the stage, and if its result was found."""
+def stage(text: str, *, origin: str = "") -> Iterator[None]:
+    """Show a spinner during the block, in a terminal only; then say the stage, and where its result was found."""
     start = perf_counter()
     with terminal.waiting(text):
         yield
-    say(f"{text} in {duration(perf_counter() - start)}{', found' if found else ''}")
+    say(f"{text} in {duration(perf_counter() - start)}{origin and f', {origin}'}")
 
 
 def say(text: str) -> None:

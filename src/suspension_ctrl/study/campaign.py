@@ -4,7 +4,7 @@ import platform
 import warnings
 from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -72,6 +72,11 @@ class Campaign:
         """Whether the folder has judged runs."""
         return count_runs(self.folder / QUALITY) > 0
 
+    @cached_property
+    def kept_front(self) -> Reference | None:
+        """The reference front of this problem and tolerance among `fronts`, None without one."""
+        return self.fronts.find(self.comparison.problem, self.tolerance)
+
     def check_seeds(self, *, judged: bool) -> None:
         """Raise ValueError if judged runs are to be made of other seeds than those in the folder."""
         if judged and self.has_judged:
@@ -95,9 +100,9 @@ class Campaign:
 
     def _sought(self, store: Mapping[str, StoredRun], known: Callable[[], Real] | None) -> Reference | None:
         """Return the front of a grid, kept or found now, or that of `reference.sought`."""
+        if self.kept_front:
+            return self.kept_front
         problem = self.comparison.problem
-        if kept := self.fronts.find(problem, self.tolerance):
-            return kept
         made = [run.name for run in self.comparison.timed_runs() if run.name in store]
         finals = [timing.feasible_objectives(problem, store[name]) for name in made]
         keep = partial(self.fronts.keep, problem, self.tolerance)
