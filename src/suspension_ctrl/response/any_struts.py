@@ -6,7 +6,8 @@ import numpy as np
 
 from ..compiled import compilable, compiled, uncounted
 from ..quantities import Bool, Real
-from .many_struts import ManyStruts, add_terms, eliminate, fill_loop, fill_stiffness
+from .loop_rows import add_terms, eliminate, fill_loop, fill_stiffness
+from .many_struts import ManyStruts
 from .mean_position import balance
 from .network_rows import (
     DAMPING,

@@ -4,7 +4,7 @@ import numpy as np
 
 import struts_by_numpy
 from suspension_ctrl.response.gradients.many_struts import close, fill_force, fill_values, loops_of, moments
-from suspension_ctrl.response.many_struts import fill_stiffness
+from suspension_ctrl.response.loop_rows import fill_stiffness
 
 SIZES = [(2, 1, 3), (3, 2, 2)]
 

@@ -5,7 +5,7 @@ import numpy as np
 from ...compiled import compilable, compiled, uncounted
 from ...quantities import Real
 from ..any_struts import AnyStruts, add_network, solve
-from ..many_struts import add_product, fill_stiffness
+from ..loop_rows import add_product, fill_stiffness
 from ..network_rows import (
     DAMPING,
     IN_SERIES,

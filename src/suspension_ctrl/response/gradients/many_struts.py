@@ -11,14 +11,8 @@ import numpy as np
 
 from ...compiled import compilable, uncounted
 from ...quantities import Bool, Integer, Real
-from ..many_struts import (
-    ManyStruts,
-    add_product,
-    copy,
-    eliminate,
-    fill_loop,
-    sum_of_squares,
-)
+from ..loop_rows import add_product, copy, eliminate, fill_loop, sum_of_squares
+from ..many_struts import ManyStruts
 
 ENTRY = 5
 """Column of a block's first entry of D."""

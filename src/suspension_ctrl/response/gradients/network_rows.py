@@ -12,7 +12,7 @@ import numpy as np
 from ...compiled import compilable, uncounted
 from ...quantities import Integer, Real
 from ...vehicles.networks import INERTER, LAW, MEASURED, PARALLEL, RUBBER, SERIES
-from ..many_struts import add_product
+from ..loop_rows import add_product
 from ..network_rows import (
     COEFFICIENT,
     DAMPING,

@@ -7,7 +7,7 @@ import numpy as np
 from ...compiled import compilable, uncounted
 from ...quantities import Integer, Real
 from ...vehicles.networks import INERTER, LAW, MEASURED, PARALLEL, RUBBER, SERIES
-from ..many_struts import multiply
+from ..loop_rows import multiply
 from ..network_rows import (
     COEFFICIENT,
     DAMPING,
