@@ -14,7 +14,8 @@ PACKAGE = Path(suspension_ctrl.__file__).parent
 MODULES = sorted(path for path in PACKAGE.rglob("*.py") if path.name != "__init__.py")
 
 ROOMS = {
-    *("checks", "compiled", "datafiles", "documents", "escaping", "quantities", "schema", "tables", "threads"),
+    *("checks", "compiled", "compiled_verbs", "datafiles", "documents", "escaping", "quantities", "schema"),
+    *("tables", "threads"),
     *("commands", "desk", "paper", "response", "roads", "search", "study", "vehicles"),
 }
 

@@ -14,7 +14,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from suspension_ctrl import MoeadDra, Problem, minimise
-from suspension_ctrl.compiled import call, compilable, linked, verb_of
+from suspension_ctrl.compiled import compilable
+from suspension_ctrl.compiled_verbs import call, linked, verb_of
 from suspension_ctrl.search.decomposition import ZERO_WEIGHT, weight_vectors
 from suspension_ctrl.search.neighbours import neighbourhoods
 from suspension_ctrl.search.operators import mutated_value

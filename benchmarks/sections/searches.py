@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from peers import Contenders, Prepare, Task
 from sections.timing import take_turns, timed
 from suspension_ctrl import Problem, RideProblem
-from suspension_ctrl.compiled import call
+from suspension_ctrl.compiled_verbs import call
 from suspension_ctrl.search.indicators import ReferenceFront
 from suspension_ctrl.search.problem import Minimisable
 

@@ -9,7 +9,7 @@ import pytest
 import peers
 from sections import searches
 from suspension_ctrl import MoeadDra, Nsga2, minimise
-from suspension_ctrl.compiled import call_compiled
+from suspension_ctrl.compiled_verbs import call_compiled
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.indicators import ReferenceFront
 from suspension_ctrl.study.reference import grid_front

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from garage import DRIVER, FULL, HALF, QUARTER, ROAD, SPEED, VEHICLES, from_roads, mean_squares, struts_of
 from suspension_ctrl import LoadCase, RideProblem, Seat
-from suspension_ctrl.compiled import call_compiled
+from suspension_ctrl.compiled_verbs import call_compiled
 from suspension_ctrl.response import weightings
 from suspension_ctrl.response.blocks import pairs_of
 from suspension_ctrl.response.many_struts import ManyStruts

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from garage import DRIVER, FULL, HALF, QUARTER, ROAD
 from suspension_ctrl import LoadCase, Payload, PowerLawRoad, RideProblem, RollGeometry, TwoSlopeRoad
-from suspension_ctrl.compiled import call_compiled
+from suspension_ctrl.compiled_verbs import call_compiled
 
 STRUTS = {"front": (19e3, 1500.0), "rear.spring": 23e3}
 SETTINGS = {

@@ -24,7 +24,7 @@ from suspension_ctrl import (
     minimise,
     parallel,
 )
-from suspension_ctrl.compiled import call_compiled
+from suspension_ctrl.compiled_verbs import call_compiled
 
 BOUNDS = {"spring": (1e4, 3e4), "damper": (1e3, 4e3)}
 BAND = (0.3, 20.0)

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from suspension_ctrl.compiled import call_compiled
+from suspension_ctrl.compiled_verbs import call_compiled
 from suspension_ctrl.search import decomposition
 from suspension_ctrl.search.neighbours import neighbourhoods
 

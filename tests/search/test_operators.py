@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import ks_2samp, kstest
 
-from suspension_ctrl.compiled import call_compiled
+from suspension_ctrl.compiled_verbs import call_compiled
 from suspension_ctrl.search import operators
 
 LOWER, UPPER = np.array([-1.0, 0.0, 10.0]), np.array([1.0, 5.0, 11.0])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from suspension_ctrl.compiled import call_compiled
+from suspension_ctrl.compiled_verbs import call_compiled
 from suspension_ctrl.search import decomposition
 from suspension_ctrl.search.constraints import violations
 from suspension_ctrl.search.replacement import ReplaceInSweep, ReplaceWorse

@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import call, compilable, uncounted
+from ..compiled import compilable, uncounted
+from ..compiled_verbs import call
 from ..quantities import Bool, Real
 from .mean_squares import Case, one_by_one
 

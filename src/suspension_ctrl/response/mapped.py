@@ -4,7 +4,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..compiled import call, compiled
+from ..compiled import compiled
+from ..compiled_verbs import call
 from ..quantities import Real
 from ..vehicles.formulas import Formulas, fill, fill_slopes
 from .one_strut import OneDesign, OneStrut

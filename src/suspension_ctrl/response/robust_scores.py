@@ -5,7 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import call, compilable
+from ..compiled import compilable
+from ..compiled_verbs import call
 from ..quantities import Integer, Real
 from ..vehicles.formulas import Formulas, fill
 from .kernel import Kernel

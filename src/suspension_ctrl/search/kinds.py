@@ -12,7 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import checks
-from ..compiled import call, call_compiled, compilable, verb_of
+from ..compiled import compilable
+from ..compiled_verbs import call, call_compiled, verb_of
 from ..quantities import Integer, Real
 from .problem import Kernel, Minimisable
 

@@ -8,7 +8,7 @@ import numpy as np
 from deap.base import Toolbox
 
 from .. import checks
-from ..compiled import call_compiled
+from ..compiled_verbs import call_compiled
 from ..quantities import Real, frozen_array, unit
 from . import decomposition, operators
 from .constraints import constrained, ideal_with

@@ -4,7 +4,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..compiled import call, compilable, uncounted
+from ..compiled import compilable, uncounted
+from ..compiled_verbs import call
 from ..quantities import Integer, Real
 from .operators import DifferentialChild, MutateDesign, RedrawOutside, differ, mutate_design, redraw_outside
 

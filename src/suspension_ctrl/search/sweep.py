@@ -10,7 +10,8 @@ from numba import njit
 from numba.core.errors import NumbaError
 from numba.extending import is_jitted
 
-from ..compiled import Linked, call, call_compiled, compilable, compiled, entry, linked, verb_of
+from ..compiled import compilable, compiled, entry
+from ..compiled_verbs import Linked, call, call_compiled, linked, verb_of
 from ..quantities import Integer, Real
 from .clock import untimed
 from .decomposition import ByTournament, MatingRange, RangeInSweep, choose

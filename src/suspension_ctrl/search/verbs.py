@@ -10,7 +10,7 @@ from deap.base import Toolbox
 from numba.extending import is_jitted
 
 from .. import checks
-from ..compiled import call_compiled
+from ..compiled_verbs import call_compiled
 from ..quantities import Bool, Integer, Real
 from .evaluation import SearchProblem
 from .gamultiobj import intermediate_crossover
