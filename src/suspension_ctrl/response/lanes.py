@@ -148,10 +148,12 @@ def _register(function: Any, result: Any, *kinds: Any) -> Callable[[Any], None]:
 
 
 def _fits(kinds: tuple[Any, ...], *given: Any) -> bool:
+    """Whether types of arguments are of these classes."""
     return all(map(isinstance, given, kinds))
 
 
 def _emptied(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+    """Make the array of `empty`, as numba makes one of a shape, in memory that begins a line of the cache."""
     kind, lengths = context.get_value_type(signature.return_type), cgutils.unpack_tuple(builder, values[0])
     shape = [context.cast(builder, *each, types.intp) for each in zip(lengths, signature.args[0], strict=True)]
     number = context.get_constant(types.intp, _NUMBER)
@@ -164,31 +166,37 @@ def _emptied(context: Any, builder: Any, signature: Any, values: Any) -> Any:
 
 
 def _loaded(context: Any, builder: Any, signature: Any, values: Any) -> Any:
-    return builder.load(_pointer(context, builder, signature.args[0], *values), align=8)
+    """Read a vector from an array, of which numbers alone need to be aligned."""
+    return builder.load(_pointer(context, builder, signature.args[0], *values), align=_NUMBER)
 
 
 def _stored(context: Any, builder: Any, signature: Any, values: Any) -> Any:
-    builder.store(values[0], _pointer(context, builder, signature.args[1], *values[1:]), align=8)
+    """Write a vector to an array, of which numbers alone need to be aligned."""
+    builder.store(values[0], _pointer(context, builder, signature.args[1], *values[1:]), align=_NUMBER)
     return context.get_dummy_value()
 
 
 def _pointer(context: Any, builder: Any, kind: Any, array: Any, place: Any) -> Any:
+    """Return the address of an array's place as that of a vector."""
     array, indices = context.make_array(kind)(context, builder, array), cgutils.unpack_tuple(builder, place)
     first = cgutils.get_item_pointer(context, builder, kind, array, indices, wraparound=False)
     return builder.bitcast(first, _VECTOR.as_pointer())
 
 
 def _spread(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
+    """Put a number into the first lane, and the first lane into all others."""
     nothing, first = ir.Constant(_VECTOR, ir.Undefined), ir.Constant(_INDEX, 0)
     return builder.shuffle_vector(builder.insert_element(nothing, values[0], first), nothing, _places([0] * WIDTH))
 
 
 def _fused(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
+    """Call the compiler's own fused multiplication and addition."""
     kind = ir.FunctionType(_VECTOR, [_VECTOR] * 3)
     return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.fma.v{WIDTH}f64"), values)
 
 
 def _total(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
+    """Add the upper half of the lanes to the lower one until one number is left."""
     lanes, half = values[0], WIDTH // 2
     while half:
         nothing = ir.Constant(lanes.type, ir.Undefined)
@@ -198,6 +206,7 @@ def _total(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
 
 
 def _places(numbers: list[int]) -> Any:
+    """Return the numbers of lanes as the compiler takes them."""
     return ir.Constant(ir.VectorType(_INDEX, len(numbers)), numbers)
 
 

@@ -306,23 +306,10 @@ class RideProblem(Record):
 
         The values are those of `evaluate` but for rounding.
         """
-        from .gradients.robust_scores import over_scatter  # a fifth of the time to import this package
-        from .gradients.scores import with_jacobian
+        from .gradients.on_threads import differentiated  # a fifth of the time to import this package
 
         x, bounds = self._inside(designs), (np.array(self.lower), np.array(self.upper))
-
-        def found(part: slice) -> tuple[Real, Real]:
-            plain = with_jacobian(self.scores, x[part], self._rules, bounds)
-            return over_scatter(robust, *plain, x[part], self.nodes) if robust else plain
-
-        robust = self.scoring.robust
-        compiled = self.scores.compiled and (robust is None or robust.scattered.scores.compiled)
-        samples = 1 if robust is None else robust.statistics.weight.shape[1]
-        parts = self.scores.in_blocks(found, len(x), self._rules, number(threads) if compiled else 1, samples)
-        if len(parts) == 1:
-            return parts[0]
-        values, jacobian = map(np.concatenate, zip(*parts, strict=True))
-        return values, jacobian
+        return differentiated(self.scoring, x, self._rules, self.nodes, bounds, number(threads))
 
     @cached_property
     def _rules(self) -> Nodes:

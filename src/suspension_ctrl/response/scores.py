@@ -6,21 +6,18 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from ..quantities import Complex, Integer, Real
+from ..quantities import Integer, Real
 from ..threads import in_blocks, numbers_in
-from ..vehicles.assembly import ResponseName
-from ..vehicles.feedback import gains_by_order
-from ..vehicles.varied import Varied
-from ..vehicles.vehicle import Vehicle, assembled
+from ..vehicles.vehicle import assembled
+from .case_designs import EvaluatedCase
 from .combined import fill_scores
 from .kernel import Kernel
-from .linearisation import check_reached, linear_vehicles, powers_of_laws, working_points
+from .linearisation import check_reached
 from .load_case import LoadCase
-from .mapped import mean_squares_of, unmapped
-from .mean_squares import AnyCase, Case, Nodes, cases_of, quadrature_of, varying
+from .mapped import mean_squares_of
+from .mean_squares import Nodes, cases_of
 from .measures.terms import CaseMeasure, Designs, Term
-from .ports import Ports, dynamic_stiffness, paths
-from .quadrature import Rule, middles
+from .quadrature import Rule
 from .shared_plants import Shared, shared, squares_by_case
 
 RESOLVED = 1e-6
@@ -168,14 +165,21 @@ class Scores:
 
     def in_cases(self, designs: Real, nodes: Nodes, mean_squares: Sequence[Real]) -> list[Designs]:
         """Return designs (p, v) with mean squares (p, k) in each case, as functions get them."""
-        kernel = self.kernel(nodes)
-        return [self._designs(c, designs, kernel, each) for c, each in enumerate(mean_squares)]
+        each = zip(self.evaluated, self.kernel(nodes).cases, mean_squares, strict=True)
+        return [one.designs(case, designs, squares) for one, case, squares in each]
+
+    @cached_property
+    def evaluated(self) -> list[EvaluatedCase]:
+        """What designs have in each load case beside mean squares."""
+        both = zip(self.cases, self.settings, self.terms, strict=True)
+        return [EvaluatedCase(case, own, terms, self.variables, self.band, self.seen) for case, own, terms in both]
 
     def by_case(self, case: int, design: Real, nodes: Nodes) -> Real:
         """Return each measure (s,) of one design (v,) in a load case, without its factor and its constant."""
         designs, kernel = design[None], self.kernel(nodes)
         mean_squares = reached(mean_squares_of(kernel.cases[case], designs), designs)
-        found, one = self.roots(case, mean_squares[0]), self._designs(case, designs, kernel, mean_squares)
+        found = self.roots(case, mean_squares[0])
+        one = self.evaluated[case].designs(kernel.cases[case], designs, mean_squares)
         for s, score in enumerate(self.scores):
             if function := score.cases[case].values:
                 found[s] = function(one)[0]
@@ -209,14 +213,8 @@ class Scores:
 
     def integrands(self, designs: Real, nodes: int) -> Iterator[tuple[Rule, Real]]:
         """Yield for each case without networks a rule of n nodes and the summands (p k, n) of its mean squares."""
-        for c, case in enumerate(self.cases):
-            f, w, densities = quadrature_of(case, self.terms[c], self.band, nodes)
-            _, linear = unmapped(self.kernel(nodes).cases[c], designs)
-            names = [term.response for term in self.terms[c]]
-            roads = case.cross_spectrum(f) if case.wheels > 1 else case.psd(f)[:, None, None]
-            h = self._paths(c, f, names, self._coefficients(c, linear))
-            summands = [densities * np.einsum("nmi,nij,nmj->mn", one, roads, one.conj()).real for one in h]
-            yield Rule(f, w), np.concatenate(summands)
+        for one, case in zip(self.evaluated, self.kernel(nodes).cases, strict=True):
+            yield one.summands(case, designs, nodes)
 
     @cached_property
     def _simple(self) -> tuple[Integer | slice, Real] | None:
@@ -264,78 +262,6 @@ class Scores:
             return np.asarray(mean ** (1 / power))
         sign = np.sign(score.scale)
         return np.asarray(sign * (sign * by_case).max(axis=0))
-
-    def _designs(self, c: int, designs: Real, kernel: Kernel, squares: Real) -> Designs:
-        """Return designs (p, v) in a load case with the mean squares (p, k) of its terms."""
-        vehicle, (inner, linear) = self.cases[c].vehicle, unmapped(kernel.cases[c], designs)
-        coefficients = self._coefficients(c, linear)
-
-        def mean_squares(terms: Sequence[Term]) -> Real:
-            return np.asarray(squares[:, [self.terms[c].index(term.integral) for term in terms]])
-
-        def mean_travels() -> Real:
-            if isinstance(inner, AnyCase):
-                return working_points(inner, linear).position
-            return np.zeros((len(designs), len(vehicle.struts)))
-
-        def law_powers() -> Real:
-            if isinstance(inner, AnyCase):
-                return powers_of_laws(inner, working_points(inner, linear))
-            return np.zeros((len(designs), len(vehicle.struts)))
-
-        def spectra() -> Iterator[tuple[Real, Mapping[str, Real]]]:
-            return self._spectra(c, linear, coefficients, inner)
-
-        def vehicles() -> Iterator[tuple[Vehicle, Real]]:
-            if not isinstance(vehicle, Varied):
-                yield vehicle, coefficients
-                return
-            for design in designs:
-                own, setting = vehicle.with_design(design)
-                yield own, np.array([list(setting.values())])
-
-        return Designs(
-            designs[:, : self.seen], coefficients, spectra, mean_squares, mean_travels, law_powers, vehicles
-        )
-
-    def _coefficients(self, c: int, linear: Real) -> Real:
-        """Return all coefficients (p, c) of a load case by those that vary (p, w)."""
-        coefficients = np.tile(list(self.settings[c].values()), (len(linear), 1))
-        coefficients[:, self.varying(c)] = linear
-        return coefficients
-
-    def varying(self, c: int) -> list[int]:
-        """Return the places of the coefficients of a load case that vary, among all."""
-        known = list(self.settings[c])
-        return [known.index(name) for name in varying(self.cases[c].vehicle, self.variables)]
-
-    def _spectra(
-        self, c: int, designs: Real, coefficients: Real, squares: Case
-    ) -> Iterator[tuple[Real, Mapping[str, Real]]]:
-        """Yield frequencies (n,) [Hz] and the spectra of all responses for each of designs (p, v)."""
-        case, f = self.cases[c], middles(self.band)
-        if isinstance(squares, AnyCase):
-            for linear in linear_vehicles(case.vehicle, list(self.settings[c]), squares, designs, coefficients):
-                h, names = paths(linear.closed(), f), linear.responses
-                yield f, spectra_of(h, case.cross_spectrum(f), names)
-            return
-        names, roads = case.vehicle.responses, case.cross_spectrum(f)
-        for h in self._paths(c, f, names, coefficients):
-            yield f, spectra_of(h, roads, names)
-
-    def _paths(self, c: int, f: Real, names: Sequence[ResponseName], coefficients: Real) -> Iterator[Complex]:
-        """Yield frequency responses (n, m, r) of a case without networks for coefficients (p, c)."""
-        vehicle, known = self.cases[c].vehicle, self.settings[c]
-        ports = Ports.of(vehicle, f, names, known)
-        for row in coefficients - np.array(list(known.values())):
-            added = dict(zip(known, row.tolist(), strict=True))
-            gains = gains_by_order(vehicle.strut_coefficients, added, len(vehicle.struts))
-            yield ports.around(dynamic_stiffness(gains, 2 * np.pi * f)).h[:, : ports.m, : ports.r]
-
-
-def spectra_of(h: Complex, roads: Complex, names: Sequence[str]) -> dict[str, Real]:
-    """Return the spectra (n,) of responses by frequency responses (n, m, r) to roads (n, r, r)."""
-    return dict(zip(names, np.einsum("nmi,nij,nmj->mn", h, roads, h.conj()).real, strict=True))
 
 
 def reached(values: Real, designs: Real) -> Real:

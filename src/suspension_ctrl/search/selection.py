@@ -51,7 +51,7 @@ def survivors(
 ) -> tuple[Integer, NDArray[np.int32], Real]:
     """Return indices, fronts and crowding distances (size,) without a surplus of the last front.
 
-    It is those at a distance below the limit, and the last of those at the limit.
+    The surplus is those of that front at a distance below the limit, then the last of those at the limit.
     """
     index, ranks, distances = np.empty(size, dtype=np.int64), np.empty(size, dtype=np.int32), np.empty(size)
     for i in range(rank.size):
@@ -172,10 +172,12 @@ def sweep_fronts(
     level: NDArray[np.int32],
     rank: NDArray[np.int32],
 ) -> None:
-    """Put in the front (n,) of each, one number for all beyond the first `size`; the others are work space.
+    """Fill in the front (n,) of each individual, one number for all beyond the first `size`; the others are room.
 
-    In a lexicographic order, `left` (n,), nobody dominates one before. A Fenwick tree (n + 1,) has the least third
-    objective of those before by the level of the second. Slices and whole arrays would compile twice as long.
+    Fronts are taken off `left` (n,) one after another. In its lexicographic order an individual is dominated only
+    by earlier ones: by one whose second objective, which `level` ranks, and third are no larger. A Fenwick tree
+    (n + 1,) over the levels gives the least third objective of these in log n steps. Slices and whole arrays would
+    take twice as long to compile.
     """
     for k in range(left.size):
         i, before = by_second[k], by_second[k - 1]
@@ -183,12 +185,12 @@ def sweep_fronts(
     front, rest = 0, left.size
     while left.size - rest < size and rest > 0:
         for place in range(tree.size):
-            tree[place] = np.nan  # nobody yet
+            tree[place] = np.nan  # no individual yet: comparisons with it are false
         kept, last = 0, -1
         for k in range(rest):
             i = left[k]
             dominated, place = False, level[i]
-            while place > 0:
+            while place > 0:  # levels up to its own
                 dominated |= tree[place] <= third[i]
                 place &= place - 1
             twin = last >= 0 and first[i] == first[last] and second[i] == second[last] and third[i] == third[last]
@@ -197,7 +199,7 @@ def sweep_fronts(
                 kept += 1
                 continue
             rank[i], last, place = front, i, level[i]
-            while place < tree.size:
+            while place < tree.size:  # sums that hold its level
                 tree[place] = tree[place] if tree[place] <= third[i] else third[i]
                 place += place & -place
         rest, front = kept, front + 1

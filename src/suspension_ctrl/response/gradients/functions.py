@@ -45,7 +45,7 @@ def _with_slopes(scores: Scores, score: Score, by_case: Sequence[Designs]) -> tu
     functions = [one.with_slopes for one in score.cases if one.with_slopes]
     pairs = [function(designs) for function, designs in zip(functions, by_case, strict=True)]
     values = np.array([each for each, _ in pairs])
-    slopes = np.array([own[:, scores.varying(c)] for c, (_, own) in enumerate(pairs)])
+    slopes = np.array([own[:, one.places] for one, (_, own) in zip(scores.evaluated, pairs, strict=True)])
     joined = scores.joined(score, values)
     if score.worst_case:
         worst = (np.sign(score.scale) * values).argmax(axis=0)

@@ -19,6 +19,10 @@ _TILE = 8
 """Designs for which eight columns of the rows are put side by side."""
 
 
+COMBINATION, ROW, SOURCES, BEGINS, ENDS = range(5)
+"""Columns of the responses heard: combination, row of A, first source, whether first and whether last of a sum."""
+
+
 class Room(NamedTuple):
     """Work arrays of a tile of designs; a matrix A of `closing` has eight complex numbers for each of its own."""
 
@@ -26,7 +30,7 @@ class Room(NamedTuple):
     closed: Real  # (16 l,), A of a design with its struts and the responses heard, then room for D
     elements: Real  # (p, e, 3), stiffness, damping and inertance at each entry of D
     weight: Real  # (p, s, m), of the distinct mean squares in combinations
-    heard: Integer  # (p, h, 5), combination, row of A, first column of sources, whether first and last of its sum
+    heard: Integer  # (p, h, 5), the responses that have a weight
     share: Real  # (p, h), weights of the responses heard
     number: Integer  # (p, 2), of rows of A, and of responses heard
     line: Integer  # (1 + p, l), 0, 1, 2 ... and the rows of the plant's A that a design has
@@ -93,8 +97,8 @@ def add_slopes(struts: ManyStruts, room: Room, slopes: Real) -> None:
         fill_moments(struts, rows, entry, struts.sizes[b], entries, slopes.shape[0], room)
         for p in range(slopes.shape[0]):
             for h in range(room.number[p, 1]):
-                x = room.heard[p, h, 0]
-                if h == 0 or x != room.heard[p, h - 1, 0]:
+                x = room.heard[p, h, COMBINATION]
+                if h == 0 or x != room.heard[p, h - 1, COMBINATION]:
                     add_changes(struts, entry, q, entries, room.moments[p, x], slopes[p, x])
         row, entry, output = row + (q + k) * (q + s), entry + q * q, output + k
 
@@ -141,12 +145,13 @@ def choose(sizes: Integer, response: Integer, cases: int, p: int, room: Room) ->
                     while row < rows and line[row] != q + i:
                         row += 1
                     line[row], rows = q + i, max(rows, row + 1)
-                    heard[number, 0], heard[number, 1], heard[number, 2] = x, row, q + case * (s // cases)
-                    heard[number, 3], heard[number, 4] = number == before, 0
+                    heard[number, COMBINATION], heard[number, ROW] = x, row
+                    heard[number, SOURCES] = q + case * (s // cases)
+                    heard[number, BEGINS], heard[number, ENDS] = number == before, 0
                     room.share[p, number] = share
                     number += 1
             if number > before:
-                heard[number - 1, 4] = 1
+                heard[number - 1, ENDS] = 1
     room.number[p, 0], room.number[p, 1] = rows, number
 
 
@@ -161,7 +166,7 @@ def fill_moments(
         for h in range(room.number[p, 1]):
             for y in range(entries.shape[0]):
                 for order in range(3):
-                    store(spread(0.0), room.moments, (p, room.heard[p, h, 0], y, order * WIDTH))
+                    store(spread(0.0), room.moments, (p, room.heard[p, h, COMBINATION], y, order * WIDTH))
     for t in range(0, struts.omega.size, WIDTH):
         fill_plant(rows, t, sizes, room.plant)
         w = load(struts.omega, (t,))
