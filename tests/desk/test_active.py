@@ -29,6 +29,11 @@ def test_a_present_design_may_be_beyond_a_bound():
     assert found == [["x1 beyond its lower bound"], ["x1 beyond its upper bound"]]
 
 
+def test_a_design_as_near_to_a_bound_from_beyond_is_at_it():
+    found = reached(problem_of((0.0,), (100.0,)), np.array([[-0.9], [100.9]]), np.empty((2, 0)))
+    assert found == [["x1 at its lower bound"], ["x1 at its upper bound"]]
+
+
 def test_a_logarithm_and_a_catalogue_have_ends_of_their_own():
     kinds = {"x1": "log", "x2": (20.0, 30.0, 40.0)}
     problem = problem_of((1.0, 0.0), (1000.0, 100.0), kinds=kinds)

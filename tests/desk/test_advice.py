@@ -3,8 +3,9 @@
 import pandas as pd
 import pytest
 
-from suspension_ctrl import Problem
-from suspension_ctrl.desk.advice import Advice
+from garage import QUARTER, ROAD
+from suspension_ctrl import LoadCase, Problem, RideProblem
+from suspension_ctrl.desk.advice import Advice, shown_change
 
 PROBLEM = Problem(
     evaluate=lambda designs: designs, lower=(0.0, 0.0), upper=(9.0, 9.0), objectives=("ride", "grip"),
@@ -80,3 +81,23 @@ def test_against_a_measure_of_zero_any_rise_is_a_loss():
 )
 def test_limits_and_bounds_that_are_reached_are_told(active, said):
     assert advised(("knee", 3.0, 5.0), active=active).said[2:] == said
+
+
+def test_in_several_load_cases_a_limit_is_that_of_the_worst():
+    cases = [LoadCase(vehicle=QUARTER, road=ROAD, speed=v) for v in (10.0, 20.0)]
+    bounds = {"spring": (1e4, 3e4), "damper": (1e3, 4e3)}
+    problem = RideProblem(cases=cases, bounds=bounds, measures=["ACC", "SWS"], nodes=256)
+    rows = [("present design", 2e4, 2e3, 4.0, 0.02), ("knee", 1e4, 2e3, 3.0, 0.03)]
+    columns = ["name", "spring [N/m]", "damper [N s/m]", "ACC [m/s^2]", "SWS [m]"]
+    table = pd.DataFrame(rows, columns=columns).assign(active=["beyond the limit SWS <= 10 mm", ""])
+    assert (
+        "The present design is beyond the limit SWS <= 10 mm in the worst load case."
+        in Advice.of(problem, table).said
+    )
+
+
+@pytest.mark.parametrize(
+    ("change", "text"), [(-0.049, "0.0 %"), (0.05, "0.0 %"), (0.051, "+0.1 %"), (-2.04, "-2.0 %")]
+)
+def test_a_change_below_what_is_shown_has_no_sign(change, text):
+    assert shown_change(change) == text

@@ -1,5 +1,7 @@
 """What is attainable: the reference car by closed forms, bounds of random designs, tables and errors."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -16,6 +18,7 @@ from suspension_ctrl import (
     attained,
     load_vehicle,
 )  # fmt: skip
+from suspension_ctrl.desk import attaining
 from suspension_ctrl.desk.attaining import SHARE
 from suspension_ctrl.desk.bound import LEAST, LQG, LQR, SKYHOOK, WITHIN, criterion
 
@@ -103,6 +106,29 @@ def test_the_table_has_weights_criteria_and_errors(problem, table):
     assert sky[LEAST].isna().all()
 
 
+def test_limits_kinds_and_scatter_do_not_count(problem, table):
+    limited = problem.replace(
+        constraints=["SWS <= 0.015"], measures=["mean ACC", "SWS", "DTL"], scatter={"spring": 0.05},
+        nodes=int(problem.nodes),
+    )  # fmt: skip
+    own = attainable(limited, points=1)
+    sky = table[table.controller == SKYHOOK]
+    pd.testing.assert_frame_equal(own[own.controller == SKYHOOK].set_index(sky.index), sky[list(own)])
+    middle = (np.array(problem.lower) + problem.upper) / 2
+    np.testing.assert_allclose(own.attrs["present"], problem.evaluate([middle])[0], rtol=1e-12)
+    whole = limited.replace(kinds={"spring": "integer"})
+    pd.testing.assert_frame_equal(attained(whole, PRESENT), attained(problem, PRESENT))
+
+
+def test_a_measure_that_no_controller_reduces_is_one_line(problem, monkeypatch):
+    values = problem.evaluate([list(PRESENT.values())])[0]
+    monkeypatch.setattr(attaining, "least_controlled", lambda *_: SimpleNamespace(measures=values))
+    with pytest.raises(
+        ValueError, match=r"^present must leave ACC to be reduced, got a design that has the least$"
+    ):
+        attained(problem, PRESENT)
+
+
 def test_half_and_full_cars(half):
     problem, present = half
     found = attained(problem, present)
@@ -133,6 +159,7 @@ def test_sensors_with_noise_attain_less(problem):
     pd.testing.assert_frame_equal(known.filter(like="weight"), sensed.filter(like="weight"))
     assert (sensed[WITHIN] > known[WITHIN] * (1 - 1e-3)).all()  # over all frequencies it is least
     assert sensed[WITHIN].sum() > 1.1 * known[WITHIN].sum()
+    assert sensed[LEAST].isna().all()
     rng = np.random.default_rng(1)
     values = problem.evaluate(rng.uniform(problem.lower, problem.upper, (100, 2)))
     assert criterion(table, values).shape == (100, 8)

@@ -1,5 +1,7 @@
 """What changes candidates most: against the table of sensitivities of each design."""
 
+import pandas as pd
+
 from garage import QUARTER, ROAD
 from suspension_ctrl import Nsga2, RideProblem, candidates, minimise, sensitivity
 from suspension_ctrl.desk.candidate_slopes import candidate_slopes
@@ -23,3 +25,14 @@ def test_each_candidate_has_its_strongest_variables():
             strongest = shares.abs().idxmax()
             assert row[f"{label} by 1 % more"] == f"{strongest} {shares[strongest]:+.2f} %"
     assert found["name"].iloc[0] == "present design"
+
+
+def test_a_change_that_would_read_zero_is_none():
+    """On the flat of the tyre load over the spring, and beside it."""
+    given = {"bounds": {"spring": (1e4, 3e4)}, "struts": {"damper": 1500.0}, "measures": ["ACC", "DTL"]}
+    problem = RideProblem(QUARTER, ROAD, speed=20.0, band=(0.3, 20.0), **given)
+    springs = [1e4, 1.2e4]
+    found = candidate_slopes(problem, pd.DataFrame({"name": ["a", "b"], "spring [N/m]": springs}))
+    flat, beside = (sensitivity(problem, [one]).loc["spring", "DTL [%]"] for one in springs)
+    assert abs(flat) < 0.005 < abs(beside) < 0.05
+    assert found["DTL by 1 % more"].tolist() == ["none", f"spring {beside:+.2f} %"]

@@ -21,6 +21,7 @@ from suspension_ctrl import (
     save_system,
     simulate,
 )
+from suspension_ctrl.desk.candidate_table import changes_of, full_changes, reaching
 
 BOUNDS = {"spring": (10e3, 60e3), "damper": (500.0, 5e3)}
 PRESENT = {"spring": 25e3, "damper": 2e3}
@@ -177,3 +178,19 @@ def test_a_plant_has_no_modes(tmp_path):
     table = candidates(problem, minimise(problem, Nsga2(population=20), iterations=5, seed=1))
     assert not [name for name in table if "[Hz]" in name]
     assert (table["largest travel in 1 km [m]"] > 2 * table["SWS [m]"]).all()
+
+
+def test_bounds_reach_a_design_outside_and_stay_for_one_inside(problem):
+    logarithmic = problem.replace(kinds={"spring": "log"})
+    assert reaching(logarithmic, np.array([10e3, 5e3])) is logarithmic
+    wide = reaching(logarithmic, np.array([8e3, 6e3]))
+    assert wide.bounds == {"spring": (8e3, 60e3), "damper": (500.0, 6e3)}
+    assert not wide.kinds
+
+
+def test_changes_against_negative_values_and_zero():
+    """Of a measure of which more is better the value is negative: -3 after -2 is half as much less."""
+    np.testing.assert_array_equal(changes_of([-3.0, 3.0, 1.0], [-2.0, 2.0, 0.0]), [-50.0, 50.0, np.nan])
+    np.testing.assert_array_equal(
+        full_changes(np.array([[1.0, 0.0, 3.0]]), np.array([0.0, 0.0, 2.0])), [[np.inf, 0.0, 50.0]]
+    )

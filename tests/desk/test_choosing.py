@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from suspension_ctrl import Nsga2, Problem, knee, minimise, pick
-from suspension_ctrl.desk.choosing import SAME, chosen, flat, scaled
+from suspension_ctrl.desk.choosing import SAME, chosen, flat, improving, scaled
 from suspension_ctrl.search.indicators import best_of
 from suspension_ctrl.search.population import Population
 
@@ -117,6 +117,38 @@ def test_designs_of_equal_objectives_are_listed_once():
     assert len(chosen(twice + 10 * SAME * np.arange(15)[:, None], ("a", "b"), 7)) == 7
 
 
+@pytest.mark.parametrize(("apart", "count"), [(0.9e-4, 3), (1.1e-4, 4)])
+def test_designs_count_as_one_up_to_a_ten_thousandth_of_the_front(apart, count):
+    front = np.array([[0.0, 1.0], [0.5, 0.4], [0.5 + apart, 0.4 - apart], [1.0, 0.0]])
+    assert len(chosen(front, ("a", "b"), 7)) == count
+
+
+def test_of_equal_least_values_that_of_the_least_sum_is_taken():
+    front = np.array([[0.0, 0.1, 1.0], [0.0, 0.5, 0.2], [1.0, 0.0, 0.5], [0.5, 1.0, 0.0]])
+    for order in ([0, 1, 2, 3], [1, 0, 2, 3]):
+        names = chosen(front[order], ("a", "b", "c"), 7)
+        (row,) = (row for row, name in names.items() if "least a" in name)
+        assert order[row] == 1
+
+
+def test_rows_that_gain_and_lose_nothing_improve_the_largest_sum_first():
+    """Changes up to 0.05 % count as none, gains as losses."""
+    changes = np.array([[0.04, -1.0], [0.06, -9.0], [-0.04, 0.0], [-2.0, -3.0], [-0.06, 0.05]])
+    assert improving(changes).tolist() == [3, 0, 4]
+
+
+def test_a_row_that_is_worse_in_nothing_joins_where_no_other_is():
+    x = np.linspace(0, 1, 11)
+    line = np.column_stack([x, (1 - x) ** 2])
+    changes = np.full((11, 2), 9.0)
+    changes[7] = [-1.0, 0.0]
+    assert "none worse" in chosen(line, ("a", "b"), 3, changes)[7]
+    plain = chosen(line, ("a", "b"), 3)
+    for row in plain:
+        changes[row] = [-0.5, 0.0]
+    assert chosen(line, ("a", "b"), 3, changes) == plain
+
+
 def test_ten_objectives_have_a_knee_and_ten_ends():
     rng = np.random.default_rng(0)
     directions = np.abs(rng.normal(size=(300, 10)))
@@ -134,6 +166,7 @@ def test_the_least_within_limits_is_that_of_the_front():
     inside = pick(problem, run, minimise="f1", within={"f2": (0.2, 0.45), "f1": (0.65, 1)})
     assert inside.to_numpy() == pytest.approx([0.7, 0.7, 0.3])
     assert inside.name == "least f1"
+    assert pick(problem, run, minimise="f1", within={"f2": (0.25, 0.5)})["x1"] == 0.5  # a limit may be reached
 
 
 def test_a_limit_may_have_a_unit(table1_problem):
@@ -161,6 +194,10 @@ def test_infeasible_and_dominated_designs_do_not_count():
         (
             {"minimise": "f1", "within": {"f2": None}},
             "within must have a number or a pair of them for f2, got None",
+        ),
+        (
+            {"minimise": "f1", "within": {"f2": (0.0, np.nan)}},
+            "within must have a number or a pair of them for f2, got (0.0, nan)",
         ),
         ({"minimise": "f1", "within": {"f2": "1 m"}}, "f2 must be a number without unit, got '1 m' in m"),
         (

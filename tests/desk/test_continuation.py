@@ -6,6 +6,7 @@ import pytest
 import garage
 from suspension_ctrl import Iso8608Road, RideProblem, non_dominated, pareto_front, refine
 from suspension_ctrl.commands.studies import chosen_study
+from suspension_ctrl.desk.continuation import Continuation, Point, continued
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.indicators import best_of
 
@@ -128,3 +129,30 @@ def test_what_has_no_such_front_is_one_line(changes, points, message):
     with pytest.raises(ValueError, match="must") as error:
         pareto_front(THREE.replace(**changes), points)
     assert str(error.value) == message
+
+
+def test_a_ray_meets_the_front_or_misses_it():
+    """In scaled measures the ends are (0, 1) and (1, 0): rays beyond them miss by as much as they are apart."""
+    front = Continuation(TWO)
+    for reference, meets in (
+        ((0.2, 0.3), True),
+        ((0.0, 0.999), True),
+        ((0.0, 1.0001), False),
+        ((1.5, -0.5), False),
+    ):
+        assert front.meets(np.array(reference)) == meets
+
+
+def test_exact_points_that_differ_make_the_front():
+    front = Continuation(TWO)
+    middle = Point(front.points[0].design, front.low + 0.5 * front.span, 0.0)
+    for apart, residual in ((0.0, 0.0), (1e-8, 0.0), (1e-4, 0.0), (2e-4, 1e-7)):
+        shifted = middle.objectives + apart * front.span * [1.0, -1.0]
+        front.points.append(middle._replace(objectives=shifted, residual=residual))
+    front.points.append(middle._replace(objectives=middle.objectives + 0.01 * front.span))  # dominated
+    shares = [front.scaled(point.objectives)[0] for point in front.front()]
+    np.testing.assert_allclose(sorted(shares), [0.0, 0.5, 0.5001, 1.0], atol=1e-9)
+
+
+def test_without_time_the_ends_are_left():
+    assert len(continued(TWO, 9, seconds=0.0)) == 2

@@ -194,8 +194,8 @@ PLAIN = {"vehicle": FULL, "road": ROAD, "speed": 30.0}
         ({**PLAIN, "bounds": None, "lower": (1e4, 1e3), "upper": (2e4, 2e3)},
          "lower and upper must bound front.spring, front.damper, rear.spring, rear.damper, got (10000.0, 1000.0)"),
         ({**PLAIN, "struts": {"front": (2e4, 1500.0)}},
-         "setting must have front.spring, front.damper, rear.spring, rear.damper, front_antiroll, rear_antiroll, "
-         "got none for rear.spring"),
+         "bounds and struts must have front.spring, front.damper, rear.spring, rear.damper, front_antiroll, "
+         "rear_antiroll, got none for rear.spring"),
         ({**PLAIN, "struts": STRUTS | {"middle.spring": 1.0}}, "setting must be one of "),
         ({**PLAIN, "measures": ("ACC",)}, "measures must be 2 or more with different names, got ('ACC',)"),
         ({**PLAIN, "measures": "ACC"}, "measures must be a list, got 'ACC'"),
@@ -216,7 +216,7 @@ PLAIN = {"vehicle": FULL, "road": ROAD, "speed": 30.0}
         ({**PLAIN, "nodes": 20}, "nodes must resolve every resonance in the box to 1e-06, got 20, which is off"),
         ({**PLAIN, "nodes": 2.5}, "nodes must be a whole number >= 2, got 2.5"),
         ({"cases": [CASES[0], replace(CASES[0], vehicle=HALF)]},
-         "setting must be one of front.damping_ratio, front.spring, front.damper, rear.spring, rear.damper, "),
+         "bounds and struts must be one of front.damping_ratio, front.spring, front.damper, rear.spring, "),
     ],
 )  # fmt: skip
 def test_rejects_bad_settings(changes, message):

@@ -176,3 +176,13 @@ def test_hypervolume_of_many_objectives_is_near_its_closed_form(m):
     assert front.hypervolume(np.eye(m)) == pytest.approx(1.1**m - 1, rel=1e-12 if m <= front.EXACT else 5e-3)
     assert front.hypervolume(np.zeros((1, m))) == pytest.approx(1.1**m, rel=1e-12 if m <= front.EXACT else 1e-3)
     assert front.hypervolume(np.empty((0, m))) == 0
+
+
+@pytest.mark.parametrize("objectives", [[1.0, 2.0], [[np.nan, 1.0]], np.empty((0, 2)), "front"])
+def test_what_is_no_front_is_one_line(objectives):
+    with pytest.raises(ValueError, match=r"^objectives must .*, got [^\n]*$"):
+        ReferenceFront.of(objectives)
+
+
+def test_a_front_may_be_a_list():
+    assert ReferenceFront.of([[0, 1], [1, 0]]) == ReferenceFront.of(np.array([[0.0, 1.0], [1.0, 0.0]]))

@@ -8,7 +8,8 @@ import pytest
 
 from suspension_ctrl import Problem
 from suspension_ctrl.study.comparison import Comparison
-from suspension_ctrl.study.findings import findings
+from suspension_ctrl.study.findings import findings, last_rows
+from suspension_ctrl.study.inference import TOO_FEW
 from suspension_ctrl.study.judging import ARCHIVE, CUT_ARCHIVE, INDICATORS, POPULATION
 
 
@@ -32,8 +33,9 @@ def table(comparison: Comparison) -> pd.DataFrame:
 
 
 def clock() -> pd.DataFrame:
-    """A thousandth of a second per evaluation, of the second algorithm two."""
-    rows = [(name, 20, e, e * s) for name, s in (("nsga2", 1e-3), ("sobol", 2e-3)) for e in (20, 60)]
+    """A thousandth of a second per evaluation, of the other algorithms two."""
+    paces = (("nsga2", 1e-3), ("sobol", 2e-3), ("random", 2e-3))
+    rows = [(name, 20, e, e * s) for name, s in paces for e in (20, 60)]
     return pd.DataFrame(rows, columns=["algorithm", "population", "evaluations", "seconds"])
 
 
@@ -82,3 +84,59 @@ def test_one_algorithm_has_medians_and_no_verdict(comparison):
     found = findings(alone, table(alone), clock(), 0.9)
     assert (len(found.verdict), found.words) == (0, [])
     assert len(found.medians) == 3 * 3
+
+
+@pytest.fixture
+def three(comparison) -> Comparison:
+    """A third algorithm, which is 0.2 below the first; by other indicators than hypervolume all are equal."""
+    return Comparison(
+        problem=comparison.problem,
+        algorithms=["nsga2", "sobol", "random"],
+        populations=[20],
+        iterations=[2],
+        seeds=8,
+    )
+
+
+def by_hypervolume(three: Comparison, runs: dict[str, int]) -> pd.DataFrame:
+    """The table with so many runs of some algorithms, and equal values of all other indicators."""
+    made = table(three).assign(**dict.fromkeys(set(INDICATORS) - {"relative_hypervolume"}, 0.5))
+    return made[made.seed < made.algorithm.map(runs).fillna(8)]
+
+
+def test_the_verdict_is_on_the_hypervolume_of_the_first_algorithm(three):
+    """Against each other one, also where one of them has too few runs."""
+    found = findings(three, by_hypervolume(three, {"random": 3}), clock(), 0.905)
+    assert found.verdict.other.tolist() == ["sobol", "random"] * 2
+    lenses = ["equal iterations", "equal evaluations", "equal time"]
+    assert found.verdict[lenses].to_numpy().tolist() == [["nsga2"] * 3, [TOO_FEW] * 3] * 2
+    assert all("nsga2 is ahead" in words and "random" not in words for words in found.words)
+
+
+def test_of_too_few_runs_those_of_the_most_are_told(three):
+    found = findings(three, by_hypervolume(three, {"nsga2": 3, "sobol": 3, "random": 2}), clock(), 0.905)
+    assert found.words[0].startswith(
+        "No verdict: 3 runs against 3 cannot differ significantly. Their least p is 0.1,"
+    )
+
+
+def test_the_median_of_what_was_spent_is_told(comparison):
+    slow = table(comparison)
+    slow.loc[slow.seed.eq(7) & slow.algorithm.eq("nsga2"), ["budget", "evaluations"]] *= 2
+    found = findings(comparison, slow, clock(), 0.905).medians
+    spent = found[(found.lens == "equal iterations") & (found.algorithm == "nsga2")]
+    assert spent.evaluations.unique().tolist() == [60.0]
+
+
+def test_a_run_that_raised_has_no_findings_and_a_row_of_its_own(comparison):
+    whole = table(comparison)
+    raised = whole.seed.eq(2) & whole.algorithm.eq("sobol")
+    message = whole[raised].iloc[:1].assign(error="RuntimeError", set=np.nan, budget=np.nan)
+    runs = pd.concat([whole[~raised], message], ignore_index=True)
+    found = findings(comparison, runs, clock(), 0.905)
+    assert found.medians[found.medians.algorithm == "sobol"].runs.eq(7).all()
+    last = last_rows(runs)
+    assert len(last) == 16
+    assert last[last.error.eq("")].evaluations.eq(60).all()
+    assert last[last.error.ne("")][["algorithm", "seed", "timing"]].to_numpy().tolist() == [["sobol", 2, False]]
+    assert not {"set", "members", "budget"} & set(last)

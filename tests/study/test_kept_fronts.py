@@ -1,5 +1,6 @@
 """Reference fronts that later comparisons take: the same front, of the same problem only, or none at all."""
 
+import hashlib
 import json
 import os
 from pathlib import Path
@@ -9,7 +10,8 @@ import pytest
 from platformdirs import user_cache_path
 
 from suspension_ctrl import Problem
-from suspension_ctrl.study import kept_fronts
+from suspension_ctrl.search import indicators, kinds, spreading
+from suspension_ctrl.study import kept_fronts, machine, reference
 from suspension_ctrl.study.campaign import Campaign
 from suspension_ctrl.study.comparison import Comparison
 from suspension_ctrl.study.kept_fronts import KeptFronts
@@ -60,6 +62,18 @@ def test_the_front_of_another_problem_or_tolerance_is_not_taken(tmp_path):
     assert kept.find(problem_of(Line(slope=1 + 1e-12)), TOLERANCE) is None
 
 
+def test_a_front_of_other_code_or_versions_is_not_taken(tmp_path, monkeypatch):
+    fronts, line = KeptFronts(tmp_path / "fronts"), problem_of(Line())
+    first = campaign_of(line, tmp_path / "a", fronts.folder).reference({})
+    (path,) = fronts.folder.iterdir()
+    sources = (Path(module.__file__).read_bytes() for module in (reference, indicators, kinds, spreading))
+    assert json.loads(path.read_text())["plan"]["code"] == hashlib.sha256(b"".join(sources)).hexdigest()[:32]
+    monkeypatch.setattr(machine, "provenance", lambda: {"numpy": "0.0"})
+    assert fronts.find(line, TOLERANCE) is None
+    monkeypatch.undo()
+    assert fronts.find(line, TOLERANCE) == first
+
+
 @pytest.mark.parametrize("key", ["plan", "summary", "front", "origin"])
 def test_a_file_that_is_not_as_it_was_written_is_replaced(tmp_path, key):
     fronts, line = tmp_path / "fronts", problem_of(Line())
@@ -101,6 +115,14 @@ def test_the_oldest_fronts_leave_the_folder(tmp_path, monkeypatch):
         for path in fronts.folder.iterdir():  # clocks of file systems are coarse
             os.utime(path, (age, path.stat().st_mtime - 10))
     assert [fronts.find(problem, TOLERANCE) is not None for problem in problems] == [False, True, True]
+
+
+def test_many_fronts_are_kept(tmp_path):
+    found = campaign_of(problem_of(Line()), tmp_path / "a", None).reference({})
+    fronts, problems = KeptFronts(tmp_path / "fronts"), [problem_of(Line(1.0 + i)) for i in range(12)]
+    for problem in problems:
+        fronts.keep(problem, TOLERANCE, found)
+    assert all(fronts.find(problem, TOLERANCE) for problem in problems)
 
 
 def test_the_environment_names_the_folder_or_none(tmp_path, monkeypatch):

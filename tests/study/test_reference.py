@@ -54,11 +54,46 @@ def test_a_front_comes_back_from_its_tables_to_the_last_bit(tmp_path):
 
 
 def test_values_tell_one_problem_from_another():
-    """By rounding, and by a constraint that is met throughout the sample."""
+    """By rounding, by a constraint that is met throughout the sample, and by values in a tenth of the box."""
     line = Line()
     problems = [line.problem(), Line(1 + 1e-15).problem(), limited(-1.0, line), limited(-2.0, line)]
+    problems.append(line.problem().replace(evaluate=lambda x: np.where(x[:, :1] < 0.9, 1.0, 1.1) * line(x)))
     assert len(set(map(references.fingerprint, problems))) == len(problems)
     assert references.fingerprint(line.problem()) == references.fingerprint(Line().problem())
+
+
+@pytest.mark.parametrize(
+    ("change", "second", "settles"),
+    [(1e-3, -1e-3, True), (1.1e-3, 0.0, False), (0.0, -1.1e-3, False), (np.nan, 0.0, False), (0.0, np.nan, False)],
+)
+def test_a_grid_settles_if_both_changes_are_within_the_tolerance(change, second, settles):
+    assert references.Refined(np.zeros((1, 2)), 1.0, 200, change, second).settles(1e-3) == settles
+
+
+def test_a_front_spans_where_every_objective_differs():
+    assert references.spans(np.array([[0.0, 1.0], [1.0, 0.0]]))
+    assert not references.spans(np.array([[0.0, 1.0], [1.0, 1.0]]))
+    assert not references.spans(np.empty((0, 2)))
+
+
+def test_as_many_designs_as_allowed_are_taken():
+    assert references.refined(Line().problem(), 0.5, most=10_000).points == 100
+    assert references.refined(Line().problem(), 0.5, most=9_999) is None
+
+
+def test_wrong_settings_of_a_grid_are_one_line():
+    with pytest.raises(ValueError, match=r"^tolerance must be finite and > 0, got 0$"):
+        references.refined(Line().problem(), 0)
+    with pytest.raises(ValueError, match=r"^points must be a whole number >= 2, got 1$"):
+        references.grid_front(Line().problem(), 1)
+
+
+def test_a_front_of_a_grid_that_settles_is_handed_on():
+    kept = list[references.Reference]()
+    found = references.sought(Line().problem(), [], 1e-2, keep=kept.append)
+    assert kept == [found]
+    assert "settles to 0.0001" in references.sought(Line().problem(), [], most=40_000, keep=kept.append).origin
+    assert len(kept) == 1
 
 
 def test_of_too_many_variables_no_grid_is_tried():

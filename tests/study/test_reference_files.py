@@ -70,6 +70,15 @@ def test_a_folder_without_a_front_and_one_of_another_problem_are_refused(tmp_pat
         load_reference(tmp_path, LINE)
 
 
+def test_copies_of_a_point_count_once_and_a_table_may_be_too_long(tmp_path):
+    path = tmp_path / "front.csv"
+    path.write_text("SWS [m],@share [-]\n0,2\n" + "1,1\n" * 3000)
+    assert load_reference(path, LINE).front.objectives.tolist() == [[0.0, 2.0], [1.0, 1.0]]
+    path.write_text("SWS [m],@share [-]\n0,2\n" + "1,1\n" * 100_000)
+    with pytest.raises(ValueError, match=r"front.csv: rows of numbers must be 100000 or less, got 100001"):
+        load_reference(path, LINE)
+
+
 def test_a_file_that_is_not_there_is_an_error_of_the_system(tmp_path):
     with pytest.raises(FileNotFoundError):
         load_reference(tmp_path / "no.csv", LINE)

@@ -75,6 +75,8 @@ def test_a_problem_searches_them_alone_or_beside_springs(name):
 
 
 def test_only_vehicles_of_masses_have_them():
+    with pytest.raises(ValueError, match=r"^vehicle must be one of masses and links.*, got a int$"):
+        skyhook(3)
     with pytest.raises(ValueError, match=r"^vehicle must be one of masses and links.*, got a Plant$"):
         skyhook(Plant(QUARTER.plant()))
     mount = series(Damper(), Spring("mount"))

@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import checks
 from ..compiled import uncollected
+from ..documents import keyed
 from ..quantities import Real
 from ..vehicles.varied import Varied, ported, setting_of
 from ..vehicles.vehicle import Struts, coefficients_by_name
@@ -100,8 +101,9 @@ class Scoring:
         return tuple(replace(case, vehicle=one) for case, one in zip(self.cases, vehicles, strict=True))
 
     def scores_of(self, scores: Sequence[Score]) -> Scores:
-        """Return scores of designs in the load cases."""
-        settings = [setting_of(case.vehicle, self.middle, self.struts) for case in self.ported]
+        """Return scores of designs in the load cases; ValueError where a coefficient has no value."""
+        with keyed("", {"setting": "bounds and struts"}):
+            settings = [setting_of(case.vehicle, self.middle, self.struts) for case in self.ported]
         return Scores(self.ported, scores, settings, tuple(self.bounds), self.band)
 
     def scattered(self, judged: Sequence[Measure | Limit], scatter: Scatter) -> ScatteredScores:

@@ -126,12 +126,17 @@ class ReferenceFront(Record):
         self._keep(**{name: frozen_array(getattr(self, name)) for name in ("objectives", "ideal", "nadir")})
 
     @classmethod
-    def of(cls, objectives: Real, volume: float | None = None) -> "ReferenceFront":
+    def of(cls, objectives: ArrayLike, volume: float | None = None) -> "ReferenceFront":
         """Return the front of mutually non-dominated objectives (n, m); rows with NaN are left out.
 
-        Its hypervolume is computed unless it is given.
+        Its hypervolume is computed unless it is given. ValueError without a row of numbers.
         """
-        objectives = objectives[_whole(objectives)]
+        given = checks.reals("objectives must be", objectives)
+        if given.ndim != 2 or not _whole(given).any():
+            raise ValueError(
+                f"objectives must have shape (n, m) and a row without NaN, got {checks.shown(objectives)}"
+            )
+        objectives = given[_whole(given)]
         ideal, nadir = objectives.min(axis=0), objectives.max(axis=0)
         whole = cls(objectives, ideal, nadir, 0.0)
         volume = whole.hypervolume(objectives) if volume is None else volume

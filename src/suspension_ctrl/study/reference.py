@@ -179,8 +179,8 @@ def best_known(sets: Sequence[Real]) -> ReferenceFront:
 
 
 def summary(front: ReferenceFront) -> dict[str, Any]:
-    """Return size, corners, volume and digest of a front, which identify it in a plan."""
-    digest = _digest(front.objectives.tobytes() + np.float64(front.volume).tobytes())
+    """Return size, corners, volume and digest of the points of a front, which identify it in a plan."""
+    digest = _digest(front.objectives.tobytes())
     corners = {"ideal": front.ideal.tolist(), "nadir": front.nadir.tolist()}
     return {"points": len(front.objectives), **corners, "volume": front.volume, "digest": digest}
 

@@ -25,7 +25,7 @@ def load_reference(path: Path, problem: Minimisable) -> Reference:
 
 def _of_table(path: Path, problem: Minimisable) -> Reference:
     columns = read_columns(path, {name: problem.units.get(name, "") for name in problem.objectives}, MOST)
-    best = best_of(np.column_stack(list(columns.values())))
+    best = np.unique(best_of(np.column_stack(list(columns.values()))), axis=0)
     if not spans(best):
         with naming(path):
             got = f"{len(best)} non-dominated ones that do not"

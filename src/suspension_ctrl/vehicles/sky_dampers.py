@@ -81,7 +81,8 @@ def skyhook(vehicle: Vehicle) -> SkyhookVehicle:
     ACC 1.58 m/s^2, SWS 7.8 mm
     ACC 1.16 m/s^2, SWS 9.1 mm
     """
-    if vehicle.networks:
+    passive = assembled(vehicle)
+    if passive.networks:
         needed = "struts of springs, dampers and inerters in parallel alone for sky dampers"
         raise ValueError(f"vehicle must have {needed}, got others")
-    return SkyhookVehicle(assembled(vehicle))
+    return SkyhookVehicle(passive)
