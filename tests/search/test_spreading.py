@@ -42,6 +42,16 @@ def test_many_blocks_and_points():
         assert way(points, start, 400).tolist() == expected
 
 
+@pytest.mark.parametrize(("side", "copies", "size"), [(30, 1, 300), (3, 20, 180)])
+def test_ties_and_copies_in_many_blocks(side, copies, size):
+    """Points of a lattice, of which many are equally far, and copies until none is left."""
+    places = np.stack(np.meshgrid(np.arange(side), np.arange(side)), axis=-1).reshape(-1, 2)
+    points = np.random.default_rng(1).permutation(places.repeat(copies, axis=0)).astype(float)
+    expected = by_all_distances(points, np.array([3]), size)
+    for way in (by_points, by_blocks):
+        assert way(points, np.array([3]), size).tolist() == expected
+
+
 @pytest.mark.parametrize("way", [by_points, by_blocks])
 @pytest.mark.parametrize("scale", [1e-150, 1e150])
 def test_scale_does_not_matter(scale, way):

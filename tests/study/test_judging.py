@@ -6,24 +6,44 @@ import pytest
 
 from functions import srn
 from suspension_ctrl import MoeadDra, Nsga2
-from suspension_ctrl.search.indicators import ReferenceFront, non_dominated
-from suspension_ctrl.search.trace import trace
-from suspension_ctrl.study.judging import ARCHIVE, judged
+from suspension_ctrl.search.indicators import ReferenceFront, evenly_spread, non_dominated
+from suspension_ctrl.search.sampling import Sampling
+from suspension_ctrl.search.trace import Trace, trace
+from suspension_ctrl.study.judging import ARCHIVE, CUT_ARCHIVE, INDICATORS, POPULATION, judged
+
+BUDGETS = [20, 21, 40, 90, 100, 200]
+REFERENCE = ReferenceFront.of(np.stack([np.linspace(10, 220, 50), np.linspace(-20, -210, 50)], axis=1))
 
 
-@pytest.mark.parametrize("optimiser", [Nsga2(population=20), MoeadDra(population=20)])
-def test_the_archive_of_a_budget_is_what_was_evaluated_within_it(optimiser):
-    """Gaps that were lowered budget by budget are those of the archive: sums in another order, some 1e-15."""
-    budgets = [20, 21, 40, 90, 100, 200]
-    reference = ReferenceFront.of(np.stack([np.linspace(10, 220, 50), np.linspace(-20, -210, 50)], axis=1))
-    traced = trace(srn(compiled=False), optimiser, budgets, seed=1)
-    rows = [row for row in judged(traced, 20, reference) if row["set"] == ARCHIVE]
-    assert [row["budget"] for row in rows] == budgets
-    for row in rows:
-        spent = traced.spent[row["budget"]]
-        seen = traced.objectives[:spent][traced.feasible[:spent]]
-        best = seen[non_dominated(seen)]
-        assert row["members"] == len(best)
-        assert row["relative_hypervolume"] == reference.relative_hypervolume(best)
-        scaled = reference.scaled(seen), reference.scaled(reference.objectives)
-        assert row["igd_plus"] == pytest.approx(moocore.igd_plus(scaled[0], ref=scaled[1]), rel=1e-12)
+def sets(traced: Trace, budget: int, population: int) -> dict[str, np.ndarray]:
+    """The judged sets within a budget, each from all that was evaluated or is in the population."""
+    spent = traced.spent[budget]
+    seen = traced.objectives[:spent][traced.feasible[:spent]]
+    archive, state = seen[non_dominated(seen)], traced.states[budget]
+    final = state.objectives[state.feasible]
+    final = final[non_dominated(final)]
+    cut, final = (part[evenly_spread(part, population)] for part in (archive, final))
+    return {POPULATION: final, ARCHIVE: archive, CUT_ARCHIVE: cut}
+
+
+@pytest.mark.parametrize(
+    "optimiser", [Nsga2(population=20), MoeadDra(population=20), Sampling(population=20, points="random")]
+)
+def test_sets_of_a_budget_are_of_what_was_evaluated_within_it(optimiser):
+    """Front, volume and shortfall that grew budget by budget are those of the whole sets, bit by bit.
+
+    moocore takes sums in another order, some 1e-15.
+    """
+    traced = trace(srn(compiled=False), optimiser, BUDGETS, seed=1)
+    rows = {(row["budget"], row["set"]): row for row in judged(traced, 20, REFERENCE)}
+    assert list(rows) == [(budget, name) for budget in BUDGETS for name in (POPULATION, ARCHIVE, CUT_ARCHIVE)]
+    for (budget, name), row in rows.items():
+        found = sets(traced, budget, 20)[name]
+        assert row["members"] == len(found)
+        for indicator in INDICATORS:
+            assert row[indicator] == getattr(REFERENCE, indicator)(found)
+        scaled, front = REFERENCE.scaled(found), REFERENCE.scaled(REFERENCE.objectives)
+        volume = moocore.hypervolume(scaled, ref=1.1) / REFERENCE.volume
+        assert row["relative_hypervolume"] == pytest.approx(volume, rel=1e-12)
+        assert row["igd_plus"] == pytest.approx(moocore.igd_plus(scaled, ref=front), rel=1e-12)
+        assert row["epsilon"] == moocore.epsilon_additive(scaled, ref=front)

@@ -1,17 +1,17 @@
-"""Quality of a set of objectives against a reference front, by moocore, in objectives scaled to that front."""
+"""Quality of a set of objectives against a reference front, in objectives scaled to that front."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import inf
 
 import moocore
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import checks
-from ..compiled import compiled
 from ..quantities import Bool, Integer, Real, Record, frozen_array
+from . import stairs
 from .nearest import nearest_others
+from .shortfall import Goals, Shortfall
 from .spreading import farthest_first
 
 _TRIED = 1000  # rows of many
@@ -74,9 +74,11 @@ def evenly_spread(objectives: Real, size: int) -> Integer:
     """
     if len(objectives) <= size:
         return np.arange(len(objectives))
-    span = np.ptp(objectives, axis=0)
-    ends = np.unique(objectives.argmin(axis=0))[:size]
-    return np.sort(farthest_first(objectives / np.where(span > 0, span, 1.0), ends, size))
+    columns = np.ascontiguousarray(objectives.T)  # numpy reduces them in a fiftieth of the time
+    span = np.ptp(columns, axis=1)
+    ends = np.unique(columns.argmin(axis=1))[:size]
+    scaled = columns / np.where(span > 0, span, 1.0)[:, np.newaxis]
+    return np.sort(farthest_first(scaled.T, ends, size))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -149,20 +151,32 @@ class ReferenceFront(Record):
 
         An objective that is constant on the front is divided by its value, or by 1 if that is 0.
         """
-        values, size = checks.reals("objectives must be", objectives), np.abs(self.ideal)
-        ranges = self.nadir - self.ideal
+        values = checks.reals("objectives must be", objectives)
+        return self._scaled(values[_whole(values)])
+
+    def _scaled(self, values: Real) -> Real:
+        """Return scaled values (n, m), column by column in memory: numpy takes a tenth of the time."""
+        ranges, size = self.nadir - self.ideal, np.abs(self.ideal)
         scale = np.where(ranges > 0, ranges, np.where(size > 0, size, 1.0))
-        return (values[_whole(values)] - self.ideal) / scale
+        columns: Real = (np.ascontiguousarray(values.T) - self.ideal[:, np.newaxis]) / scale[:, np.newaxis]
+        return columns.T
+
+    def swept(self, objectives: Real) -> tuple[Bool, float]:
+        """Return the mask (n,) of `non_dominated` of objectives (n, m) without NaN, and their `hypervolume`."""
+        scaled, corner = self.scaled(objectives), self.HYPERVOLUME_REFERENCE
+        if scaled.shape[1] <= stairs.MOST:
+            return stairs.swept(objectives, np.maximum(corner - scaled, 0.0))
+        if scaled.shape[1] <= self.EXACT or len(scaled) == 0:
+            return non_dominated(objectives), float(moocore.hypervolume(scaled, ref=corner))
+        return non_dominated(objectives), float(moocore.hv_approx(scaled, ref=corner, nsamples=2**16))
 
     def hypervolume(self, objectives: ArrayLike) -> float:
         """Return the volume dominated by objectives (n, m) up to 1.1 in scaled objectives [-].
 
         With more than `EXACT` objectives it is moocore's approximation, of a relative error of about 1e-3.
         """
-        scaled, corner = self.scaled(objectives), self.HYPERVOLUME_REFERENCE
-        if scaled.shape[-1] <= self.EXACT or len(scaled) == 0:
-            return float(moocore.hypervolume(scaled, ref=corner))
-        return float(moocore.hv_approx(scaled, ref=corner, nsamples=2**16))
+        values = checks.reals("objectives must be", objectives)
+        return self.swept(values[_whole(values)])[1]
 
     def relative_hypervolume(self, objectives: ArrayLike) -> float:
         """Return the hypervolume of objectives (n, m) over that of this front [-]."""
@@ -174,27 +188,26 @@ class ReferenceFront(Record):
         H. Ishibuchi, H. Masuda, Y. Tanigaki, Y. Nojima, "Modified distance calculation in generational distance
         and inverted generational distance", EMO 2015.
         """
-        return float(np.sqrt(self.gaps(objectives)).mean())
-
-    def gaps(self, objectives: ArrayLike, others: Real | None = None) -> Real:
-        """Return the square (r,) of the distance d+ of each point of this front to objectives (n, m), scaled [-].
-
-        d+ is the distance of the nearest row to all that is no worse than the point; infinite without rows. With
-        the gaps of `others` the result is of these and the objectives together.
-        """
-        gaps = np.full(len(self.objectives), inf) if others is None else others.copy()
-        _narrow(self._columns, self.scaled(objectives), np.empty_like(gaps), gaps)
-        return gaps
+        return self.shortfall(objectives).igd_plus
 
     def epsilon(self, objectives: ArrayLike) -> float:
         """Return the least shift by which objectives (n, m), scaled, weakly dominate this front [-]."""
-        scaled = self.scaled(objectives)
-        return float(moocore.epsilon_additive(scaled, ref=self._columns.T)) if len(scaled) else inf
+        return self.shortfall(objectives).epsilon
+
+    def shortfall(self, objectives: ArrayLike, before: Shortfall | None = None) -> Shortfall:
+        """Return how far objectives (n, m), scaled, fall short of this front, with those of `before`."""
+        return self._goals.shortfall(self.scaled(objectives), before)
 
     @cached_property
-    def _columns(self) -> Real:
-        """The points of this front, scaled (m, r)."""
-        return np.ascontiguousarray(self.scaled(self.objectives).T)
+    def _goals(self) -> Goals:
+        """The points of this front, scaled."""
+        return Goals.of(self.scaled(self.objectives))
+
+    @cached_property
+    def _ends(self) -> Real:
+        """The point with the least of each objective (m, m), scaled."""
+        front = self.scaled(self.objectives)
+        return front[front.argmin(axis=0)]
 
     def spread(self, objectives: ArrayLike) -> float:
         """Return the generalised spread of objectives (n, m), scaled [-]; NaN for fewer than two points.
@@ -210,20 +223,6 @@ class ReferenceFront(Record):
         gaps = nearest_others(points)
         if len(gaps) < 2:
             return float("nan")
-        corners, columns = self._columns[:, self._columns.argmin(axis=1)], points.T.copy()
-        ends = sum(np.sqrt(((columns - corner[:, np.newaxis]) ** 2).sum(axis=0).min()) for corner in corners.T)
+        columns = np.ascontiguousarray(points.T)
+        ends = sum(np.sqrt(((columns - end[:, np.newaxis]) ** 2).sum(axis=0).min()) for end in self._ends)
         return float((ends + np.abs(gaps - gaps.mean()).sum()) / (ends + gaps.sum()))
-
-
-@compiled()
-def _narrow(columns: Real, points: Real, squares: Real, gaps: Real) -> None:
-    """Lower the gaps (r,) of a front in columns (m, r) to those to the nearest of points (n, m), see `gaps`."""
-    for i in range(points.shape[0]):
-        squares[:] = 0.0
-        for k in range(points.shape[1]):
-            x = points[i, k]
-            for r in range(gaps.size):  # by columns of contiguous numbers, in vectors
-                beyond = max(x - columns[k, r], 0.0)
-                squares[r] += beyond * beyond
-        for r in range(gaps.size):
-            gaps[r] = min(gaps[r], squares[r])

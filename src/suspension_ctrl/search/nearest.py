@@ -1,47 +1,89 @@
-"""Distances to nearest neighbours within a set of points, by a sweep along one coordinate."""
+"""Distances to nearest neighbours within a set of points, by sweeps along strips."""
 
 import numpy as np
 
-from ..compiled import compiled
-from ..quantities import Real
+from ..compiled import compiled, uncounted
+from ..quantities import Integer, Real
+from .selection import lexicographic
+
+_POINTS = 1.0  # in a strip, over the root of all
 
 
 def nearest_others(points: Real) -> Real:
     """Return the distance (k,) of each point (n, m) to the nearest different one; copies of a point are one.
 
-    Infinite of a single point. The sweep takes n^1.5 steps where the points lie on a surface, n on a curve.
+    Infinite of a single point. Strips are cut across the coordinate of the largest range and sorted along that of
+    the next; of points on a curve or surface each meets few others.
     """
     if len(points) == 0:
         return np.empty(0)
-    along = np.ptp(points, axis=0).argmax()
-    order = np.argsort(points[:, along], kind="stable")
-    columns = np.ascontiguousarray(points[order].T)
-    columns[[0, along]] = columns[[along, 0]]
+    columns = np.ascontiguousarray(points.T)
+    ranges = np.ptp(columns, axis=1)  # along rows of numbers side by side, in a tenth of the time
+    widest = ranges.argmax()
+    columns[[0, widest]], ranges[widest] = columns[[widest, 0]], ranges[0]
+    second = 1 + ranges[1:].argmax() if len(ranges) > 1 else 0
+    by_first, by_second = lexicographic(columns[:1]), lexicographic(columns[second : second + 1])
     squares = np.empty(len(points))
-    _sweep(columns, squares)
-    gaps = np.empty_like(squares)
-    gaps[order] = np.sqrt(squares)
+    _sweep(columns.T.copy(), second, by_first, by_second, max(1, round(_POINTS * len(points) ** 0.5)), squares)
+    gaps = np.sqrt(squares)
     return gaps[gaps > 0]
 
 
 @compiled()
-def _sweep(columns: Real, squares: Real) -> None:
-    """Fill in the square (n,) of the distance of each point (m, n), by its first coordinate, to the nearest other.
+def _sweep(points: Real, second: int, by_first: Integer, by_second: Integer, size: int, squares: Real) -> None:
+    """Fill in the square (n,) of the distance of each point (n, m) to the nearest other, 0 if a copy comes later.
 
-    It is 0 of a point with a copy behind it.
+    `by_first` and `by_second` (n,) are orders along the coordinates 0 and `second`; strips have `size` points.
     """
-    n = columns.shape[1]
-    for i in range(n):
-        best = np.inf
-        for step in (1, -1):
-            j = i + step
-            while 0 <= j < n and best > 0.0:
-                square = (columns[0, j] - columns[0, i]) ** 2
-                if square >= best:
-                    break
-                for k in range(1, columns.shape[0]):
-                    square += (columns[k, j] - columns[k, i]) ** 2
-                if square < best and (square > 0.0 or step == 1):
+    n = by_first.size
+    strip, order, placed = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64), np.empty_like(points)
+    starts = np.arange(0, n, size)
+    for place in range(n):
+        strip[by_first[place]] = place // size
+    filled = starts.copy()
+    for i in by_second:
+        place = filled[strip[i]]
+        filled[strip[i]] = place + 1
+        order[place] = i
+        for k in range(points.shape[1]):
+            placed[place, k] = points[i, k]
+    low, high, near = points[by_first[starts], 0], points[by_first[filled - 1], 0], np.empty_like(starts)
+    for s in range(starts.size):
+        near[:] = starts
+        for i in range(starts[s], filled[s]):
+            best = _nearest(placed, second, i, starts[s], filled[s], i, np.inf)
+            for step in (1, -1):
+                t = s + step
+                while 0 <= t < starts.size and best > 0.0 and _gap(placed[i, 0], low[t], high[t]) < best:
+                    while near[t] < filled[t] and placed[near[t], second] < placed[i, second]:
+                        near[t] += 1
+                    best = _nearest(placed, second, i, starts[t], filled[t], near[t], best)
+                    t += step
+            squares[order[i]] = best
+
+
+@uncounted()
+def _gap(x: float, low: float, high: float) -> float:
+    """Return the square of the distance of a number to an interval."""
+    beyond = max(low - x, x - high, 0.0)
+    return beyond * beyond
+
+
+@uncounted()
+def _nearest(points: Real, second: int, i: int, start: int, end: int, near: int, best: float) -> float:
+    """Return the least square of the distance of point i to others of a strip, at most `best`; 0 of a later copy.
+
+    The strip is from `start` to `end`, and looked through from `near` on, forwards and backwards.
+    """
+    y = points[i, second]
+    for step in (1, -1):
+        j = near if step == 1 else near - 1
+        while start <= j < end and best > 0.0 and (points[j, second] - y) ** 2 < best:
+            if j != i:
+                square = 0.0
+                for k in range(points.shape[1]):
+                    square += (points[j, k] - points[i, k]) ** 2
+                if square < best and (square > 0.0 or j > i):
                     best = square
-                j += step
-        squares[i] = best
+            j += step
+    return best

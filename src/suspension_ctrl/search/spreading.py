@@ -4,10 +4,10 @@ T. F. Gonzalez, "Clustering to minimize the maximum intercluster distance", Theo
 """
 
 import numpy as np
-from scipy.spatial import cKDTree
 
-from ..compiled import compilable, compiled
-from ..quantities import Integer, Real
+from ..compiled import compiled, uncounted
+from ..quantities import Bool, Integer, Real
+from .morton import along_curve
 
 _BLOCK = 64  # points side by side, which are neighbours
 _ROUNDING = 1 + 1e-9  # of a squared distance: far above 1e-15
@@ -37,63 +37,97 @@ def by_points(points: Real, start: Integer, size: int) -> Integer:
 
 def by_blocks(points: Real, start: Integer, size: int) -> Integer:
     """Return `farthest_first` by the distances to blocks of neighbours, then to points of those in reach."""
-    order = np.asarray(cKDTree(points, _BLOCK, compact_nodes=False, balanced_tree=False).indices, dtype=np.int64)
+    order = along_curve(points)
+    blocks = np.pad(order, (0, -order.size % _BLOCK), mode="edge").reshape(-1, _BLOCK)
+    columns = np.ascontiguousarray(np.ascontiguousarray(points.T)[:, blocks].transpose(1, 0, 2))
+    nearest = np.full(blocks.shape, np.inf)
+    nearest.flat[order.size :] = -1.0  # copies that fill up the last block
     place = np.empty_like(order)
     place[order] = np.arange(order.size)
-    columns, firsts = np.ascontiguousarray(points[order].T), np.arange(0, order.size, _BLOCK)
-    low, high = (bound.reduceat(columns, firsts, axis=1) for bound in (np.minimum, np.maximum))
+    low, high = (np.ascontiguousarray(bound(columns, axis=2).T) for bound in (np.min, np.max))
     chosen = np.empty(size, dtype=np.int64)
-    _choose(columns, order, low, high, place[start], chosen)
-    return order[chosen]
+    _choose(columns, blocks, low, high, nearest, place[start], chosen)
+    return blocks.flat[chosen]
 
 
 @compiled()
-def _choose(columns: Real, order: Integer, low: Real, high: Real, start: Integer, chosen: Integer) -> None:
-    """Fill in the places `chosen` (size,) of `farthest_first`, of points (m, n) with indices `order` (n,).
+def _choose(
+    columns: Real, order: Integer, low: Real, high: Real, nearest: Real, start: Integer, chosen: Integer
+) -> None:
+    """Fill in the places `chosen` (size,) of `farthest_first`, of blocks (b, m, _BLOCK) of points.
 
-    `low` and `high` (m, b) are bounds of blocks. A chosen point changes distances in a block only if it is nearer
-    to them than the farthest point of the block to all that are chosen.
+    `order` (b, _BLOCK) are the indices of the points, `nearest` (b, _BLOCK) the squares of their distances to what
+    is chosen; `low` and `high` (m, b) are bounds of blocks. A chosen point changes distances in a block only if it
+    is nearer to them than the farthest point of the block, or than that was when it was last looked for.
     """
-    nearest, radius = np.full(order.size, np.inf), np.full(low.shape[1], np.inf)
-    farthest = np.zeros(radius.size, dtype=np.int64)
+    size = low.shape[1]
+    radius, reach, squares = np.full(size, np.inf), np.empty(size), np.empty(_BLOCK)
+    bits = radius.view(np.int64)
+    farthest, known = np.zeros(size, dtype=np.int64), np.zeros(size, dtype=np.bool_)
     for i in range(chosen.size):
-        chosen[i] = c = start[i] if i < start.size else farthest[_first_largest(radius, farthest, order)]
-        nearest[c] = -1.0  # not chosen again, even if only copies are left
-        for b in range(radius.size):
-            if _square_to_box(columns, c, low, high, b) <= _ROUNDING * radius[b]:
-                farthest[b] = _approach(columns, c, nearest, order, b * _BLOCK)
-                radius[b] = nearest[farthest[b]]
+        c = start[i] if i < start.size else _farthest(nearest, order, radius, bits, farthest, known)
+        chosen[i], block, place = c, c // _BLOCK, c % _BLOCK
+        nearest[block, place] = -1.0  # not chosen again, even if only copies are left
+        _to_boxes(columns, block, place, low, high, reach)
+        for b in range(size):
+            if reach[b] <= _ROUNDING * radius[b]:
+                _approach(columns, block, place, b, squares, nearest)
+                known[b] = False
 
 
-@compilable()
-def _first_largest(radius: Real, farthest: Integer, order: Integer) -> int:
-    """Return the block of the farthest point, of equally distant ones that of the first."""
-    best = 0
-    for b in range(1, radius.size):
-        if radius[b] > radius[best] or (radius[b] == radius[best] and order[farthest[b]] < order[farthest[best]]):
-            best = b
-    return best
+@uncounted()
+def _farthest(nearest: Real, order: Integer, radius: Real, bits: Integer, farthest: Integer, known: Bool) -> int:
+    """Return the place of the farthest point, of equally distant ones the first.
+
+    Blocks of which the farthest is not `known` are looked through while one of them may have it: what was farthest
+    is no farther by now, and of equally distant points no later. `bits` are those of `radius`, which have the
+    order of numbers that are not negative; whole numbers are compared in vectors.
+    """
+    while True:
+        largest = bits[0]
+        for b in range(bits.size):
+            largest = max(largest, bits[b])
+        best = -1
+        for b in range(bits.size):
+            if bits[b] == largest and (best < 0 or _index(order, farthest[b]) < _index(order, farthest[best])):
+                best = b
+        if known[best]:
+            return farthest[best]
+        place = 0
+        for j in range(1, nearest.shape[1]):
+            gap = nearest[best, j] - nearest[best, place]
+            if gap > 0.0 or (gap == 0.0 and order[best, j] < order[best, place]):
+                place = j
+        farthest[best], radius[best], known[best] = best * _BLOCK + place, nearest[best, place], True
 
 
-@compilable()
-def _square_to_box(columns: Real, c: int, low: Real, high: Real, b: int) -> float:
-    """Return the squared distance of a point to the bounds of a block, 0 within them."""
-    total = 0.0
-    for k in range(columns.shape[0]):
-        beyond = max(low[k, b] - columns[k, c], columns[k, c] - high[k, b], 0.0)
-        total += beyond * beyond
-    return total
+@uncounted()
+def _index(order: Integer, place: int) -> int:
+    """Return the index of the point at a place in blocks."""
+    return order[place // _BLOCK, place % _BLOCK]
 
 
-@compilable()
-def _approach(columns: Real, c: int, nearest: Real, order: Integer, first: int) -> int:
-    """Update the squared distances of a block for a chosen point; return its farthest place."""
-    best = first
-    for place in range(first, min(first + _BLOCK, nearest.size)):
-        total = 0.0
-        for k in range(columns.shape[0]):
-            total += (columns[k, place] - columns[k, c]) ** 2
-        nearest[place] = min(nearest[place], total)
-        if nearest[place] > nearest[best] or (nearest[place] == nearest[best] and order[place] < order[best]):
-            best = place
-    return best
+@uncounted()
+def _to_boxes(columns: Real, block: int, place: int, low: Real, high: Real, squares: Real) -> None:
+    """Put in the squared distances (b,) of a point to the bounds of blocks, 0 within them; in vectors."""
+    for b in range(squares.size):
+        squares[b] = 0.0
+    for k in range(low.shape[0]):
+        x = columns[block, k, place]
+        for b in range(squares.size):
+            beyond = max(max(low[k, b] - x, x - high[k, b]), 0.0)
+            squares[b] += beyond * beyond
+
+
+@uncounted()
+def _approach(columns: Real, block: int, place: int, b: int, squares: Real, nearest: Real) -> None:
+    """Lower the squared distances of a block to those to a chosen point; `squares` is work space. In vectors."""
+    for j in range(squares.size):
+        squares[j] = 0.0
+    for k in range(columns.shape[1]):
+        x = columns[block, k, place]
+        for j in range(squares.size):
+            beyond = columns[b, k, j] - x
+            squares[j] += beyond * beyond
+    for j in range(squares.size):
+        nearest[b, j] = min(nearest[b, j], squares[j])

@@ -2,13 +2,13 @@
 
 from collections.abc import Iterator
 from itertools import groupby
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
-from ..quantities import Real
-from ..search.indicators import ReferenceFront, best_of, evenly_spread, non_dominated
-from ..search.population import State
+from ..quantities import Bool, Integer, Real
+from ..search.indicators import ReferenceFront, evenly_spread
+from ..search.shortfall import Shortfall
 from ..search.trace import Trace
 
 POPULATION, ARCHIVE, CUT_ARCHIVE = "population", "archive", "archive of N"
@@ -18,39 +18,59 @@ INDICATORS = ("relative_hypervolume", "igd_plus", "epsilon", "spread")
 
 
 def judged(traced: Trace, population: int, reference: ReferenceFront) -> Iterator[dict[str, Any]]:
-    """Yield a row per budget and set; a state is judged once for all budgets within which it is the last."""
-    none, begin = np.empty((0, traced.objectives.shape[1])), 0
-    archive = _Archive(none, reference.gaps(none))
+    """Yield a row per budget and set; a state is judged once for all budgets within which it is the last.
+
+    So is a set that is another one: the population of a sample is its archive, and a small archive is not cut.
+    """
+    archive, begin = _Front.of(np.empty((0, traced.objectives.shape[1])), reference), 0
     for _, budgets in groupby(sorted(traced.states), lambda budget: traced.states[budget].evaluations):
         budget, *others = budgets
-        new = slice(begin, begin := traced.spent[budget])
+        state, new = traced.states[budget], slice(begin, begin := traced.spent[budget])
         archive = archive.grown(traced.objectives[new][traced.feasible[new]], reference)
-        rows = list(_rows(traced.states[budget], archive, population, reference))
+        found = state.objectives[state.feasible]
+        is_archive = np.array_equal(found, archive.objectives)
+        cut = archive.cut(population, reference)
+        final = cut if is_archive else _Front.of(found, reference).cut(population, reference)
+        sets = {POPULATION: final, ARCHIVE: archive, CUT_ARCHIVE: cut}
+        known = {id(front): front.indicators(reference) for front in sets.values()}
+        rows = [{"evaluations": state.evaluations, "set": name, **known[id(sets[name])]} for name in sets]
         yield from ({"budget": one, **row} for one in (budget, *others) for row in rows)
 
 
-class _Archive(NamedTuple):
-    """Non-dominated objectives (n, m), and the gaps of a reference front to them, which further ones lower."""
+class _Front(NamedTuple):
+    """Mutually non-dominated objectives, with their hypervolume and shortfall, which few further ones change."""
 
-    front: Real
-    gaps: Real
+    objectives: Real  # (n, m), column by column in memory
+    hypervolume: float
+    shortfall: Shortfall
 
-    def grown(self, new: Real, reference: ReferenceFront) -> "_Archive":
-        """Return the archive of these objectives and new ones (k, m); what leaves it is dominated, gap by gap."""
-        both = np.concatenate([self.front, new])
-        best = non_dominated(both)
-        return _Archive(both[best], reference.gaps(new[best[len(self.front) :]], self.gaps))
+    @classmethod
+    def of(cls, objectives: Real, reference: ReferenceFront) -> Self:
+        """Return the front of objectives (n, m)."""
+        best, volume = reference.swept(objectives)
+        front = _rows(objectives, best)
+        return cls(front, volume, reference.shortfall(front))
+
+    def grown(self, new: Real, reference: ReferenceFront) -> Self:
+        """Return the front of these objectives and new ones (k, m); what leaves it is dominated, gap by gap."""
+        both = np.concatenate([self.objectives.T, new.T], axis=1).T
+        best, volume = reference.swept(both)
+        shortfall = reference.shortfall(new[best[len(self.objectives) :]], self.shortfall)
+        return type(self)(_rows(both, best), volume, shortfall)
+
+    def cut(self, size: int, reference: ReferenceFront) -> Self:
+        """Return a front of at most `size` of the objectives, evenly spread."""
+        if len(self.objectives) <= size:
+            return self
+        return self.of(_rows(self.objectives, evenly_spread(self.objectives, size)), reference)
+
+    def indicators(self, reference: ReferenceFront) -> dict[str, Any]:
+        """Return the number of members and `INDICATORS`."""
+        volume, lacks = self.hypervolume / reference.volume, self.shortfall
+        values = volume, lacks.igd_plus, lacks.epsilon, reference.spread(self.objectives)
+        return {"members": len(self.objectives), **dict(zip(INDICATORS, values, strict=True))}
 
 
-def _rows(state: State, archive: _Archive, population: int, reference: ReferenceFront) -> Iterator[dict[str, Any]]:
-    """Yield a row per set of a state."""
-    sets = {POPULATION: best_of(state.objectives[state.feasible]), CUT_ARCHIVE: archive.front}
-    sets = {name: front[evenly_spread(front, population)] for name, front in sets.items()}
-    for name in (POPULATION, ARCHIVE, CUT_ARCHIVE):
-        front = sets.get(name, archive.front)
-        gaps = archive.gaps if name == ARCHIVE else reference.gaps(front)
-        yield {
-            "evaluations": state.evaluations, "set": name, "members": len(front),
-            "relative_hypervolume": reference.relative_hypervolume(front), "igd_plus": float(np.sqrt(gaps).mean()),
-            "epsilon": reference.epsilon(front), "spread": reference.spread(front),
-        }  # fmt: skip
+def _rows(objectives: Real, chosen: Bool | Integer) -> Real:
+    """Return rows of objectives (n, m), column by column in memory."""
+    return np.ascontiguousarray(objectives.T)[:, chosen].T
