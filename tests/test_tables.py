@@ -80,23 +80,6 @@ def test_chosen_columns_and_the_least_number_of_rows(tmp_path):
         tables.read_table(path, ["a", "b"])
 
 
-def test_a_file_appears_whole_or_not_at_all(tmp_path):
-    target = tmp_path / "table.csv"
-    target.write_text("before", encoding="utf-8")
-
-    def fails_halfway(temporary):
-        temporary.write_text("half", encoding="utf-8")
-        raise OSError(28, "No space left on device")
-
-    with pytest.raises(OSError, match="No space left"):
-        tables.write_whole(target, fails_halfway)
-    assert target.read_text(encoding="utf-8") == "before"
-    assert os.listdir(tmp_path) == ["table.csv"]
-    tables.write_csv(target, pd.DataFrame({"a [m]": [1.5]}))
-    assert target.read_text(encoding="utf-8") == "a [m]\n1.5\n"
-    assert os.listdir(tmp_path) == ["table.csv"]
-
-
 def test_texts_are_utf_8(tmp_path):
     tables.write_text(tmp_path / "verdict.md", "µs, ACC [m/s²]\n")
     assert (tmp_path / "verdict.md").read_bytes().decode("utf-8").rstrip() == "µs, ACC [m/s²]"

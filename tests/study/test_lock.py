@@ -9,8 +9,8 @@ import time
 
 import pytest
 
-from suspension_ctrl import tables
 from suspension_ctrl.study import lock
+from suspension_ctrl.tables.atomic import UNFINISHED
 
 HOLDER = """
 import sys, time
@@ -40,7 +40,7 @@ def test_a_lock_ends_with_its_process_however_that_ends(tmp_path):
 def test_old_unfinished_files_are_removed_in_all_of_the_folder_and_no_others(tmp_path):
     deep = tmp_path / "quality" / "runs"
     deep.mkdir(parents=True)
-    old, young, other = deep / f"{tables.UNFINISHED}1.csv", tmp_path / f"{tables.UNFINISHED}2.csv", deep / ".mine"
+    old, young, other = deep / f"{UNFINISHED}1.csv", tmp_path / f"{UNFINISHED}2.csv", deep / ".mine"
     for path in (old, young, other):
         path.touch()
     for path in (old, other):

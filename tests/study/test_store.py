@@ -8,7 +8,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from suspension_ctrl import tables
 from suspension_ctrl.study.store import FolderStore, NotStoredError, Remembered, SpoiltRunWarning, StoredRun
 
 RUN = StoredRun(
@@ -81,23 +80,37 @@ def test_a_run_spoilt_while_the_folder_is_open_is_an_error_when_it_is_read(tmp_p
 def test_what_cannot_be_written_is_named_and_what_was_finished_is_kept(tmp_path, monkeypatch):
     store = FolderStore(tmp_path, {})
     store["one"] = RUN
-    written = []
+    renamed, replace = [], os.replace
 
-    def once(path, content):
-        if written:
-            raise OSError(28, "No space left on device", str(path))
-        written.append(path)
-        path.write_bytes(content)
+    def once(temporary, path):
+        if renamed:
+            raise OSError(28, "No space left on device")
+        renamed.append(path)
+        replace(temporary, path)
 
     with monkeypatch.context() as patch:
-        patch.setattr(tables, "write_bytes", once)
+        patch.setattr(os, "replace", once)
         with pytest.raises(
             NotStoredError, match=r"^\[Errno 28\] .*two.csv'; finished runs are kept: start again wi"
         ):
             store["two"] = RUN
-    assert len(written) == 1
+    assert [path.name for path in renamed] == ["two.csv"]
     with pytest.warns(SpoiltRunWarning, match="a part of the run is missing"):
         assert list(FolderStore(tmp_path, {})) == ["one"]
+
+
+def test_of_many_short_runs_one_a_second_is_flushed_to_the_disk(tmp_path, monkeypatch):
+    store, flushed, now = FolderStore(tmp_path, {}), [], [100.0]
+    monkeypatch.setattr(os, "fsync", flushed.append)
+    monkeypatch.setattr("time.monotonic", lambda: now[0])
+    counts = []
+    for i, moment in enumerate((100.0, 100.9, 101.0, 101.5, 102.0)):
+        now[0] = moment
+        store[f"run {i}"] = RUN
+        counts.append(len(flushed))
+    files = 3 + 3 * (os.name == "posix")  # and their folders
+    assert counts == [files, files, 2 * files, 2 * files, 3 * files]
+    assert len(FolderStore(tmp_path, {})) == 5
 
 
 def test_a_store_forgets_what_is_deleted(tmp_path):

@@ -44,8 +44,8 @@ def bode(
     from .. import checks
     from ..paper import figures
     from ..response import curves
-    from ..tables import write_figure
-    from . import results, studies, terminal
+    from ..tables import write_figure, write_tables
+    from . import studies, terminal
 
     checks.at_least("points", points, 2)
     given: dict[str, Any] = {"road": road, "speed": speed, "band": band, "weighting": weighting}
@@ -59,7 +59,7 @@ def bode(
     table, rms = design_table(problem, labelled), curves.rms_table(drawn)
     every = pd.concat([curves.curve_table(one) for one in drawn])
     told = table.merge(rms, on="design")
-    results.write_tables(folder, {"designs": told, "natural_frequencies": natural, "curves": every})
+    write_tables(folder, {"designs": told, "natural_frequencies": natural, "curves": every})
     with terminal.waiting("drawing"):
         write_figure(folder / "figure6", figures.bode(drawn))
         write_figure(folder / "figure7", figures.spectra(drawn, str(problem.weighting)))

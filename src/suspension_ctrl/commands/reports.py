@@ -12,7 +12,7 @@ from ..search.moead_dra import MoeadDra
 from ..study import figures, timing
 from ..study.reference import Reference
 from ..study.store import StoredRun
-from ..tables import write_csv, write_figure, write_table
+from ..tables import write_csv, write_figure, write_table, write_tables
 from . import stages, terminal
 
 if TYPE_CHECKING:
@@ -46,9 +46,9 @@ def write_times(request: "Request", store: Store, timed: pd.DataFrame) -> None:
     else:
         write_table(folder / "times", timing.compared(timed).rename(columns=HEADERS), KEYS)
     (folder / "fronts").mkdir(exist_ok=True)
-    for run in request.campaign.comparison.timed_runs():
-        front = timing.front(request.problem, store[run.name])
-        write_csv(folder / "fronts" / f"{run.name}.csv", front)
+    runs = request.campaign.comparison.timed_runs()
+    fronts = {run.name: timing.front(request.problem, store[run.name]) for run in runs}
+    write_tables(folder / "fronts", fronts)
     with stages.stage("figures of the timed runs"):
         _draw(request, timing.final_populations(request.campaign.comparison, store))
 

@@ -1,17 +1,12 @@
 """The results folder of a command: new, empty, or of an interrupted command."""
 
-from collections.abc import Mapping
 from contextlib import suppress
 from datetime import datetime
 from itertools import chain, count
 from pathlib import Path
 from tempfile import NamedTemporaryFile
-from typing import TYPE_CHECKING
 
-from ..tables import UNFINISHED, write_csv
-
-if TYPE_CHECKING:
-    import pandas as pd
+from ..tables.atomic import UNFINISHED
 
 
 def results_folder(out: Path | None, resumed_by: str | None = None) -> Path:
@@ -51,9 +46,3 @@ def _made_new(folder: Path) -> Path:
             path.mkdir(parents=True)
             break
     return path
-
-
-def write_tables(folder: Path, tables: "Mapping[str, pd.DataFrame]") -> None:
-    """Write tables as CSV by name."""
-    for name, table in tables.items():
-        write_csv(folder / f"{name}.csv", table)

@@ -45,6 +45,7 @@ def ride(
     """
     from ..response.load_case import LoadCase
     from ..response.responses import ride
+    from ..tables import write_tables
     from . import results, studies, terminal
 
     masses = {"body_mass": body_mass, "wheel_mass": wheel_mass, "tyre_stiffness": tyre_stiffness}
@@ -60,7 +61,7 @@ def ride(
     tables = {"ride": table, **tables_of(linear, values)}
     certificate = certified(problem, case, values, certify)
     folder = results.results_folder(out)
-    results.write_tables(folder, tables)
+    write_tables(folder, tables)
     terminal.note(f"{file.name or vehicle}: {told(values, car)}.")
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     title = f"Ride: root mean squares, ACC weighted with {problem.weighting}"

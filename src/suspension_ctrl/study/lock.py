@@ -11,8 +11,9 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .. import tables
 from ..checks import installed
+from ..tables import write_json
+from ..tables.atomic import UNFINISHED
 
 if TYPE_CHECKING:
     from filelock import BaseFileLock
@@ -39,7 +40,7 @@ def hold(folder: Path) -> "BaseFileLock":
     except Timeout:
         raise BlockingIOError(f"{str(folder)!r} is in use by {_holder(folder / HOLDER)}") from None
     since = datetime.now().astimezone().isoformat(sep=" ", timespec="seconds")
-    tables.write_json(folder / HOLDER, {"process": os.getpid(), "host": socket.gethostname(), "since": since})
+    write_json(folder / HOLDER, {"process": os.getpid(), "host": socket.gethostname(), "since": since})
     weakref.finalize(lock, _leave, folder / HOLDER)
     _clean(folder)
     return lock
@@ -60,7 +61,7 @@ def _leave(note: Path) -> None:
 
 def _clean(folder: Path) -> None:
     """Remove abandoned files in a folder and its subfolders."""
-    for path in folder.rglob(f"{tables.UNFINISHED}*"):
+    for path in folder.rglob(f"{UNFINISHED}*"):
         with suppress(OSError):
             if time.time() - path.lstat().st_mtime > OLD:
                 path.unlink()

@@ -1,16 +1,19 @@
 """Finished runs in files, written atomically and checked when read, from which a comparison resumes."""
 
+import time
 import warnings
 from collections.abc import Iterator, Mapping, MutableMapping
 from contextlib import contextmanager
 from hashlib import sha256
 from io import BytesIO
+from math import inf
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import pandas as pd
 
 from .. import escaping, tables
+from ..tables import atomic
 from . import lock, plans
 
 VIOLATION = "violation"
@@ -18,6 +21,12 @@ VIOLATION = "violation"
 
 _PARTS = ("final", "runs")  # folders of the tables of a run
 _RECORDS = "records"  # folder of numbers of rows and digests: the last file of a run to be written
+
+FLUSHED_EVERY = 1.0
+"""Time [s] in which one run is flushed to the disk, so that a loss of power costs the runs of this time at most.
+
+Others are in the hands of the system, which flushes them within half a minute; digests tell of those that it lost.
+"""
 
 
 class SpoiltRunWarning(UserWarning):
@@ -63,9 +72,10 @@ class FolderStore(MutableMapping[str, StoredRun]):
 
     def __init__(self, folder: Path, plan: Mapping[str, Any]) -> None:
         self._folder, self._lock = folder, lock.hold(folder)
+        self._flushed = -inf  # time [s] of the last run that was flushed
         for part in (*_PARTS, _RECORDS):
             (folder / part).mkdir(exist_ok=True)
-        tables.sync_folder(folder)
+        atomic.sync_folder(folder)
         plans.settle(folder / plans.FILE, plan, started=len(self) > 0)
         self._set_spoilt_aside()
 
@@ -75,13 +85,21 @@ class FolderStore(MutableMapping[str, StoredRun]):
         return read_run(self._folder, name)
 
     def __setitem__(self, name: str, run: StoredRun) -> None:
-        record = {}
+        record, contents = {}, dict[Path, bytes]()
         with keeping(self._folder):
             for part, frame in zip(_PARTS, (run.final, run.course), strict=True):
                 content = "".join(tables.csv_parts(frame)).encode()
-                tables.write_bytes(self._path(part, name), content)
+                contents[self._path(part, name)] = content
                 record[part] = {"rows": len(frame), "sha256": sha256(content).hexdigest()}
-            tables.write_json(self._path(_RECORDS, name), record)
+            contents[self._path(_RECORDS, name)] = tables.as_json(record)
+            tables.write_all(contents, flushed=self._flush_is_due())
+
+    def _flush_is_due(self) -> bool:
+        """Whether this run is flushed to the disk: flushing each of many short ones takes longer than to make them."""
+        now = time.monotonic()
+        due = now - self._flushed >= FLUSHED_EVERY
+        self._flushed = now if due else self._flushed
+        return due
 
     def __delitem__(self, name: str) -> None:
         self._path(_RECORDS, name).unlink()

@@ -1,22 +1,21 @@
 """Tables in files: strict reading of CSV columns by name; atomic writing of CSV, JSON, texts and figures."""
 
 import csv
-import errno
 import json
-import os
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
-from uuid import uuid4
 
 import numpy as np
 
 from .. import checks, escaping
 from ..documents import naming
 from ..quantities import Real, quantity
+from .atomic import write_together, write_whole
 from .blocks import blocks
 from .headers import name_and_unit
 from .layouts import HEAD, Layout
@@ -25,9 +24,6 @@ from .rounding import rounded
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
-
-UNFINISHED = ".unfinished-"
-"""Prefix of the name of a temporary file."""
 
 MEGABYTES = 100
 """Largest size of a file of numbers [MB]."""
@@ -110,41 +106,19 @@ def file_name(text: str) -> str:
     return f"_{name}" if re.match(_DEVICES, name, re.IGNORECASE) else name
 
 
-def write_whole(path: Path, write: Callable[[Path], object]) -> None:
-    """Write a file atomically: `write` fills a temporary file beside it; an OSError names `path`."""
-    temporary = path.with_name(f"{UNFINISHED}{uuid4().hex}{path.suffix}")
-    try:
-        write(temporary)
-        with temporary.open("rb+") as file:
-            os.fsync(file.fileno())  # the content reaches the disk before the name
-        os.replace(temporary, path)
-        sync_folder(path.parent)
-    except OSError as error:
-        raise OSError(error.errno or errno.EIO, error.strerror or str(error), str(path)) from error
-    finally:
-        with suppress(OSError):
-            temporary.unlink(missing_ok=True)
-
-
-def sync_folder(folder: Path) -> None:
-    """Flush the entries of a folder to the disk, if the system can."""
-    if os.name == "posix":
-        number = os.open(folder, os.O_RDONLY)
-        try:
-            with suppress(OSError):  # not on some network file systems
-                os.fsync(number)
-        finally:
-            os.close(number)
-
-
 def write_csv(path: Path, frame: "pd.DataFrame") -> None:
     """Write a table without its index; texts are escaped against formulas in spreadsheets."""
+    write_whole(path, partial(_fill, frame))
 
-    def write(temporary: Path) -> None:
-        with temporary.open("w", encoding="utf-8", newline="") as file:
-            file.writelines(csv_parts(frame))
 
-    write_whole(path, write)
+def write_tables(folder: Path, frames: "Mapping[str, pd.DataFrame]") -> None:
+    """Write tables by name as `write_csv`, all of them or none."""
+    write_together({folder / f"{name}.csv": partial(_fill, frame) for name, frame in frames.items()})
+
+
+def _fill(frame: "pd.DataFrame", temporary: Path) -> None:
+    with temporary.open("w", encoding="utf-8", newline="") as file:
+        file.writelines(csv_parts(frame))
 
 
 def csv_parts(frame: "pd.DataFrame") -> Iterator[str]:
@@ -161,7 +135,16 @@ def csv_parts(frame: "pd.DataFrame") -> Iterator[str]:
 
 def write_bytes(path: Path, content: bytes) -> None:
     """Write a file."""
-    write_whole(path, lambda temporary: temporary.write_bytes(content))
+    write_all({path: content})
+
+
+def write_all(contents: Mapping[Path, bytes], *, flushed: bool = True) -> None:
+    """Write files, see `write_together`."""
+
+    def writes(content: bytes) -> Callable[[Path], object]:
+        return lambda temporary: temporary.write_bytes(content)
+
+    write_together({path: writes(content) for path, content in contents.items()}, flushed=flushed)
 
 
 def write_text(path: Path, text: str) -> None:
@@ -171,7 +154,12 @@ def write_text(path: Path, text: str) -> None:
 
 def write_json(path: Path, content: Mapping[str, Any]) -> None:
     """Write a JSON file, indented."""
-    write_text(path, json.dumps(dict(content), indent=2) + "\n")
+    write_bytes(path, as_json(content))
+
+
+def as_json(content: Mapping[str, Any]) -> bytes:
+    """Return the content of `write_json`."""
+    return (json.dumps(dict(content), indent=2) + "\n").encode()
 
 
 def write_table(stem: Path, frame: "pd.DataFrame", keys: int = 1) -> None:
@@ -181,7 +169,6 @@ def write_table(stem: Path, frame: "pd.DataFrame", keys: int = 1) -> None:
     """
     import pandas as pd
 
-    write_csv(stem.with_suffix(".csv"), frame)
     texts = pd.DataFrame({str(name): rounded(frame[name].tolist()) for name in frame})
     sides = {str(name): "right" if frame[name].dtype.kind in "iuf" else "left" for name in frame}
     markdown, latex = (_page(texts, keys, medium) for medium in (escaping.markdown, escaping.latex))
@@ -189,12 +176,13 @@ def write_table(stem: Path, frame: "pd.DataFrame", keys: int = 1) -> None:
         one.to_markdown(index=False, disable_numparse=True, colalign=[sides[name] for name in names])
         for names, one in markdown
     ]
-    write_text(stem.with_suffix(".md"), "\n\n".join(parts) + "\n")
+    contents = {".csv": "".join(csv_parts(frame)), ".md": "\n\n".join(parts) + "\n"}
     parts = [
         one.style.hide(axis="index").to_latex(hrules=True, column_format="".join(sides[name][0] for name in names))
         for names, one in latex
     ]
-    write_text(stem.with_suffix(".tex"), "\n\\medskip\n\n".join(parts))
+    contents[".tex"] = "\n\\medskip\n\n".join(parts)
+    write_all({stem.with_suffix(ending): text.encode() for ending, text in contents.items()})
 
 
 def _page(
