@@ -39,6 +39,7 @@ from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.indicators import ReferenceFront
 from suspension_ctrl.study import machine as environment
 from suspension_ctrl.study.reference import grid_front
+from suspension_ctrl.tables.atomic import write_whole
 
 SETTINGS: dict[str, Any] = {
     "nodes": 200,
@@ -225,9 +226,9 @@ def write_page(
 ) -> None:
     """Write page and picture."""
     text = report.page(found, settings, machine)
-    files.write_whole(folder / "performance.md", lambda path: path.write_text(text, encoding="utf-8"))
+    write_whole(folder / "performance.md", lambda path: path.write_text(text, encoding="utf-8"))
     figure = report.picture(found)
-    files.write_whole(folder / "performance.png", lambda path: figure.savefig(path, dpi=160))
+    write_whole(folder / "performance.png", lambda path: figure.savefig(path, dpi=160))
 
 
 if __name__ == "__main__":

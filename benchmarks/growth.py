@@ -23,6 +23,7 @@ from suspension_ctrl import tables as files
 from suspension_ctrl.commands import results, terminal
 from suspension_ctrl.study import machine as environment
 from suspension_ctrl.study import workers
+from suspension_ctrl.tables.atomic import write_whole
 
 SETTINGS: dict[str, Any] = {
     "repeats": 3,
@@ -100,8 +101,8 @@ def main(
     files.write_json(folder / "environment.json", machine | {"task_seconds": overhead})
     text, figure = page(timings, memory, overhead, machine, settings), picture(timings)
     for place in (folder, *([docs] if docs else [])):
-        files.write_whole(place / "growth.md", lambda path: path.write_text(text, encoding="utf-8"))
-        files.write_whole(place / "growth.png", lambda path: figure.savefig(path, dpi=110))
+        write_whole(place / "growth.md", lambda path: path.write_text(text, encoding="utf-8"))
+        write_whole(place / "growth.png", lambda path: figure.savefig(path, dpi=110))
     terminal.show("Exponents of growth", exponent_table(timings))
     terminal.end(folder)
 

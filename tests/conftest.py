@@ -16,6 +16,7 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 
 from suspension_ctrl import RideProblem, commands
+from suspension_ctrl.commands import drawing
 from suspension_ctrl.paper import experiment as paper
 
 Script = Callable[..., subprocess.CompletedProcess]
@@ -67,8 +68,9 @@ def script(checkout: Path, tmp_path_factory) -> Script:
 def called(monkeypatch, capsys, tmp_path, request) -> Script:
     """Run a script of the project in this process, which saves seconds of imports, in the test's folder.
 
-    Figures are made and not rendered, which takes a second each, but in tests with the mark ``drawn``.
+    Figures are made here and not rendered, which takes a second each, but in tests with the mark ``drawn``.
     """
+    monkeypatch.setattr(drawing, "started", lambda: None)
     if request.node.get_closest_marker("drawn") is None:
         for draws in ((Figure, "savefig"), (FigureCanvasAgg, "print_png"), (FigureCanvasPdf, "print_pdf")):
             monkeypatch.setattr(*draws, lambda _self, path, **_options: Path(path).touch())

@@ -39,8 +39,7 @@ def compare(
     spread over processes and machines. Writes tables, figures, runs and fronts to a folder; its path is the last
     line printed. An interrupted command resumes with the same --out.
     """
-    from ..study.workers import cluster
-    from . import comparing
+    from . import drawing
 
     given = {"populations": populations, "iterations": iterations, "repeats": repeats, "seeds": seeds}
     if quick and any(value is not None for value in given.values()):
@@ -48,8 +47,12 @@ def compare(
     if not quality and (jobs is not None or scheduler):
         raise ValueError(f"jobs and scheduler must stand with quality, got {scheduler or jobs!r} without it")
     options = context.params | (QUICK if quick else {})
-    where = cluster(jobs, scheduler) if quality else None
-    if scheduler:  # its errors come before the timed runs
-        with cluster(scheduler=scheduler):
-            pass
-    comparing.carry_out(comparing.Request.of(options), where)
+    with drawing.beside() as figures:  # begins to import while this process does
+        from ..study.workers import cluster
+        from . import comparing
+
+        where = cluster(jobs, scheduler) if quality else None
+        if scheduler:  # its errors come before the timed runs
+            with cluster(scheduler=scheduler):
+                pass
+        comparing.carry_out(comparing.Request.of(options, figures), where)

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from contextlib import AbstractContextManager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Self
@@ -26,6 +26,7 @@ from ..study.store import StoredRun, keeping
 from ..tables import write_csv, write_json, write_text
 from . import quality, reports, results, stages, studies, terminal
 from .comparison_page import Outcome, page
+from .drawing import Drawing
 
 QUICK_TOLERANCE = 1e-3
 RECORD = "environment.json"
@@ -42,9 +43,10 @@ class Request:
     study: StudyFile
     options: Mapping[str, Any]
     reference: Reference | None = None  # given by an option
+    figures: Drawing = field(default_factory=Drawing)
 
     @classmethod
-    def of(cls, options: Mapping[str, Any]) -> Self:
+    def of(cls, options: Mapping[str, Any], figures: Drawing) -> Self:
         """Return the request of these options, checked, and make its folder."""
         study = studies.chosen_study(**{name: options[name] for name in (*OF_STUDY, *OF_SEARCH)})
         comparison = study.search.comparison(study.problem)
@@ -55,7 +57,7 @@ class Request:
         search = {name: getattr(study.search, name) for name in OF_SEARCH}
         lists = {name: ",".join(map(str, value)) for name, value in search.items() if isinstance(value, tuple)}
         campaign = Campaign(comparison, folder, tolerance, stages.counted, KeptFronts.of_user())
-        return cls(campaign, study, {**options, **search, **lists}, given)
+        return cls(campaign, study, {**options, **search, **lists}, given, figures)
 
     @property
     def problem(self) -> RideProblem:
@@ -103,15 +105,18 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
         texts = {name: str(value) if isinstance(value, Path) else value for name, value in request.options.items()}
         with machine.single_thread():
             write_json(record, machine.describe(texts))
+    request.figures.get_ready()  # before anything is timed
     with terminal.compiling():
         store = campaign.time()
     if resumed:  # by settings with which the runs in the folder agree
         studies.save_resolved(campaign.folder, settled(request, judged=judged))
     timed = timing.tidy(campaign.comparison, store).assign(timing=True)
     reports.write_times(request, store, timed)
-    reports.say_times(request, store, timed)
-    terminal.say()
-    with stages.stage("reference front", origin=_origin(request)):
+    origin = _origin(request)
+    if not origin:  # it may take as long as the runs: their times are shown meanwhile
+        reports.say_times(request, store, timed)
+        terminal.say()
+    with stages.stage("reference front", origin=origin):
         known = None if request.options["quick"] else finder(request.problem, float(timed.seconds.sum()))
         reference = campaign.reference(store, request.reference, known)
     if reference is None:
@@ -122,6 +127,8 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
     reports.write_quality(request, timed, reference)
     outcome = Outcome(timed, reference)
     write_page(request, store, outcome)
+    if origin:
+        reports.say_times(request, store, timed)
     reports.say_quality(request, timed, reference)
     terminal.say()
     return 0 if cluster is None else _judge(request, cluster, store, outcome, reference.front)

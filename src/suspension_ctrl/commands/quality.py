@@ -11,7 +11,7 @@ from ..study.comparison import CONFIGURATION
 from ..study.findings import Findings
 from ..study.judging import CUT_ARCHIVE, INDICATORS, POPULATION
 from ..study.store import StoredRun
-from ..tables import write_csv, write_figure, write_table, write_text
+from ..tables import write_csv, write_table, write_text
 from . import stages, terminal
 
 if TYPE_CHECKING:
@@ -45,6 +45,7 @@ def write(request: "Request", results: Findings, store: Mapping[str, StoredRun])
     with stages.stage("figures of quality"):
         for population in request.campaign.comparison.populations:
             _draw(request, results, store, population)
+        request.figures.settle()
 
 
 def _header(column: str) -> str:
@@ -53,21 +54,22 @@ def _header(column: str) -> str:
 
 
 def _draw(request: "Request", results: Findings, store: Mapping[str, StoredRun], population: int) -> None:
-    comparison, folder = request.campaign.comparison, request.campaign.folder
+    """Begin the figures of a population."""
+    comparison, folder, begin = request.campaign.comparison, request.campaign.folder, request.figures.begin
     course = results.course[results.course.population == population]
     sets = (POPULATION, CUT_ARCHIVE)
-    write_figure(folder / f"anytime_n{population}", figures.anytime_panels(course, sets))
+    begin(folder / f"anytime_n{population}", figures.anytime_panels, course, sets)
     equal = results.equal
     at_end = (equal.population == population) & (equal.iterations == max(comparison.iterations))
     last = equal[at_end & (equal.lens == lenses.EVALUATIONS) & (equal.set == POPULATION)]
     title = f"N = {population}, final populations at equal evaluations, {max(comparison.iterations)} iterations"
-    write_figure(folder / f"boxes_n{population}", figures.box_panels(last, INDICATORS, title))
+    begin(folder / f"boxes_n{population}", figures.box_panels, last, INDICATORS, title)
     names = comparison.algorithms[:2]
     finals = comparison.studies()[population].finals(store).rename(columns=request.headers())
     first, second = (finals[finals.algorithm == name] for name in (names[0], names[-1]))
     if len(names) == 2 and set(first.seed) & set(second.seed):
-        drawn = figures.attainment_panels(first, second, list(request.headers().values()), names)
-        write_figure(folder / f"attainment_n{population}", drawn)
+        objectives = list(request.headers().values())
+        begin(folder / f"attainment_n{population}", figures.attainment_panels, first, second, objectives, names)
 
 
 def say(results: Findings, target: float) -> None:

@@ -12,7 +12,7 @@ from ..search.moead_dra import MoeadDra
 from ..study import figures, timing
 from ..study.reference import Reference
 from ..study.store import StoredRun
-from ..tables import write_csv, write_figure, write_table, write_tables
+from ..tables import write_csv, write_table, write_tables
 from . import stages, terminal
 
 if TYPE_CHECKING:
@@ -37,8 +37,9 @@ KEYS = 4  # first columns of a table: population, iterations, algorithm, budget
 
 
 def write_times(request: "Request", store: Store, timed: pd.DataFrame) -> None:
-    """Write the timed runs, the tables of their times, their fronts and the figure of their final populations."""
+    """Write the timed runs, the tables of their times and their fronts; begin the figures of final populations."""
     folder = request.campaign.folder
+    _draw(request, timing.final_populations(request.campaign.comparison, store))
     write_csv(folder / "runs.csv", timed)
     if request.of_paper:
         for name, table in printed.timed_tables(timed, experiment.published_seconds()).items():
@@ -49,12 +50,12 @@ def write_times(request: "Request", store: Store, timed: pd.DataFrame) -> None:
     runs = request.campaign.comparison.timed_runs()
     fronts = {run.name: timing.front(request.problem, store[run.name]) for run in runs}
     write_tables(folder / "fronts", fronts)
-    with stages.stage("figures of the timed runs"):
-        _draw(request, timing.final_populations(request.campaign.comparison, store))
 
 
 def say_times(request: "Request", store: Store, timed: pd.DataFrame) -> None:
-    """Print the problem and the tables of the times."""
+    """Print the problem and the tables of the times, once the figures are written."""
+    with stages.stage("figures of the timed runs"):
+        request.figures.settle()
     comparison, (low, high) = request.campaign.comparison, request.problem.band
     terminal.note(f"Study: {request.study.name}; {low:g} to {high:g} Hz.")
     for line in request.problem.describe():
@@ -106,11 +107,11 @@ def say_quality(request: "Request", judged: pd.DataFrame, reference: Reference) 
 
 
 def _draw(request: "Request", populations: pd.DataFrame) -> None:
-    """Draw the first algorithm with the second, and in further figures with each of the others."""
+    """Begin the figure of the first algorithm with the second, and further ones with each of the others."""
     across, *up = request.headers().values()
     first, *others = request.campaign.comparison.algorithms
     name = "figure5" if request.of_paper else "populations"
     for number, other in enumerate(others or [first]):
         shown = populations[populations.algorithm.isin([first, other])]
         stem = f"{name}_{other}" if number else name
-        write_figure(request.campaign.folder / stem, figures.final_populations(shown, across, up))
+        request.figures.begin(request.campaign.folder / stem, figures.final_populations, shown, across, up)

@@ -60,8 +60,7 @@ def ride(
     linear = linearised_if_assembled(case, values, problem.band)
     tables = {"ride": table, **tables_of(linear, values)}
     certificate = certified(problem, case, values, certify)
-    folder = results.results_folder(out)
-    write_tables(folder, tables)
+    write_tables(folder := results.results_folder(out), tables)
     terminal.note(f"{file.name or vehicle}: {told(values, car)}.")
     terminal.note(f"Road: {case.describe()}; {low:g} to {high:g} Hz.")
     title = f"Ride: root mean squares, ACC weighted with {problem.weighting}"

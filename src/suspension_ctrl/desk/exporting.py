@@ -12,7 +12,8 @@ from .. import checks
 from ..quantities import column_headers
 from ..response.load_case import LoadCase
 from ..response.problem import RideProblem
-from ..tables import write_json, write_whole
+from ..tables import write_json
+from ..tables.atomic import write_whole
 from ..vehicles.feedback import System
 from ..vehicles.files import VehicleFile, save_vehicle
 from ..vehicles.networks import has_force_laws

@@ -8,8 +8,9 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from .. import checks, tables
+from .. import checks
 from ..quantities import FrozenMapping
+from ..tables.atomic import write_whole
 from .gamultiobj import Gamultiobj
 from .moead_dra import MoeadDra
 from .nsga2 import Nsga2
@@ -45,7 +46,7 @@ def save(run: Run, path: Path) -> None:
     arrays = {f"memory_{name}": value for name, value in state.memory.items()}
     arrays |= {name: getattr(run, name) for name in _ARRAYS} | {f"state_{n}": getattr(state, n) for n in _ARRAYS}
     arrays |= {"ideal": state.ideal, "rows": np.array(run.log.rows), "text": np.array(json.dumps(text))}
-    tables.write_whole(path, lambda temporary: _write(temporary, arrays))
+    write_whole(path, lambda temporary: _write(temporary, arrays))
 
 
 def _write(path: Path, arrays: dict[str, Any]) -> None:

@@ -2,19 +2,20 @@
 
 from collections.abc import Sequence
 from itertools import combinations, product
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from .. import escaping
 from ..quantities import Integer, Real
 from ..search.indicators import best_of
 from ..tables.headers import shown_header
 from .comparison import CONFIGURATION
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 LABELS = {
     "relative_hypervolume": "hypervolume / reference [-], more is better", "igd_plus": "IGD+ [-], less is better",
@@ -30,11 +31,13 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#6
 STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (1, 1)), (0, (3, 1, 1, 1)), (0, (8, 2, 1, 2)))
 
 
-def anytime(ax: Axes, quality: pd.DataFrame, over: str = "evaluations") -> None:
+def anytime(ax: "Axes", quality: pd.DataFrame, over: str = "evaluations") -> None:
     """Draw median and quartiles of the hypervolume over "evaluations" or "seconds", from `lenses.with_seconds`.
 
     Of fewer than `FEW` runs: median, least and greatest value.
     """
+    from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+
     value = "relative_hypervolume"
     between = (0.25, 0.75) if _fewest(quality) >= FEW else (0.0, 1.0)
     by_algorithm = quality.groupby("algorithm", sort=False)
@@ -51,7 +54,7 @@ def anytime(ax: Axes, quality: pd.DataFrame, over: str = "evaluations") -> None:
     ax.grid(which="both", alpha=0.25)
 
 
-def anytime_panels(quality: pd.DataFrame, sets: Sequence[str]) -> Figure:
+def anytime_panels(quality: pd.DataFrame, sets: Sequence[str]) -> "Figure":
     """Draw `anytime` of one population: a row of panels per set, over evaluations and over time."""
     figure, axes = panels(2 * len(sets), columns=2)
     for ax, (chosen, over) in zip(axes, product(sets, ("evaluations", "seconds")), strict=True):
@@ -63,7 +66,7 @@ def anytime_panels(quality: pd.DataFrame, sets: Sequence[str]) -> Figure:
     return figure
 
 
-def box_panels(runs: pd.DataFrame, values: Sequence[str], title: str) -> Figure:
+def box_panels(runs: pd.DataFrame, values: Sequence[str], title: str) -> "Figure":
     """Draw box plots of each value by algorithm, without runs that have no feasible design.
 
     Of fewer than `FEW` runs: a point for each, and the median.
@@ -85,14 +88,14 @@ def box_panels(runs: pd.DataFrame, values: Sequence[str], title: str) -> Figure:
     return figure
 
 
-def _draw_boxes(ax: Axes, groups: Sequence[Real]) -> None:
+def _draw_boxes(ax: "Axes", groups: Sequence[Real]) -> None:
     style: dict[str, Any] = {"medianprops": {"color": "black"}, "flierprops": {"markersize": 3}}
     box = ax.boxplot(groups, patch_artist=True, **style)
     for colour, patch in zip(COLOURS, box["boxes"], strict=False):
         patch.set(facecolor=colour, alpha=0.5)
 
 
-def _draw_points(ax: Axes, groups: Sequence[Real]) -> None:
+def _draw_points(ax: "Axes", groups: Sequence[Real]) -> None:
     """Draw each value as a point, beside one another, and the median as a line."""
     for place, (colour, group) in enumerate(zip(COLOURS, groups, strict=False), start=1):
         ax.plot(place + np.linspace(-0.15, 0.15, len(group)), group, "o", color=colour, ms=5, alpha=0.7)
@@ -113,14 +116,16 @@ def _runs(runs: pd.DataFrame) -> str:
     return f"{least} runs each" if least == most else f"{least} to {most} runs"
 
 
-def _legend_below(figure: Figure, ax: Axes, **style: Any) -> None:
+def _legend_below(figure: "Figure", ax: "Axes", **style: Any) -> None:
     """Draw one legend for all panels under them, at most four names in a row."""
     handles, labels = ax.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=min(4, len(labels)), frameon=False, **style)
 
 
-def final_populations(populations: pd.DataFrame, across: str, up: Sequence[str]) -> Figure:
+def final_populations(populations: pd.DataFrame, across: str, up: Sequence[str]) -> "Figure":
     """Draw columns `up` of final populations over column `across`, one or two algorithms, rings and dots."""
+    from matplotlib.figure import Figure
+
     ring: dict[str, Any] = {"ms": 4.7, "mfc": "none", "color": COLOURS[0], "mew": 0.5}
     mark: dict[str, Any] = {"ms": 2.0, "color": COLOURS[1], "mew": 0}
     names = populations.algorithm.unique().tolist()
@@ -157,7 +162,7 @@ def readable(table: pd.DataFrame, headers: Sequence[str]) -> tuple[pd.DataFrame,
 
 def attainment_panels(
     first: pd.DataFrame, second: pd.DataFrame, objectives: Sequence[str], names: Sequence[str]
-) -> Figure:
+) -> "Figure":
     """Draw `attainment_differences` of each pair of objectives; `names` are of both algorithms."""
     (first, shown), (second, _) = readable(first, objectives), readable(second, objectives)
     pairs = list(combinations(shown, 2))
@@ -173,7 +178,7 @@ def attainment_panels(
 
 
 def attainment_differences(
-    ax: Axes, first: pd.DataFrame, second: pd.DataFrame, objectives: tuple[str, str]
+    ax: "Axes", first: pd.DataFrame, second: pd.DataFrame, objectives: tuple[str, str]
 ) -> Any:
     """Draw the difference of two algorithms in the share of runs that attain a point of two objectives.
 
@@ -212,8 +217,10 @@ def _attained(front: Real, x: Real, y: Real) -> Integer:
     return (needed <= y[:, np.newaxis]).astype(np.int64)
 
 
-def panels(count: int, columns: int = 3) -> tuple[Figure, list[Axes]]:
+def panels(count: int, columns: int = 3) -> "tuple[Figure, list[Axes]]":
     """Return a figure with `count` panels, `columns` in a row, and its Axes."""
+    from matplotlib.figure import Figure
+
     rows = -(-count // columns)
     figure = Figure(figsize=(4.2 * columns, 3.4 * rows + 0.5), layout="constrained")
     axes = list(figure.subplots(rows, columns, squeeze=False).flat)

@@ -95,7 +95,7 @@ class FolderStore(MutableMapping[str, StoredRun]):
             tables.write_all(contents, flushed=self._flush_is_due())
 
     def _flush_is_due(self) -> bool:
-        """Whether this run is flushed to the disk: flushing each of many short ones takes longer than to make them."""
+        """Whether this run is flushed to the disk: flushing many short runs takes longer than to make them."""
         now = time.monotonic()
         due = now - self._flushed >= FLUSHED_EVERY
         self._flushed = now if due else self._flushed
