@@ -1,4 +1,4 @@
-"""The strut loop in rows of all frequencies, as networks and adjoints have their dynamic stiffness.
+"""The strut loop in rows of all frequencies, as adjoints have the dynamic stiffness of struts.
 
 A row (2, n) has the real and imaginary parts of a value. Products may be fused and sums taken in whatever order
 suits the processor, the same for every design; numpy's error model leaves out a check for division by zero that
@@ -6,7 +6,7 @@ would keep a loop from being vectorised.
 """
 
 from ..compiled import compilable, uncounted
-from ..quantities import Bool, Integer, Real
+from ..quantities import Bool, Real
 from .many_struts import ManyStruts, element_at
 
 
@@ -55,34 +55,6 @@ def eliminate(q: int, columns: int, loop: Real) -> None:
         for i in range(c):
             for j in range(q, columns):
                 add_product(-1.0, loop[i * columns + c], loop[c * columns + j], loop[i * columns + j])
-
-
-@uncounted()
-def add_terms(
-    q: int,
-    s: int,
-    present: Bool,
-    stiffness: Real,
-    loop: Real,
-    by_source: Real,
-    by_strut: Real,
-    response: Integer,
-    tension: Real,
-    value: Real,
-    found: Real,
-) -> None:
-    """Add the integrals of the terms of a block to the distinct mean squares, by its solved loop."""
-    for source in range(s):
-        for i in range(q):
-            tension[i] = 0.0
-            for j in range(q):
-                if present[i * q + j]:
-                    add_product(1.0, stiffness[i * q + j], loop[j * (q + s) + q + source], tension[i])
-        for i in range(response.size):
-            copy(by_source[i * s + source], value)
-            for j in range(q):
-                add_product(1.0, by_strut[i * q + j], tension[j], value)
-            found[response[i]] += sum_of_squares(value)
 
 
 @compilable()

@@ -8,7 +8,7 @@ from ..compiled import compiled, uncounted
 from ..quantities import Integer, Real
 from .lanes import WIDTH, at, load, put, spread, store, total
 from .struts_in_lanes import add_struts, rows_for
-from .two_struts import add_two_struts
+from .two_struts import Element, add_two_struts, stiffness_at
 
 _TILE = 16
 """Designs for which eight columns of the rows stay in the nearest cache."""
@@ -85,13 +85,21 @@ def fill_squares(struts: ManyStruts, elements: Real, plant: Real, room: Real, su
             w = load(struts.omega, (t,))
             if q == 2 and not crossed:
                 for p in range(elements.shape[0]):
-                    add_two_struts(w, plant, elements[p, entry : entry + 4], s, response, struts.cases, sums[p])
+                    first = stiffness_at(elements_of(elements, p, entry), w)
+                    second = stiffness_at(elements_of(elements, p, entry + 3), w)
+                    add_two_struts(first, second, plant, s, response, struts.cases, sums[p])
             else:
                 for p in range(0, elements.shape[0], 2):
                     own = elements[p : p + 2, entry : entry + q * q]
                     two = sums[p : p + 2]
                     add_struts(w, plant, own, crossed, struts.sizes[b], response, struts.cases, room, two)
         row, entry, output = row + (q + k) * (q + s), entry + q * q, output + k
+
+
+@uncounted(forceinline=True)
+def elements_of(elements: Real, p: int, entry: int) -> Element:
+    """Return those of one of the designs (p, e, 3) at an entry of D."""
+    return elements[p, entry, 0], elements[p, entry, 1], elements[p, entry, 2]
 
 
 @uncounted()

@@ -35,11 +35,20 @@ def add_struts(
 
     They have elements (p, q q, 3) of D, off its diagonal only if the block is `crossed`; its sizes are q, s and k.
     """
-    (q, s, k), last = sizes, elements.shape[0] - 1
+    q, last = sizes[0], elements.shape[0] - 1
     for i in range(0, q * q, 1 if crossed else q + 1):
         put(stiffness_at((elements[0, i, 0], elements[0, i, 1], elements[0, i, 2]), w), room, i)
         other = elements[last, i, 0], elements[last, i, 1], elements[last, i, 2]
         put(stiffness_at(other, w), room, rows_for(q) + i)
+    add_closed(plant, crossed, sizes, response, cases, room, sums)
+
+
+@uncounted(forceinline=True)
+def add_closed(
+    plant: Real, crossed: bool, sizes: Integer, response: Integer, cases: int, room: Real, sums: Real
+) -> None:
+    """Add the squares of a block's terms to the sums (p, m, 8) of one design or two, whose D is in the room."""
+    (q, s, k), last = sizes, sums.shape[0] - 1
     factor(q, plant, crossed, room)
     for source in range(s):
         solve(q, s, plant, source, crossed, room)

@@ -13,18 +13,14 @@ Element = tuple[float, float, float]
 
 @uncounted(error_model="numpy", forceinline=True)
 def add_two_struts(
-    w: Lanes, rows: Real, elements: Real, sources: int, response: Integer, cases: int, sums: Real
+    first: Pair, second: Pair, rows: Real, sources: int, response: Integer, cases: int, sums: Real
 ) -> None:
     """Add the squares of a block's terms at eight frequencies by its rows (16 l,) to sums (m, 8).
 
     The deflections are e = (1 - P D)^-1 S by Cramer's rule, and a term is its row by the source plus T D e; D has
-    elements (4, 3).
+    two dynamic stiffnesses.
     """
-    first = stiffness_at((elements[0, 0], elements[0, 1], elements[0, 2]), w)
-    second = stiffness_at((elements[3, 0], elements[3, 1], elements[3, 2]), w)
-    unit = spread(1.0), spread(0.0)
-    a, d = less(unit, row_at(rows, 0), first), less(unit, row_at(rows, 3), second)
-    b, c = product(row_at(rows, 1), second), product(row_at(rows, 2), first)  # both with the sign changed
+    a, b, c, d = loop_of_two(first, second, rows)
     inverse = reciprocal(less(product(a, d), b, c))
     first, second = product(first, inverse), product(second, inverse)
     for source in range(sources):
@@ -32,6 +28,28 @@ def add_two_struts(
         tension = product(plus(product(d, x), b, y), first), product(plus(product(a, y), c, x), second)
         start = source * cases // sources * (sums.shape[0] // cases)
         add_squares(rows, 4 + 2 * sources, source, sources, tension, response, start, sums)
+
+
+@uncounted(forceinline=True)
+def loop_of_two(first: Pair, second: Pair, rows: Real) -> tuple[Pair, Pair, Pair, Pair]:
+    """Return 1 - P D of two dynamic stiffnesses row by row, off the diagonal with the sign changed."""
+    unit = spread(1.0), spread(0.0)
+    a, d = less(unit, row_at(rows, 0), first), less(unit, row_at(rows, 3), second)
+    return a, product(row_at(rows, 1), second), product(row_at(rows, 2), first), d
+
+
+@uncounted(error_model="numpy", forceinline=True)
+def squared_deflections(first: Pair, second: Pair, rows: Real, sources: int) -> tuple[Lanes, Lanes]:
+    """Return the squared deflections of two struts by all sources of a block with rows (16 l,)."""
+    a, b, c, d = loop_of_two(first, second, rows)
+    x, y = less(product(a, d), b, c)
+    one = other = spread(0.0)
+    for source in range(sources):
+        x_1, x_2 = row_at(rows, 4 + source), row_at(rows, 4 + sources + source)
+        (p, q), (u, v) = plus(product(d, x_1), b, x_2), plus(product(a, x_2), c, x_1)
+        one, other = fused(p, p, fused(q, q, one)), fused(u, u, fused(v, v, other))
+    inverse = spread(1.0) / fused(x, x, y * y)
+    return one * inverse, other * inverse
 
 
 @uncounted(forceinline=True)

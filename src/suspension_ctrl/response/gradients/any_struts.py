@@ -3,8 +3,8 @@
 import numpy as np
 
 from ...compiled import compilable, compiled, uncounted
-from ...quantities import Real
-from ..any_struts import AnyStruts, add_network, solve
+from ...quantities import Bool, Real
+from ..any_struts import AnyStruts, solve
 from ..loop_rows import add_product, fill_stiffness
 from ..network_rows import (
     DAMPING,
@@ -12,8 +12,10 @@ from ..network_rows import (
     NETWORK,
     OF_RATE,
     STIFFNESS,
+    elements,
     fill,
     fill_share,
+    stiffness_at,
 )
 from ..working_point import room_for_points
 from .joints import fill_rows_and_joints
@@ -98,6 +100,22 @@ def close_networks(any_struts: AnyStruts, loops: Loops, added: Real, settled: Se
             add_network(gain, struts.omega, direct, root, row, present, stiffness)
         close(struts, loops, b)
         fill_values(struts, loops, b)
+
+
+@compilable(fastmath={"contract", "nsz"})
+def add_network(
+    gain: Real, omega: Real, direct: Real, node: int, row: Real, present: Bool, stiffness: Real
+) -> None:
+    """Add the dynamic stiffness of a node with its row (2, n) to the stiffness (q q, 2, n) by its gains (q q,)."""
+    own = elements(direct, node)
+    for i in range(gain.size):
+        factor = gain[i]
+        if factor != 0.0:
+            present[i] = True
+            for t in range(omega.size):
+                re, im = stiffness_at(own, omega[t], row, t)
+                stiffness[i, 0, t] += factor * re
+                stiffness[i, 1, t] += factor * im
 
 
 @uncounted(error_model="numpy")

@@ -11,7 +11,7 @@ from ..mapped import Mapped, slopes_of, unmapped
 from ..mean_squares import Case
 from ..one_port import OnePort
 from ..one_strut import OneStrut
-from . import any_struts, linear_port, one_port, one_strut
+from . import any_struts, linear_port, mounted_struts, one_port, one_strut
 from .wanted import Wanted
 
 
@@ -21,10 +21,16 @@ def _of_port(port: OnePort, wanted: Wanted, designs: Real) -> tuple[Real, Real]:
     return method(port, wanted, designs)
 
 
+def _of_any(case: AnyStruts, wanted: Wanted, designs: Real) -> tuple[Real, Real]:
+    """Return these of any struts, in lanes where blocks have two struts and no force laws."""
+    method = mounted_struts.with_slopes if mounted_struts.fits(case) else any_struts.with_slopes
+    return method(case, wanted, designs)
+
+
 _BY_CLASS: dict[type, Callable[[Any, Wanted, Real], tuple[Real, Real]]] = {
     OneStrut: one_strut.with_slopes,
     OnePort: _of_port,
-    AnyStruts: any_struts.with_slopes,
+    AnyStruts: _of_any,
 }
 
 
