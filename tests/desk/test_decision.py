@@ -4,12 +4,15 @@ import re
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import garage
 from suspension_ctrl import Iso8608Road, Limit, Measure, MoeadDra, Nsga2, RideProblem
 from suspension_ctrl.desk.decision import Decision, measured
+from suspension_ctrl.desk.proofs import RESIDUAL
 from suspension_ctrl.search.indicators import best_of
+from suspension_ctrl.search.population import Population
 from suspension_ctrl.vehicles.modes import FREQUENCY
 
 SEARCH = {"iterations": 20, "seed": 1}
@@ -141,3 +144,22 @@ def test_limits_of_several_load_cases_are_of_the_worst_and_the_present_design_ma
 def test_a_measure_is_found_again_from_its_constraint(limit):
     value = np.array([0.013, 0.2, 0.4])
     np.testing.assert_allclose(measured(limit, limit.scale * value + limit.offset), value, rtol=1e-12)
+
+
+def decided(*rows: tuple[float, float, float, float], residuals: tuple[float, ...]) -> Decision:
+    """A decision on discomfort and as much power of dampers as there is, of designs with these values."""
+    problem = problem_of(measures=["ACC", "-damper_power"])
+    designs, objectives = np.split(np.array(rows), 2, axis=1)
+    run = Population(designs=designs, objectives=objectives, constraints=np.empty((len(rows), 0)))
+    table = pd.DataFrame({"active": "", RESIDUAL: residuals}, index=range(1, len(rows) + 1))
+    return Decision(problem, run, run, table)
+
+
+def test_more_of_a_measure_has_its_own_sign_and_no_limit():
+    rows = (20e3, 1e3, 1.0, -30.0), (20e3, 2e3, 2.0, -40.0)
+    told = decided(*rows, residuals=(0.0, np.nan)).describe()
+    assert told[0] == "No limit is set. The front has ACC from 1 to 2 m/s^2: limits between these are possible."
+    assert told[1] == "Every candidate but 2 is an exact optimum, with a residual of at most 1e-08."
+    flat = decided(rows[0], (20e3, 2e3, 1.0, -30.0), residuals=(0.0, 0.0)).describe()
+    assert flat[0].endswith("the best of every measure: ACC of 1 m/s^2, -damper_power of 30 W.")
+    assert flat[2] == "Every candidate is an exact optimum: no residual is above 1e-08."

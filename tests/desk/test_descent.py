@@ -1,9 +1,11 @@
 """Descents on programs of the paper's car: where they end, and that those within no limits end early."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
-from suspension_ctrl.desk.descent import HELD, descended
+from suspension_ctrl.desk.descent import HELD, End, descended, excess_of
 from suspension_ctrl.desk.refinement import program_of
 from suspension_ctrl.paper import experiment as paper
 
@@ -32,3 +34,18 @@ def test_where_no_design_is_within_the_limits_a_descent_ends_early():
     assert not end.feasible
     assert len(rounds) <= 2
     np.testing.assert_allclose(end.design, PROBLEM.upper, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("rows", "equal", "excess"),
+    [([9.0, -1.0], [False, True], 1.0), ([9.0, -1.0], [False, False], 0.0), ([9.0, 0.5, -2.0], [False] * 3, 0.5)],
+)
+def test_the_excess_is_above_zero_or_beside_it(rows, equal, excess):
+    program = SimpleNamespace(at=lambda _: SimpleNamespace(rows=np.array(rows)), equal=np.array(equal))
+    assert excess_of(program, np.zeros(2)) == excess
+
+
+@pytest.mark.parametrize(("row", "feasible"), [(0.9e-8, True), (1.1e-8, False)])
+def test_a_limit_is_held_to_rounding(row, feasible):
+    program = SimpleNamespace(at=lambda _: SimpleNamespace(rows=np.array([9.0, row])), equal=np.zeros(2, bool))
+    assert End(program, np.zeros(2), None).feasible == feasible

@@ -23,6 +23,7 @@ def test_it_holds_design_vehicle_matrices_and_measures():
     text = json.dumps(design_document(problem(), DESIGN, {}, "knee"), allow_nan=False)
     found = json.loads(text)
     (case,) = found["cases"]
+    assert (found["format"], found["version"]) == ("suspension_ctrl design", 1)
     assert found["design"]["damper"] == {"value": 1500.0, "unit": "N s/m"}
     np.testing.assert_array_equal(case["system"]["A"], QUARTER.closed(22e3, 1500.0).A)
     assert case["system"]["outputs"][0] == {"name": "body_acceleration", "unit": "m/s^2"}

@@ -89,3 +89,12 @@ def test_the_closed_vehicle_is_that_of_python_control():
 def test_a_wrong_design_or_case_is_one_line(problem, design, case, message):
     with pytest.raises(ValueError, match="^" + re.escape(message) + "$"):
         vehicle_file(problem, design, case=case)
+
+
+@pytest.mark.parametrize(("wheel_mass", "unusual"), [(45.4, False), (1500.0, True)])
+@pytest.mark.filterwarnings("ignore::suspension_ctrl.vehicles.unit_slips.UnitSlipWarning")
+def test_a_vehicle_of_unusual_numbers_stays_one_in_its_file(wheel_mass, unusual):
+    car = QuarterCar(body_mass=317.5, wheel_mass=wheel_mass, tyre_stiffness=192e3)
+    bounds = {"spring": (20e3, 24e3), "damper": (1e3, 2e3)}
+    problem = RideProblem(car, ROAD, speed=SPEED, bounds=bounds, band=(0.1, 20.0))
+    assert vehicle_file(problem, [22e3, 1500.0]).unusual == unusual

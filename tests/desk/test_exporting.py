@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 
 import control
 import numpy as np
@@ -16,11 +17,14 @@ from suspension_ctrl import (
     Payload,
     Plant,
     RideProblem,
+    Spring,
+    TableDamper,
     candidates,
     export,
     load_system,
     load_vehicle,
     minimise,
+    parallel,
     ride,
 )
 from suspension_ctrl.desk.exporting import save_candidates, script_name
@@ -125,3 +129,18 @@ def test_candidates_of_a_plant_have_no_files(tmp_path):
     table = candidates(plant, minimise(plant, Nsga2(population=20), iterations=3, seed=1), count=2)
     assert save_candidates(plant, table, tmp_path / "candidates", "A plant") == []
     assert not (tmp_path / "candidates").exists()
+
+
+def test_a_car_with_force_laws_has_a_state_space_for_each_load_case(tmp_path):
+    """Its equivalent damper depends on the road."""
+    strut = parallel(Spring(), TableDamper(velocity=[-1.0, -0.1, 0.1, 1.0], force=[-800.0, -300.0, 300.0, 800.0]))
+    car = replace(QUARTER, strut=strut)
+    cases = [LoadCase(vehicle=car, road=Iso8608Road(one), speed=20.0) for one in "BD"]
+    problem = RideProblem(cases=cases, bounds={"spring": (10e3, 30e3)}, band=(0.1, 20.0))
+    files = export(problem, [22e3], tmp_path, name="knee")
+    assert "knee_case_2.mat" in names(files)
+    assert not np.array_equal(*(load_system(tmp_path / f"knee{one}.mat").A for one in ("", "_case_2")))
+
+
+def test_the_name_of_a_file_has_forty_letters_at_most():
+    assert script_name("least ACC, " * 9) == "least_ACC_least_ACC_least_ACC_least_ACC_"

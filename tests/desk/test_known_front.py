@@ -52,4 +52,5 @@ def test_what_can_be_continued():
     assert finder(paper.ride_problem(measures=four), 60.0) is None
     found = finder(TWO, 10.0)
     assert found.keywords == {"seconds": 10.0}
+    assert finder(TWO, 100.0).keywords == {"seconds": 60.0}
     assert len(known_front(TWO, 10, seconds=0.0)) > 2  # the ends, and designs between them

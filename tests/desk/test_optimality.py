@@ -65,3 +65,36 @@ def test_what_is_no_optimum_has_a_residual():
     assert conditions(program, beyond, program.at(beyond)).residual >= 0.2
     short = np.array([1.0, 0.5 - 5e-6])
     assert conditions(program, short, program.at(short)).residual == pytest.approx(3 * 5e-6, rel=1e-3)
+
+
+class Free(Known):
+    """The least of a function of x and y inside the box: its limit is far away."""
+
+    def __init__(self, rows, slopes) -> None:
+        super().__init__(9.0)
+        self.rows, self.slopes = rows, slopes
+
+    def at(self, z: np.ndarray) -> Values:
+        return Values(np.array([self.rows(*z), -9.0]), np.array([self.slopes(*z), [1.0, 1.0]]))
+
+
+def test_newton_takes_the_second_derivatives_of_the_objective():
+    """Of (x - 0.3)^2 + 2 (y - 0.6)^2 + (x - 0.3)(y - 0.6) it needs one step."""
+    program = Free(
+        lambda x, y: (x - 0.3) ** 2 + 2 * (y - 0.6) ** 2 + (x - 0.3) * (y - 0.6),
+        lambda x, y: [2 * (x - 0.3) + y - 0.6, 4 * (y - 0.6) + x - 0.3],
+    )
+    z, found = polished(program, np.array([0.31, 0.58]))
+    assert found.residual <= 1e-12
+    np.testing.assert_allclose(z, [0.3, 0.6], atol=1e-12)
+
+
+def test_where_newton_goes_astray_the_best_point_is_kept():
+    """Of |x - 0.5|^1.2 a step goes to the other side, five times as far."""
+    program = Free(
+        lambda x, y: abs(x - 0.5) ** 1.2 + (y - 0.5) ** 2,
+        lambda x, y: [1.2 * np.sign(x - 0.5) * abs(x - 0.5) ** 0.2, 2 * (y - 0.5)],
+    )
+    z, found = polished(program, np.array([0.51, 0.5]))
+    np.testing.assert_array_equal(z, [0.51, 0.5])
+    assert found.residual == pytest.approx(1.2 * 0.01**0.2)

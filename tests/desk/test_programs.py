@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from suspension_ctrl import load_problem
+from suspension_ctrl import Limit, load_problem
 from suspension_ctrl.datafiles import path as data
 from suspension_ctrl.desk.programs import Mean, Program, Row, Writer
 from suspension_ctrl.desk.smooth import atoms_of
@@ -61,3 +61,24 @@ def test_more_of_the_worst_wheel_cannot_be_written():
     writer = Writer(atoms_of(STUDY.replace(measures=["comfort = Wk driver_acceleration", "-SWS"])))
     with pytest.raises(ValueError, match=r"^measures must be of one wheel where more is better, got -SWS$"):
         writer.objective(1)
+
+
+def test_the_row_of_a_limit_has_its_derivative_by_the_limit():
+    """At the limit; by a difference of a millionth of it."""
+    writer = Writer(atoms_of(STUDY))
+    limits = {str(one): one for one in STUDY.constraints}
+    for row in writer.rows:
+        limit = limits[row.limit.name]
+        wider = Limit(limit.measure, maximum=limit.value * (1 + 1e-6))
+        change = (wider.scale * limit.value + wider.offset) / (1e-6 * limit.value)
+        assert row.limit.by_limit == pytest.approx(change, rel=1e-5)
+
+
+@pytest.mark.parametrize("measure", ["VDV", "roll_gradient"])
+def test_means_of_other_measures_are_those_of_the_problem(measure):
+    """Over load cases fourth powers of doses; statics are the same in all, and have one place."""
+    problem = STUDY.replace(measures=["ACC driver", measure], constraints=(), worst_case=False)
+    writer = Writer(atoms_of(problem))
+    program = Program(writer, writer.objective(1), MIDDLE)
+    value = program.at(program.start).rows[0] * program.sizes[0]
+    assert value == pytest.approx(problem.evaluate([MIDDLE])[0, 1], rel=1e-9)

@@ -1,5 +1,7 @@
 """Candidates as exact optima: at least as good as those of the run, least measures of a grid, prices."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -13,9 +15,11 @@ from suspension_ctrl import (
     minimise,
 )
 from suspension_ctrl.datafiles import path as data
+from suspension_ctrl.desk import proofs
 from suspension_ctrl.desk.candidate_table import candidates
 from suspension_ctrl.desk.descent import HELD
-from suspension_ctrl.desk.proofs import can_be_refined, refined_candidates, with_ends
+from suspension_ctrl.desk.proofs import can_be_refined, refined_candidates, values_of, with_ends
+from suspension_ctrl.desk.refinement import least_of, refine
 from suspension_ctrl.paper import experiment as paper
 
 OWN = Measure("stiffness", "N/m", lambda designs: designs[:, 0])
@@ -90,7 +94,39 @@ def test_what_can_be_refined():
     assert can_be_refined(paper.ride_problem(kinds={"spring": (10e3, 12e3)}))
     bump = {"bump": SpeedBump(height=0.05, length=1.0)}
     peak = paper.ride_problem(measures=["ACC", Peak("travel", "bump")], events=bump)
-    for problem in (paper.ride_problem(measures=["ACC", OWN]), peak):
+    robust = paper.ride_problem(measures=["mean ACC", "SWS"], scatter={"spring": 0.05})
+    for problem in (paper.ride_problem(measures=["ACC", OWN]), peak, robust):
         assert not can_be_refined(problem)
     discrete = {"spring": (10e3, 12e3), "damper": "integer"}
     assert not can_be_refined(paper.ride_problem(kinds=discrete))
+
+
+def test_without_exact_ends_the_least_of_a_run_is_refined_to_that_of_the_problem(run):
+    """No other measure is held there."""
+    table = refined_candidates(LIMITED, run)[1]
+    row = table.index[table.name.str.contains("least ACC")]
+    exact = least_of(LIMITED, "ACC", np.array([[22e3, 1500.0]])).measures["ACC"]
+    assert table["ACC [m/s^2]"][row].item() == pytest.approx(exact, rel=1e-8)
+
+
+def test_a_candidate_that_a_descent_makes_worse_stays_as_it_is(run, monkeypatch):
+    def worse(*arguments, **options):
+        found = refine(*arguments, **options)
+        return replace(found, measures={name: 1.001 * value for name, value in found.measures.items()})
+
+    monkeypatch.setattr(proofs, "refine", worse)
+    before, (_, after) = candidates(LIMITED, run), refined_candidates(LIMITED, run)
+    held = after[after.residual.isna()]
+    assert len(held) > 1
+    assert {*held["ACC [m/s^2]"]} <= {*before["ACC [m/s^2]"]}
+
+
+def test_only_what_is_beyond_a_limit_by_rounding_is_on_it():
+    """Designs of travels 2e-9 above and a tenth below the limit, and one beyond it."""
+    best = refine(LIMITED, [22e3, 1500.0], minimise="ACC")
+    design = np.array(list(best.design.values()))
+    designs = np.array([design * [1.0, 1 - 4e-9], design * [1.0, 1.2], design * [1.0, 0.9]])
+    own, values = LIMITED.evaluate(designs), values_of(LIMITED, designs)
+    assert 0 < own[0, 3] < HELD
+    assert values[0, 3] == 0.0
+    np.testing.assert_array_equal(values[1:], own[1:])

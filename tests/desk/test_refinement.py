@@ -2,6 +2,7 @@
 
 import re
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ import garage
 from suspension_ctrl import ACC, Iso8608Road, Measure, Nsga2, RideProblem, load_problem, minimise
 from suspension_ctrl.commands.studies import chosen_study
 from suspension_ctrl.datafiles import path as data
+from suspension_ctrl.desk import refinement
 from suspension_ctrl.desk.refinement import refine
 from suspension_ctrl.paper import experiment as paper
 
@@ -332,3 +334,24 @@ def test_a_smooth_function_of_a_user_is_refined_by_differences():
     own = Measure("distance", "-", lambda designs: 1.0 + ((designs / 1e3 - [12.0, 2.0]) ** 2).sum(axis=1))
     best = refine(paper.ride_problem(measures=["ACC", own]), [20e3, 3e3], minimise="distance")
     assert list(best.design.values()) == pytest.approx([12e3, 2e3], rel=1e-6)
+
+
+def test_of_several_descents_the_first_of_the_best_ones_is_taken(monkeypatch):
+    """Values that are equal but for rounding are those of one optimum; ends beyond a limit do not count."""
+    values = [1.2, 0.5, 1.0 + 5e-9, 1.0, 1.0 + 2e-8]
+    ends = [SimpleNamespace(value=value, feasible=value != 0.5) for value in values]
+    left = iter(ends)
+    monkeypatch.setattr(refinement, "program_of", lambda *_, **__: None)
+    monkeypatch.setattr(refinement, "descended", lambda _: next(left))
+    monkeypatch.setattr(refinement, "crossed", lambda end, _: end)
+    monkeypatch.setattr(refinement, "refined_at", lambda end, _: end)
+    assert refinement.least_of(PROBLEM, "ACC", np.zeros((5, 2))) is ends[2]
+
+
+def test_the_worst_of_several_wheels_may_have_a_largest_value():
+    problem = chosen_study(vehicle="jian_2022_full", road="C").problem
+    start = random_designs(problem, 1)[0]
+    most = 0.9 * problem.evaluate([start])[0, 1]
+    best = refine(problem, start, minimise="ACC", within={"SWS": most})
+    assert best.measures["SWS"] == pytest.approx(most, rel=1e-9)
+    assert best.residual <= 1e-8

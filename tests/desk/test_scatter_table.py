@@ -7,6 +7,7 @@ import pytest
 
 from garage import FULL, GEOMETRY, QUARTER, ROAD
 from suspension_ctrl import LoadCase, RideProblem, Scatter, robustness
+from suspension_ctrl.desk.scatter_table import nodes_at
 
 BOUNDS = {"spring": (1e4, 3e4), "damper": (1e3, 4e3)}
 GIVEN = {"speed": 20.0, "bounds": BOUNDS, "band": (0.3, 20.0)}
@@ -68,6 +69,13 @@ def test_designs_outside_of_the_bounds_and_robust_problems_have_a_table(problem)
     assert list(robustness(robust, SETTING).index) == ["ACC", "DTL", "q95 SWS <= 0.029"]
 
 
+def test_nodes_are_no_fewer_than_those_of_the_problem(problem):
+    scores = problem.scoring.scattered(problem.measures, Scatter(SCATTER, samples=2))
+    design = np.array([[22e3, 1500.0]])
+    found = [nodes_at(scores, design, least) for least in (256, 500, 1024)]
+    assert found == [max(found[0], 256), 512, 1024]
+
+
 def test_the_tail_of_a_least_value_is_below():
     case = LoadCase(vehicle=FULL, road=ROAD, speed=20.0, roll_geometry=GEOMETRY)
     bounds = {f"{axle}.{name}": pair for axle in ("front", "rear") for name, pair in BOUNDS.items()}
@@ -93,6 +101,7 @@ def test_the_tail_of_a_least_value_is_below():
         ({"scatter": SCATTER, "samples": 0}, "samples must be a whole number >= 1, got 0"),
         ({"scatter": SCATTER, "design": [1.0]}, "design must be finite values of spring, damper, got [1.0]"),
         ({"scatter": SCATTER, "design": {"spring": 1.0}}, "design must have spring, damper, got none for damper"),
+        ({"scatter": SCATTER, "design": [-1.0, 1e3]}, "spring must be finite and > 0 N/m, got -1.0"),
         ({"scatter": SCATTER, "problem": 1}, "problem must be a RideProblem, got 1"),
     ],
 )

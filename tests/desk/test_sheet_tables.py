@@ -5,7 +5,14 @@ import pytest
 from garage import FULL, QUARTER, ROAD, SPEED
 from suspension_ctrl import LoadCase, RideProblem
 from suspension_ctrl.desk.parts import parts_of
-from suspension_ctrl.desk.sheet_tables import described, measure_block, number, part_block, range_block
+from suspension_ctrl.desk.sheet_tables import (
+    checked_tolerances,
+    described,
+    measure_block,
+    number,
+    part_block,
+    range_block,
+)
 
 PROBLEM = RideProblem(
     QUARTER,
@@ -47,6 +54,8 @@ def test_limits_are_in_the_unit_of_their_value():
 
 def test_load_cases_are_numbered_where_there_are_several():
     (row,) = table(range_block(PROBLEM, DESIGN))
+    travel = float(PROBLEM.evaluate([list(DESIGN.values())])[0, 1])
+    assert float(row["travel rms"]) == pytest.approx(1e3 * travel, rel=5e-3)  # of three digits
     assert "case" not in row
     slow = LoadCase(vehicle=QUARTER, road=ROAD, speed=10.0)
     both = PROBLEM.replace(cases=[*PROBLEM.cases, slow])
@@ -58,3 +67,16 @@ def test_load_cases_are_numbered_where_there_are_several():
     ]
     many = PROBLEM.replace(cases=[LoadCase(vehicle=QUARTER, road=ROAD, speed=5.0 + i) for i in range(6)])
     assert described(many)[-1] == "And 3 more load cases."
+    assert len(described(many.replace(cases=many.cases[:3]))) == 1 + 4  # the road and three cases
+
+
+@pytest.mark.parametrize(
+    ("tolerances", "message"),
+    [
+        ({"damper": 0.0}, "tolerance of damper must be finite and > 0, got 0.0"),
+        ({"front": 0.1}, "tolerances must be one of spring, damper, got 'front'"),
+    ],
+)
+def test_tolerances_are_of_coefficients_and_above_zero(tolerances, message):
+    with pytest.raises(ValueError, match=f"^{message}$"):
+        checked_tolerances(PROBLEM, DESIGN, tolerances)

@@ -193,3 +193,12 @@ def test_designs_outside_of_the_bounds_and_robust_problems():
 def test_wrong_arguments_are_told_in_one_line(arguments, message):
     with pytest.raises(ValueError, match=f"^{re.escape(message)}"):
         sensitivity(**{"problem": quarter(), "design": [2e4, 1500.0]} | arguments)
+
+
+@pytest.mark.parametrize(("worst_case", "limits"), [(True, 0), (False, 1)])
+def test_a_limit_on_an_objective_says_more_where_load_cases_are_averaged(worst_case, limits):
+    """It holds in the worst of them."""
+    cases = [LoadCase(vehicle=QUARTER, road=ROAD, speed=v) for v in (10.0, 20.0)]
+    given = {"bounds": BOUNDS, "band": BAND, "measures": ["ACC", "SWS"], "constraints": ["SWS <= 0.03"]}
+    table = sensitivity(RideProblem(cases=cases, worst_case=worst_case, **given), [2e4, 2e3])
+    assert len([name for name in table if name.startswith("SWS <=")]) == 2 * limits

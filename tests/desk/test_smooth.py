@@ -1,5 +1,7 @@
 """Values of single wheels in single load cases: against `evaluate` of the whole problem and differences."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -60,3 +62,16 @@ def test_the_values_of_a_problem_are_kept():
     assert atoms_of(paper.ride_problem()) is atoms_of(paper.ride_problem())
     with pytest.raises(ValueError, match=r"^kinds must leave a real variable to refine, got"):
         Box.of(paper.ride_problem(kinds={"spring": "integer", "damper": (1e3, 2e3)}))
+
+
+def test_a_measure_of_statics_is_another_with_another_roll_geometry():
+    case = STUDY.cases[0]
+    higher = replace(case, roll_geometry=replace(case.roll_geometry, front_roll_centre=0.1))
+    problem = STUDY.replace(cases=[case, higher], measures=["ACC driver", "roll_gradient"], constraints=())
+    first, second = Atoms(problem).of(problem.measures[1])
+    assert first != second
+
+
+def test_a_variable_between_equal_bounds_is_held():
+    held = paper.ride_problem(lower=(2e4, 1e3), upper=(2e4, 2e3))
+    assert Box.of(held).free.tolist() == [False, True]

@@ -9,7 +9,12 @@ from deap import tools
 from functions import zdt1
 from suspension_ctrl import MoeadDra, Nsga2, minimise
 from suspension_ctrl.search import operators
-from suspension_ctrl.search.deap_adapter import mate_by_deap, mutate_by_deap, with_deap_operators
+from suspension_ctrl.search.deap_adapter import (
+    mate_by_deap,
+    mutate_by_deap,
+    select_with_deap,
+    with_deap_operators,
+)
 
 PROBLEM = zdt1(4)
 MUTATIONS = {
@@ -62,6 +67,7 @@ def test_individuals_are_lists_and_results_are_clipped():
     np.testing.assert_array_equal(shifted, np.minimum(designs + 0.5, 1.0))
     np.testing.assert_array_equal(mutate_by_deap(rng, designs[0], lambda i: shift(i, 0.5), *box), shifted[0])
     np.testing.assert_array_equal(mate_by_deap(rng, designs, swap, *box), designs[[1, 0, 2]])
+    np.testing.assert_array_equal(mate_by_deap(rng, designs[:2], swap, *box), designs[[1, 0]])
     np.testing.assert_array_equal(designs[0], [0.1, 0.8])
 
 
@@ -72,3 +78,11 @@ def test_operators_are_told_apart_by_their_first_parameter():
     assert adapted.mutate.func is mutate_by_deap
     assert adapted.mate.func is operators.simulated_binary_crossover
     assert toolbox.mutate.func is shift
+
+
+def test_deaps_selection_keeps_the_best_in_the_order_of_the_population():
+    """Of the second front the end is kept, infinitely far from its neighbours."""
+    objectives = np.array([[3.0, 3.0], [1.0, 2.0], [4.0, 2.5], [2.0, 1.0], [3.1, 2.9]])
+    index, rank, crowding = select_with_deap(objectives, 3)
+    assert (index.tolist(), rank.tolist()) == ([0, 1, 3], [1, 0, 0])
+    assert np.isinf(crowding).all()

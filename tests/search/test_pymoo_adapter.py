@@ -74,7 +74,7 @@ def test_mixed_variables_are_searched():
 
 
 def test_held_and_logarithmic_variables_of_real_designs_are_rows():
-    held = mixed(x3="log").replace(upper=(4.2, 9.0, 100.0, 1.0))
+    held = mixed(x3="log").replace(upper=(4.2, 9.0, 100.0, 1.0), kinds={"x3": "log", "x4": "fixed"})
     there = as_pymoo(held)
     assert (there.n_var, there.xl[3], there.xu[3]) == (4, 1.0, 1.0)
 

@@ -138,3 +138,25 @@ def test_a_measure_below_zero_is_scaled_by_its_size():
     least = as_scipy(below, "f")
     assert least["fun"](np.array([0.5])) == -1.0
     assert least.at(optimize.minimize(**least).x) == pytest.approx({"x1": 1.0, "f": -7.0, "g": 1.0}, rel=1e-9)
+
+
+@pytest.mark.parametrize("kinds", [{}, {"x1": "log"}])
+def test_ends_are_not_rounded_beyond_the_bounds(kinds):
+    """0.1 + (0.3 - 0.1) is a little more than 0.3."""
+    problem = Problem(
+        evaluate=lambda x: np.hstack([x, x]), lower=(0.1,), upper=(0.3,), objectives=("f", "g"), kinds=kinds
+    )
+    for place, value in ((1.0, 0.3), (1e9, 0.3), (0.0, 0.1), (-1e9, 0.1)):
+        found = as_scipy(problem, "f").at([place])["x1"]
+        assert 0.1 <= found <= 0.3
+        assert found == pytest.approx(value, rel=1e-15)
+
+
+def test_slopes_beyond_the_box_are_those_at_its_end():
+    least = as_scipy(rosenbrock(), "f")
+    np.testing.assert_array_equal(least["jac"](np.array([1.5, -0.5])), least["jac"](np.array([1.0, 0.0])))
+
+
+def test_a_measure_of_zero_in_the_middle_is_not_scaled():
+    zero = Problem(evaluate=lambda x: np.hstack([x - 2.0, x]), lower=(1.0,), upper=(3.0,), objectives=("f", "g"))
+    assert [as_scipy(zero, "f")["fun"](np.array([place])) for place in (0.5, 1.0)] == [0.0, 1.0]

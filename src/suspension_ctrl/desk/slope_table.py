@@ -181,7 +181,7 @@ def _with_prices(slopes: Slopes, problem: RideProblem, design: Present, minimise
         problem, x, minimise=minimise, within={name: one for name, one in values.items() if name != minimise}
     )
     gain = (values[minimise] - best.measures[minimise]) / abs(values[minimise])
-    if gain > _OPTIMUM or not best.active:
+    if gain > _OPTIMUM:
         return slopes, f"no prices: {minimise} could be {100 * gain:.1f} % less at the same other measures"
     sources = [Source(name, LIMIT, float(name.rpartition(" ")[2]), best.units[name]) for name in best.active]
     changes = np.full((len(sources), len(slopes.judged)), np.nan)

@@ -38,8 +38,7 @@ class ScipyProblem(FrozenMapping[str, Any]):
     def _designs(self, points: Real) -> Real:
         """Return designs (n, d) at points (n, e) or (e,) of the unit box."""
         lower, upper = self._coding.lower, self._coding.upper
-        codes = lower + np.clip(np.atleast_2d(points), 0.0, 1.0) * (upper - lower)
-        return np.clip(self._coding.decode(codes), self._problem.lower, self._problem.upper)  # of rounding
+        return self._coding.decode(np.clip(lower + np.atleast_2d(points) * (upper - lower), lower, upper))
 
     def _values(self, points: Real) -> Real:
         """Return objectives and constraints (n, m + c) at points (n, e) or (e,)."""
