@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from garage import DRIVER, FULL, GEOMETRY, QUARTER, ROAD
 from suspension_ctrl import LoadCase, Payload, RideProblem, Scatter, refine, robustness, sensitivity
+from suspension_ctrl.desk.slope_table import slopes_at
 
 BOUNDS = {"spring": (1e4, 3e4), "damper": (1e3, 4e3)}
 BAND = (0.3, 20.0)
@@ -202,3 +203,10 @@ def test_a_limit_on_an_objective_says_more_where_load_cases_are_averaged(worst_c
     given = {"bounds": BOUNDS, "band": BAND, "measures": ["ACC", "SWS"], "constraints": ["SWS <= 0.03"]}
     table = sensitivity(RideProblem(cases=cases, worst_case=worst_case, **given), [2e4, 2e3])
     assert len([name for name in table if name.startswith("SWS <=")]) == 2 * limits
+
+
+def test_values_of_a_measure_of_which_more_is_better_have_its_sign():
+    problem = quarter(measures=["ACC", "-damper_power"])
+    found = slopes_at(problem, [2e4, 2e3])
+    np.testing.assert_allclose(found.nominal, problem.evaluate([[2e4, 2e3]])[0] * [1, -1], rtol=1e-9)
+    assert found.nominal[1] > 0

@@ -122,6 +122,8 @@ def test_objects_are_checked(tmp_path):
     study = load_study("paper")
     with pytest.raises(ValueError, match=r"^present must hold spring, damper, got spring$"):
         replace(study, present={"spring": 1.0})
+    with pytest.raises(ValueError, match=r"^present must hold spring, damper, got spring, damper, seat$"):
+        replace(study, present={"spring": 1.0, "damper": 1.0, "seat": 1.0})
     with pytest.raises(ValueError, match=r"^problem must be a RideProblem, got 3$"):
         replace(study, problem=3)
     with pytest.raises(ValueError, match=r"^study must be a StudyFile, got 3$"):
@@ -172,4 +174,19 @@ def test_files_that_are_absent_hide_no_other_mistakes(path):
     assert all(any(line.startswith(start) for line in said) for start in starts)
     path.write_text(STUDY.replace('"yuen_ramli_2010"', '"no.toml"'))
     with pytest.raises(FileNotFoundError, match=r"no\.toml"):
+        load_study(path)
+
+
+def test_a_search_without_settings_is_that_of_the_paper_and_of_31_seeds():
+    search = SearchSettings()
+    assert (search.algorithms, search.populations, search.iterations) == (
+        ("nsga2", "moead-dra"), (500, 1000), (10, 20)
+    )  # fmt: skip
+    assert (search.repeats, search.seeds, search.seed, search.target) == (5, 31, 0, 0.995)
+
+
+@pytest.mark.parametrize(("measures", "least"), [('["ACC", "DTL"]', 10), ('["ACC", "SWS", "DTL"]', 15)])
+def test_a_population_too_small_for_an_algorithm_is_a_mistake_of_its_line(path, measures, least):
+    path.write_text(STUDY.replace('["ACC", "DTL"]', measures).replace("[40, 60]", "[9]"))
+    with pytest.raises(ValueError, match=rf"^[^\n]*search\.populations must be >= {least} [^\n]*, got 9$"):
         load_study(path)

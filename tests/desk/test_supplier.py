@@ -1,12 +1,13 @@
 """The sheet of a design: all its numbers stand on one page, the same each time."""
 
 import re
+from dataclasses import replace
 from io import BytesIO
 
 import pytest
 
 from garage import QUARTER, ROAD, SPEED
-from suspension_ctrl import RideProblem, supplier_sheet
+from suspension_ctrl import BumpStop, Damper, ReboundStop, RideProblem, Spring, parallel, supplier_sheet
 
 PROBLEM = RideProblem(
     QUARTER,
@@ -55,3 +56,14 @@ def test_the_file_depends_on_the_design_alone():
 def test_a_mistake_is_one_line(options, message):
     with pytest.raises(ValueError, match="^" + re.escape(message) + "$"):
         sheet(**options)
+
+
+def test_stops_are_drawn_as_far_as_the_softest_and_dampers_as_a_whole():
+    stops = BumpStop(gap=0.02, stiffness=1e6), ReboundStop(gap=0.02, stiffness=2e4)
+    car = replace(QUARTER, strut=parallel(Spring(), Damper("soft"), Damper("hard"), *stops))
+    bounds = {"spring": (10e3, 30e3), "soft": (100.0, 1e3), "hard": (1e3, 5e3)}
+    problem = RideProblem(car, ROAD, speed=SPEED, bounds=bounds, band=(0.1, 20.0))
+    dampers, springs = supplier_sheet(problem, [22e3, 100.0, 4e3]).axes
+    assert dampers.get_ylim()[1] > 4e3  # at 1 m/s
+    assert springs.get_xlabel() == "deflection [mm]"
+    assert springs.get_ylim() == pytest.approx((-4 * 2e4 * 0.08, 4 * 2e4 * 0.08))  # 80 mm beyond the gap

@@ -33,6 +33,7 @@ def test_more_of_a_maximised_measure_has_its_own_sign():
     assert found["softness"].present == pytest.approx(1 / 40)
     assert found["softest >= 0.05"].value == pytest.approx(1 / 12)
     assert judged(PROBLEM, PRESENT, {})[3].limit == "not met"
+    assert judged(PROBLEM, {"spring": 20e3, "damper": 1500.0}, {})[3].limit == "met"  # exactly
 
 
 def test_without_a_present_design_there_is_no_change():

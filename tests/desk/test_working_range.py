@@ -6,8 +6,18 @@ import numpy as np
 import pytest
 
 from garage import FULL, QUARTER, ROAD, SPEED
-from suspension_ctrl import BilinearDamper, LoadCase, Plant, QuarterCar, Spring, linearised, parallel, ride
-from suspension_ctrl.desk.working_range import DISTANCE, motions_of
+from suspension_ctrl import (
+    BilinearDamper,
+    LoadCase,
+    Payload,
+    Plant,
+    QuarterCar,
+    Spring,
+    linearised,
+    parallel,
+    ride,
+)
+from suspension_ctrl.desk.working_range import motions_of
 from suspension_ctrl.vehicles.assembly import GRAVITY
 
 BAND = (0.1, 20.0)
@@ -15,8 +25,8 @@ SETTING = {"spring": 22e3, "damper": 1500.0}
 
 
 def largest(deviation: float, rate: float) -> float:
-    """Davenport's expected largest value of as many upward crossings as Rice counts."""
-    g = np.sqrt(2 * np.log(rate / (2 * np.pi * deviation) * DISTANCE / SPEED))
+    """Davenport's expected largest value of as many upward crossings as Rice counts in 10 km."""
+    g = np.sqrt(2 * np.log(rate / (2 * np.pi * deviation) * 10e3 / SPEED))
     return deviation * (g + 0.5772156649015329 / g)
 
 
@@ -37,6 +47,10 @@ def test_left_and_right_are_one_row():
     setting = FULL.coefficients({"front": (21e3, 1500.0), "rear": (23e3, 1600.0)})
     found = motions_of(LoadCase(vehicle=FULL, road=ROAD, speed=SPEED), setting, (0.3, 20.0))
     assert [one.strut for one in found] == ["front", "rear"]
+    aside = Payload(mass=5.0, position=(0.0, 0.3)).on(FULL)
+    found = motions_of(LoadCase(vehicle=aside, road=ROAD, speed=SPEED), setting, (0.3, 20.0))
+    assert [one.strut for one in found] == ["front_left", "front_right", "rear_left", "rear_right"]
+    assert 0 < abs(found[0].travel / found[1].travel - 1) < 5e-3
 
 
 def test_a_damper_with_more_rebound_pulls_the_car_down():

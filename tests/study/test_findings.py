@@ -140,3 +140,15 @@ def test_a_run_that_raised_has_no_findings_and_a_row_of_its_own(comparison):
     assert last[last.error.eq("")].evaluations.eq(60).all()
     assert last[last.error.ne("")][["algorithm", "seed", "timing"]].to_numpy().tolist() == [["sobol", 2, False]]
     assert not {"set", "members", "budget"} & set(last)
+
+
+def test_every_number_of_iterations_has_findings(comparison):
+    both = Comparison(
+        problem=comparison.problem, algorithms=comparison.algorithms, populations=[20], iterations=[1, 2], seeds=8
+    )
+    between = table(comparison)[lambda rows: rows.budget.eq(20)].assign(budget=40, evaluations=40)
+    rows = pd.concat([table(comparison), between])
+    runs = rows.sort_values(["algorithm", "seed", "set", "budget"], ignore_index=True)
+    found = findings(both, runs, clock(), 0.905).medians
+    spent = found[found.lens.eq("equal iterations") & found.algorithm.eq("nsga2") & found.set.eq(POPULATION)]
+    assert spent[["iterations", "evaluations"]].to_numpy().tolist() == [[1, 40], [2, 60]]
