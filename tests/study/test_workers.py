@@ -6,6 +6,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -103,6 +104,62 @@ def test_a_scheduler_gives_the_same_also_when_one_of_its_workers_is_killed(alone
             first.kill()
             assert not any(failure for _, failure in made)
     pd.testing.assert_frame_equal(study().table(store).drop(columns="seconds"), alone)
+
+
+class Started:
+    """A context whose client starts when it is told to; it keeps what happens."""
+
+    def __init__(self, error: Exception | None = None):
+        self.go, self.error, self.done = threading.Event(), error, []
+
+    def __enter__(self):
+        self.go.wait(10)
+        if self.error:
+            raise self.error
+        self.done.append("entered")
+        return self
+
+    def run(self, function, argument):
+        assert function(argument) is None
+        self.done.append(argument)
+
+    def __exit__(self, kind, *_):
+        self.done.append(kind)
+
+
+def test_a_cluster_starts_beside_other_work():
+    context = Started()
+    with clusters.begun(context, "problem") as client:
+        assert context.done == []
+        context.go.set()
+        assert client() is context
+        assert context.done == ["entered", ("problem",)]
+    assert context.done[2:] == [None]
+
+
+def test_a_cluster_that_is_not_waited_for_is_left():
+    """With the error of the other work, which processes need to know that they are to be killed."""
+    context = Started()
+    context.go.set()
+    with pytest.raises(KeyError), clusters.begun(context):
+        raise KeyError
+    assert context.done == ["entered", (), KeyError]
+
+
+def test_an_error_of_a_start_is_raised_where_it_is_waited_for():
+    context = Started(ChildProcessError("processes must start"))
+    context.go.set()
+    with clusters.begun(context) as client, pytest.raises(ChildProcessError, match=r"^processes must start$"):
+        client()
+    assert context.done == []
+
+
+def test_a_need_that_workers_cannot_import_is_left_to_the_calls():
+    context = Started()
+    context.go.set()
+    context.run = None
+    with clusters.begun(context) as client:
+        assert client() is context
 
 
 class Here:

@@ -1,6 +1,6 @@
 """The steps of `suspension-ctrl compare`: timed runs, reference front, quality over seeds; files before prints."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -23,6 +23,7 @@ from ..study.kept_fronts import KeptFronts
 from ..study.reference import Reference
 from ..study.reference_files import load_reference
 from ..study.store import StoredRun, keeping
+from ..study.workers import begun
 from ..tables import write_csv, write_json, write_text
 from . import quality, reports, results, stages, studies, terminal
 from .comparison_page import Outcome, page
@@ -110,6 +111,15 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
         store = campaign.time()
     if resumed:  # by settings with which the runs in the folder agree
         studies.save_resolved(campaign.folder, settled(request, judged=judged))
+    if cluster is None:
+        return _told(request, store)
+    with begun(cluster, request.problem) as client:  # its processes start beside the figures of the timed runs
+        return _told(request, store, client)
+
+
+def _told(request: Request, store: Mapping[str, StoredRun], client: Callable[[], Any] | None = None) -> int:
+    """Write and print what came of the timed runs; with a client make those over many seeds. Return as above."""
+    campaign = request.campaign
     timed = timing.tidy(campaign.comparison, store).assign(timing=True)
     reports.write_times(request, store, timed)
     origin = _origin(request)
@@ -131,7 +141,7 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
         reports.say_times(request, store, timed)
     reports.say_quality(request, timed, reference)
     terminal.say()
-    return 0 if cluster is None else _judge(request, cluster, store, outcome, reference.front)
+    return _judge(request, client, store, outcome, reference.front) if client else 0
 
 
 def _origin(request: Request) -> str:
@@ -163,15 +173,15 @@ def settled(request: Request, *, judged: bool) -> StudyFile:
 
 def _judge(
     request: Request,
-    cluster: AbstractContextManager[Any],
+    client: Callable[[], Any],
     store: Mapping[str, StoredRun],
     outcome: Outcome,
     front: ReferenceFront,
 ) -> int:
     """Make the runs over many seeds and write and print what came of them; return the number that raised."""
     campaign = request.campaign
-    with cluster as client, terminal.compiling():
-        table, judged = campaign.judge(front, client)
+    with terminal.compiling():
+        table, judged = campaign.judge(front, client())
     write_csv(campaign.folder / "runs.csv", pd.concat([outcome.timed, last_rows(table)]))
     clock, target = timing.seconds_by_evaluations(campaign.comparison, store), request.study.search.target
     if results := findings(campaign.comparison, table, clock, target):

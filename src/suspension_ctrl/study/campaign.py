@@ -113,13 +113,15 @@ class Campaign:
     ) -> tuple[pd.DataFrame, Mapping[str, StoredRun]]:
         """Make the runs over many seeds, on a cluster if given; return their table (`Study.table`) and store."""
         store = Remembered(self._store(QUALITY, "seeds", reference=reference.summary(front)))
-        parts = []
-        for population, study in self.comparison.studies(front).items():
+        studies, tables = self.comparison.studies(front), dict[int, pd.DataFrame]()
+        for population in sorted(studies, reverse=True):  # the last runs, for which processes wait, are short
+            study = studies[population]
             planned = study.runs()
             found = sum(run.name in store for run in planned)
             text = f"quality, N = {population}"
             runs = self.watch(study.carry_out(store, client), len(planned), text, found)
-            parts.append(study.table(store, {run.name: failure for run, failure in runs if failure}))
+            tables[population] = study.table(store, {run.name: failure for run, failure in runs if failure})
+        parts = [tables[population] for population in studies]
         return pd.concat(parts, ignore_index=True).drop(columns="problem"), store
 
     def _store(self, name: str, *also: str, **plan: Any) -> FolderStore:

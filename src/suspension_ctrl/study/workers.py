@@ -64,8 +64,33 @@ def _local_cluster(jobs: int, dashboard: str | None) -> Iterator["Client"]:
             started.close()
             raise
         stack.enter_context(started)
-        stack.push(lambda kind, *_: _kill(started) if kind else None)
+        stack.callback(_kill, started)
         yield stack.enter_context(client)
+
+
+@contextmanager
+def begun(context: AbstractContextManager[Any], *needed: Any) -> Iterator[Callable[[], Any]]:
+    """Enter the context of a client in a thread, as processes take seconds to start; yield what waits for it.
+
+    Its workers import the modules of what will be `needed`. Errors of entering are raised where it is waited for.
+    """
+    with installed("study"):
+        import distributed  # noqa: F401  # by one thread at a time
+
+    def entered() -> Any:
+        client = context.__enter__()
+        with suppress(Exception):  # which the calls meet again, and name their run
+            client.run(_unpickled, needed)
+        return client
+
+    with ExitStack() as stack:
+        entering = stack.enter_context(ThreadPoolExecutor(1)).submit(entered)
+        stack.push(lambda *raised: None if entering.exception() else context.__exit__(*raised))
+        yield entering.result
+
+
+def _unpickled(_needed: Any) -> None:
+    """Do nothing with arguments, on a worker: they were unpickled."""
 
 
 def _started(jobs: int, dashboard: str | None) -> tuple[Any, "Client"]:
@@ -89,7 +114,7 @@ def _silence() -> None:
 
 
 def _kill(started: Any) -> None:
-    """Kill the processes of a cluster, which would take seconds to stop in the middle of a run."""
+    """Kill the processes of a cluster, which would take seconds to stop."""
     import psutil  # of distributed
 
     for nanny in started.workers.values():
