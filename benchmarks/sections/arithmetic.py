@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from suspension_ctrl.compiled import compiled
+from suspension_ctrl.response.any_struts import AnyStruts
 from suspension_ctrl.response.lanes import WIDTH, fused, spread, total
 from suspension_ctrl.response.linearisation import working_points
 from suspension_ctrl.response.many_struts import ManyStruts
@@ -94,11 +95,14 @@ def _least(function: Any, *arguments: Any) -> float:
 
 
 def work_of(case: Any, designs: NDArray[np.float64]) -> Work:
-    """Return the mean operations for a design of a kernel: `OneStrut`, `OnePort` or `ManyStruts`."""
+    """Return the mean operations for a design of a kernel."""
     if isinstance(case, OneStrut):
         return _of_one_strut(case)
     if isinstance(case, OnePort):
         return _of_one_port(case, float(working_points(case, designs).iterations.mean()))
+    if isinstance(case, AnyStruts):
+        points = working_points(case, designs) if len(case.networks.law) else None
+        return _of_any_struts(case, float(points.iterations.mean()) if points else 0.0)
     return _of_many_struts(case)
 
 
@@ -124,6 +128,25 @@ def _of_one_port(case: OnePort, iterations: float) -> Work:
     return Work(n * each, n * (gains * (1 + series) + others / 2), 8 * (2 + case.terms))
 
 
+def _of_any_struts(case: AnyStruts, iterations: float) -> Work:
+    """Return operations by node of networks, of blocks as of `_of_many_struts`, and by iteration of force laws.
+
+    Two elements in series are 24 multiply-adds and a division as above, and their sum with what stands beside them
+    2 at each strut of each block. An iteration of a block closes the loop, of two struts by 5, 16, 8 and 2
+    multiply-adds and a division; a squared deflection by source is 10 of two struts and 2 of others, and 1 more by
+    network; a law is 2.
+    """
+    n, blocks, laws = case.struts.omega.size, _of_many_struts(case.struts), len(case.networks.law)
+    series = int((case.networks.row > 0).sum())
+    struts = sum(q for q, _, _ in case.struts.sizes.tolist())
+    multiply_adds, divisions = 24.0 * series + (2 * struts if series else 0), float(series)
+    if laws:
+        closed = sum(_closed(q, s) for q, s, _ in case.struts.sizes.tolist())
+        multiply_adds += iterations * (multiply_adds + closed + 2 * laws)
+        divisions += iterations * (divisions + blocks.divisions / n)
+    return Work(blocks.multiply_adds + n * multiply_adds, blocks.divisions + n * divisions, blocks.bytes)
+
+
 def _of_many_struts(case: ManyStruts) -> Work:
     """Return operations by node of each block of q struts, s sources and k responses.
 
@@ -134,8 +157,18 @@ def _of_many_struts(case: ManyStruts) -> Work:
     """
     multiply_adds, divisions, n = 0.0, 0.0, case.omega.size
     for q, s, k in case.sizes.tolist():
-        inner = sum((q + s - c - 1) * (1 + q - c - 1) for c in range(q)) + s * q * (q - 1) // 2
-        loop = 41 + 16 * s if q == 2 else 3 * q + 4 * q * q + 4 * q + 4 * inner
-        multiply_adds += n * (loop + s * (4 * q + k * (4 * q + 2)))
+        deflections = 16 * s if q == 2 else 0
+        multiply_adds += n * (_loop(q, s) + deflections + s * (4 * q + k * (4 * q + 2)))
         divisions += n * (1 if q == 2 else q)
     return Work(multiply_adds, divisions, 8 * (len(case.origin) + case.channel.size))
+
+
+def _loop(q: int, s: int) -> int:
+    """Return the multiply-adds of the loop of q struts, with the deflections by s sources if they are not two."""
+    inner = sum((q + s - c - 1) * (1 + q - c - 1) for c in range(q)) + s * q * (q - 1) // 2
+    return 41 if q == 2 else 3 * q + 4 * q * q + 4 * q + 4 * inner
+
+
+def _closed(q: int, s: int) -> int:
+    """Return the multiply-adds from the loop of q struts to squared deflections of networks by s sources."""
+    return 31 + 2 * (10 * s + 1) if q == 2 else _loop(q, s) + q * (2 * s + 1)

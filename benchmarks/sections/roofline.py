@@ -34,6 +34,8 @@ ROWS = (
     Row("quarter car, damper on a mount", struts.QUARTER, "damper on a mount", 0.0),
     Row("quarter car, digressive damper", struts.QUARTER, "digressive damper", 0.0),
     Row("full car", struts.FULL, struts.DEFAULT, 0.5),
+    Row("full car, dampers on mounts", struts.FULL, "dampers on mounts", 0.0),
+    Row("full car, two dampers by measured tables", struts.FULL, "two dampers by measured tables", 0.0),
     Row("semitrailer", struts.TRUCK, "springs, dampers of two axles", 0.0),
 )
 THREADS = 1.8

@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 
+import struts_by_numpy
 from sections import arithmetic, roofline
 from suspension_ctrl.response.many_struts import ManyStruts
 
@@ -45,6 +46,13 @@ def test_operations_are_counted_by_node_and_block(table1_problem):
         channel=np.arange(3), gain=np.ones((4, 8)), order=np.zeros(4, dtype=int), origin=np.ones(4),
     )  # fmt: skip
     assert arithmetic.work_of(blocks, np.empty((0, 4))) == (8 * (2 * (41 + 24) + 30), 16, 56)
+
+
+def test_a_network_in_series_is_counted_once_for_all_struts():
+    """One block of two struts with 3 responses of one source at 24 frequencies, a damper on rubber in both."""
+    case, _ = struts_by_numpy.on_mounts(struts_by_numpy.random_struts([(2, 1, 3)], [False]), np.ones(4))
+    work = arithmetic.work_of(case, np.empty((0, 4)))
+    assert work[:2] == (24 * (41 + 24 + 3 * 10 + 24 + 4), 24 * 2)
 
 
 def test_the_limit_is_that_of_the_slowest_operation():

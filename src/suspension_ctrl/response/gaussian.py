@@ -11,9 +11,9 @@ import numpy as np
 from ..compiled import compilable
 from ..quantities import Real
 
-_POINTS = 16  # of the table per unit
+_POINTS = 64  # of the table per unit
 _LAST = 9  # of the table: less than 1e-18 lies above
-_ORDER = 10  # of Taylor's series about a point: the next term is below 1e-17
+_ORDER = 7  # of Taylor's series about a point: the next terms are below 5e-18
 
 
 def _table() -> Real:
