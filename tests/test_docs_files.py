@@ -6,7 +6,7 @@ import runpy
 import pytest
 
 from spoilt import changed
-from suspension_ctrl import Scatter, load_problem, load_vehicle
+from suspension_ctrl import Scatter, load_problem, load_study, load_vehicle, save_vehicle
 from suspension_ctrl.quantities import quantity
 
 
@@ -79,3 +79,14 @@ def test_the_pages_scatter_is_read(checkout, tmp_path):
     (tmp_path / "robust.toml").write_text(head + "band_Hz = [0.3, 20.0]\n" + scatter)
     given = {"spring": 0.05, "damper": (-0.25, 0.1), "front_tyre_stiffness": 0.1}
     assert load_problem(tmp_path / "robust.toml").scatter == Scatter(given, samples=512)
+
+
+def test_the_pages_study_is_read(checkout, tmp_path):
+    page = (checkout / "docs/files.md").read_text(encoding="utf-8")
+    (study,) = (text for text in re.findall(r"```toml\n(.*?)```", page, re.DOTALL) if "[search]" in text)
+    (tmp_path / "study.toml").write_text(study)
+    save_vehicle(tmp_path / "car.toml", load_vehicle("yuen_ramli_2010"))
+    found = load_study(tmp_path / "study.toml")
+    assert (found.name, found.search.populations) == ("My car on a country road", (200,))
+    assert found.present == {"spring": 22e3, "damper": 1500.0}
+    assert [str(one) for one in found.problem.constraints] == ["SWS <= 0.012"]

@@ -189,9 +189,8 @@ def attained(problem: RideProblem, present: Present, *, minimise: str | None = N
     rows = {PRESENT: own, PASSIVE: problem.evaluate(passive[None])[0]}
     if takes_sky(problem):
         sky = with_sky(limited)
-        more = len(sky.variables) - design.size
-        starts = np.array([[*passive, *[0.0] * more], [*passive, *(0.3 * np.array(sky.upper[-more:]))]])
-        best = least_of(sky, names[j], starts).measures
+        without = np.append(passive, np.zeros(len(sky.variables) - design.size))
+        best = least_of(sky, names[j], without[None]).measures
         rows[SKYHOOK] = np.array([best[name] for name in names])
     rows[ACTIVE] = least_controlled(active, j, own).measures
     table = pd.DataFrame(rows.values(), columns=column_headers(names, problem.units), index=list(rows))
