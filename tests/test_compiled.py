@@ -8,12 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numba import njit
+from numba import njit, typeof
 
 import suspension_ctrl
 from functions import dtlz2, srn
 from suspension_ctrl import MoeadDra, Nsga2, minimise
-from suspension_ctrl.compiled import compilable
+from suspension_ctrl.compiled import alike, compilable, entry, once
 
 
 @compilable()
@@ -33,6 +33,44 @@ def test_an_error_of_a_part_reaches_its_caller():
     assert quarter_of(3.0) == 0.75
     with pytest.raises(ValueError, match="x must be >= 0"):
         quarter_of(-1.0)
+
+
+def test_what_is_alike_is_of_one_type():
+    """Arrays by kind of number, dimensions, order, and whether they may be written and lie aligned."""
+    table, bytes_ = np.zeros((4, 3)), np.zeros(25, dtype=np.uint8)
+    fixed = table.copy()
+    fixed.flags.writeable = False
+    arguments = [
+        table, np.ones((2, 5)), table.T, table[:, ::2], table[0], fixed, bytes_[1:].view(float), np.zeros(2, bool),
+        np.zeros(3, np.int32), np.zeros(3, np.int64), 1.0, 2.0, True, 3, None, (1.0, table), (2.0, fixed),
+        np.random.default_rng(0), quarter_of,
+    ]  # fmt: skip
+    for one in arguments:
+        for other in arguments:
+            same = alike(one) == alike(other)
+            assert not same or typeof(one) == typeof(other)
+    assert alike(table) == alike(np.ones((2, 5)))
+    assert alike((1.0, table)) == alike((2.0, np.ones((2, 5)))) != alike((2.0, fixed))
+
+
+@njit
+def increased(x):
+    return x + 1
+
+
+def test_machine_code_is_that_of_the_types():
+    assert entry(increased, (1,)) is entry(increased, (5,))
+    assert entry(increased, (1,)) is not entry(increased, (1.0,))
+    assert (entry(increased, (1,))(2), entry(increased, (1.0,))(2.5)) == (3, 3.5)
+    assert entry(halved, (1.0,)) is halved
+
+
+def test_what_is_kept_is_made_once_and_has_a_limit():
+    made, kept = [], {}
+    for key in (*range(1000), 0, 999, "one more", 0):
+        once(kept, key, lambda key=key: made.append(key) or [key])
+    assert made == [*range(1000), "one more", 0]
+    assert len(kept) == 2
 
 
 WATCH = """

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
+import numpy as np
 from numba import njit, typeof
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler, Flags
@@ -42,9 +43,13 @@ def compilable(**options: Any) -> Callable[[F], F]:
     It becomes machine code as part of its callers alone. It cannot print or format, for which numba keeps an
     environment beside the machine code of a function.
     """
-    options |= {"no_cfunc_wrapper": True, "no_cpython_wrapper": True, "pipeline_class": _PartCompiler}
-    decorator: Callable[[F], F] = register_jitable(**options)
+    decorator: Callable[[F], F] = register_jitable(**as_part(options))
     return decorator
+
+
+def as_part(options: dict[str, Any]) -> dict[str, Any]:
+    """Return numba's options of a function that becomes machine code as part of its callers alone."""
+    return options | {"no_cfunc_wrapper": True, "no_cpython_wrapper": True, "pipeline_class": _PartCompiler}
 
 
 def uncounted(**options: Any) -> Callable[[F], F]:
@@ -64,7 +69,38 @@ def entry(function: Any, arguments: tuple[Any, ...]) -> Any:
     """
     if not is_jitted(function):
         return function
-    return overload(function, tuple(map(typeof, arguments))).entry_point
+
+    def make() -> Any:
+        return overload(function, tuple(map(typeof, arguments))).entry_point
+
+    return once(_ENTRIES, (function, *map(alike, arguments)), make)
+
+
+_ENTRIES: dict[Any, Any] = {}
+_MOST = 1000  # that are kept
+
+
+def once(kept: dict[Any, Any], key: Any, make: Callable[[], Any]) -> Any:
+    """Return what is kept under a key; it is made if there is nothing."""
+    found = kept.get(key)
+    if found is None:
+        if len(kept) >= _MOST:
+            kept.clear()
+        found = kept[key] = make()
+    return found
+
+
+def alike(argument: Any) -> Any:
+    """Return what is equal for arguments of one type alone.
+
+    Numba takes a third of a millisecond to tell the types of all arguments of a search.
+    """
+    kind = type(argument)
+    if kind is np.ndarray:
+        return argument.dtype, argument.ndim, argument.flags.num
+    if isinstance(argument, tuple):
+        return kind, *map(alike, argument)
+    return kind if kind is float or kind is bool else typeof(argument)
 
 
 def overload(function: Any, kinds: tuple[Any, ...]) -> Any:

@@ -18,7 +18,7 @@ from numba.core.registry import cpu_target
 from numba.extending import intrinsic, is_jitted, lower_builtin, models, register_model, type_callable
 from numba.np.arrayobj import make_array
 
-from .compiled import compiled, overload
+from .compiled import alike, compiled, once, overload
 
 
 def call(verb: Any, arguments: tuple[Any, ...]) -> Any:
@@ -155,12 +155,22 @@ def linked(verb: Any) -> Any:
     """Return where a verb lies in memory; without numba the verb as it is."""
     if not is_jitted(_REMEMBER[0]):  # NUMBA_DISABLE_JIT
         return verb
-    kind, stored = typeof(verb), storable(verb)
-    target = cpu_target.target_context
-    memory = np.empty(-(-target.get_abi_sizeof(target.get_value_type(kind)) // 8), dtype=np.int64)
-    overload(_REMEMBER[stored], (kind, _MEMORY)).entry_point(verb, memory)
+    size, remember, function = once(_LINKS, alike(verb), lambda: _link(verb))
+    memory = np.empty(size, dtype=np.int64)
+    remember(verb, memory)
+    return Linked(function, memory)
+
+
+_LINKS: dict[Any, tuple[int, Any, int]] = {}
+
+
+def _link(verb: Any) -> tuple[int, Any, int]:
+    """Return how many integers hold a verb, what puts it there, and the address of the function that calls it."""
+    kind, stored, target = typeof(verb), storable(verb), cpu_target.target_context
+    size = -(-target.get_abi_sizeof(target.get_value_type(kind)) // 8)
+    remember = overload(_REMEMBER[stored], (kind, _MEMORY)).entry_point
     made = overload(_RECALL[stored], (_AtAddress(kind), _VECTOR, _VECTOR))
-    return Linked(made.library.get_pointer_to_function(made.fndesc.llvm_func_name), memory)
+    return size, remember, made.library.get_pointer_to_function(made.fndesc.llvm_func_name)
 
 
 def is_linked(verb: Any) -> bool:

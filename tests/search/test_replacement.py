@@ -82,19 +82,25 @@ def test_whom_a_child_replaces_with_constraints(child, replaced):
     np.testing.assert_array_equal(ideal, np.minimum(child[:2], 1.0) if feasible else 1.0)
 
 
+@pytest.mark.parametrize("ordered", [False, True])
 @pytest.mark.parametrize(("m", "c"), [(2, 0), (3, 0), (5, 0), (3, 2)])
-def test_replacements_in_a_sweep_are_those_one_by_one(m, c):
-    """Costs that are kept follow replaced partners, new weights and the ideal point, which moves now and then."""
-    rng = np.random.default_rng(m + c)
-    weights = np.maximum(decomposition.weight_vectors(40, m), decomposition.ZERO_WEIGHT)
-    designs, values = rng.random((40, 2)), np.hstack([rng.random((40, m)), rng.random((40, c)) - 0.5])
+def test_replacements_in_a_sweep_are_those_one_by_one(m, c, ordered):
+    """Costs that are kept follow replaced partners, new weights and the ideal point, which moves now and then.
+
+    Every third child is compared with all 43, which are no whole number of words of eight marks.
+    """
+    rng, n, everyone = np.random.default_rng(m + c), 43, np.arange(43)
+    weights = np.maximum(decomposition.weight_vectors(n, m), decomposition.ZERO_WEIGHT)
+    designs, values = rng.random((n, 2)), np.hstack([rng.random((n, m)), rng.random((n, c)) - 0.5])
     children = rng.random((200, 2))
     drift = np.linspace(0, 1 / m, 200)[:, np.newaxis]
     born = np.hstack([rng.random((200, m)) - drift, rng.random((200, c)) - 0.5])
-    ranges = np.array([rng.permutation(40)[:15] for _ in born])
+    ranges = [
+        rng.permutation(n)[:15] if k % 3 else everyone if ordered else everyone[::-1].copy() for k in range(200)
+    ]
     assert (np.diff(np.minimum.accumulate(born[:, 0])) < 0).sum() > 3
     assert c == 0 or 20 < (violations(born, m) > 0).sum() < 180
-    one, whole = ReplaceWorse(4), ReplaceInSweep.of(ReplaceWorse(4), np.arange(40), np.empty(m))
+    one, whole = ReplaceWorse(4), ReplaceInSweep.of(ReplaceWorse(4), everyone, np.empty(m), ordered)
     for span in (1.0, 2.0):
         found = []
         for verb in (one, whole):

@@ -32,7 +32,7 @@ class InfeasibleWarning(UserWarning):
     """
 
 
-@uncounted()
+@uncounted(forceinline=True)
 def violation_of(value: Real, m: int) -> float:
     """Return the sum of max(0, g) over the constraints among the values (m + c,) of a design."""
     violation = 0.0

@@ -2,7 +2,6 @@
 
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from itertools import zip_longest
 from math import inf, nan
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING, Any
@@ -208,7 +207,7 @@ class _Search:
 
     def _together(self, left: float, end: float) -> int:
         """Return how many of the iterations left may pass unseen: those of `_UNSEEN`, or of half the time left."""
-        if len(self.rows) < 3:  # the first iteration may compile
+        if len(self.rows) < 2:
             return 1
         pace = max(self.rows[-1][2] - self.rows[-2][2], 1e-9)
         return int(max(1, min(left, min(_UNSEEN, (end - perf_counter()) / 2) / pace)))
@@ -251,10 +250,11 @@ class _Search:
 def _rows(before: tuple[float, ...], spent: tuple[float, ...], course: Real) -> Iterator[tuple[float, ...]]:
     """Yield the rows of iterations by their ideal points (k, m), which share equally what was spent in all."""
     ideals = np.where(course < WORST, course, nan).tolist()
-    for share, ideal in enumerate(ideals[:-1], 1):
-        passed = (a + (b - a) * share / len(ideals) for a, b in zip_longest(before, spent, fillvalue=0.0))
-        iteration, evaluations, *seconds = passed
-        yield int(iteration), int(evaluations), *seconds, *ideal
+    if len(ideals) > 1:
+        first, steps = np.array(before), np.arange(1, len(ideals))[:, np.newaxis]
+        passed = (first + (spent - first) * steps / len(ideals)).tolist()
+        for (iteration, evaluations, *seconds), ideal in zip(passed, ideals, strict=False):
+            yield int(iteration), int(evaluations), *seconds, *ideal
     yield *spent, *ideals[-1]
 
 

@@ -76,11 +76,12 @@ class Coding:
         self.decoding = _decoding(kinds, problem.lower, problem.upper)
         form, low, high, _ = self.decoding
         self.plain = bool((form == REAL).all())
-        half = np.where(form >= WHOLE, 0.5, 0.0)
-        with np.errstate(invalid="ignore", divide="ignore"):  # of variables without a logarithm
-            low, high = (np.where(form == LOGARITHM, np.log(bound), bound) for bound in (low, high))
-        self.lower, self.upper = (low - half)[form != HELD], (high + half)[form != HELD]
-        self.discrete = form[form != HELD] >= WHOLE
+        self.lower, self.upper, self.discrete = low, high, form >= WHOLE
+        if not self.plain:
+            half, kept = np.where(form >= WHOLE, 0.5, 0.0), form != HELD
+            with np.errstate(invalid="ignore", divide="ignore"):  # of variables without a logarithm
+                low, high = (np.where(form == LOGARITHM, np.log(bound), bound) for bound in (low, high))
+            self.lower, self.upper, self.discrete = (low - half)[kept], (high + half)[kept], self.discrete[kept]
 
     def kernel(self, kernel: Kernel) -> Kernel:
         """Return the kernel as a function of codes."""

@@ -15,7 +15,7 @@ def sample_uniform(rng: np.random.Generator, size: int, lower: Real, upper: Real
     return lower + (upper - lower) * rng.random((size, lower.size))
 
 
-@uncounted()
+@uncounted(forceinline=True)
 def draw_below(rng: np.random.Generator, count: int) -> np.int64:
     """Return a whole number drawn uniformly from 0 to count - 1."""
     return np.int64(rng.random() * count)
@@ -111,7 +111,7 @@ def mutated(designs: Real, mutates: Bool, draws: Real, lower: Real, upper: Real,
     return mutants
 
 
-@uncounted()
+@uncounted(forceinline=True)
 def mutated_value(value: float, u: float, lower: float, upper: float, eta: float) -> float:
     """Return the polynomial mutation of a value in its bounds for the draw u."""
     width = upper - lower
@@ -173,7 +173,7 @@ class RedrawOutside(NamedTuple):
         return child
 
 
-@uncounted()
+@uncounted(forceinline=True)
 def mutate_design(verb: MutateDesign, rng: np.random.Generator, design: Real) -> None:
     """Mutate a design (d,) in place."""
     # The number of variables up to the next that changes is drawn, geometric: the floor of an exponential number.
@@ -187,7 +187,7 @@ def mutate_design(verb: MutateDesign, rng: np.random.Generator, design: Real) ->
         v += 1
 
 
-@uncounted()
+@uncounted(forceinline=True)
 def differ(
     verb: DifferentialChild, rng: np.random.Generator, designs: Real, i: int, partners: Integer, child: Real
 ) -> None:
@@ -199,7 +199,7 @@ def differ(
         child[v] = designs[i, v] + verb.scale * (designs[one, v] - designs[other, v])
 
 
-@uncounted()
+@uncounted(forceinline=True)
 def redraw_outside(verb: RedrawOutside, rng: np.random.Generator, child: Real, parent: Real) -> None:
     """Repair a child (d,) of a parent (d,) in place."""
     for v in range(child.size):

@@ -20,7 +20,7 @@ class ChildInSweep(NamedTuple):
     repair: RedrawOutside
     mutate: MutateDesign
 
-    @uncounted()
+    @uncounted(forceinline=True)
     def __call__(self, rng: np.random.Generator, designs: Real, i: int, partners: Integer, child: Real) -> int:
         """Put a child of individual i into `child` (d,) and return 0."""
         differ(self.reproduce, rng, designs, i, partners, child)

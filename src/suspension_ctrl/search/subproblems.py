@@ -17,12 +17,12 @@ class Decomposed(NamedTuple):
     designs: Real  # (N, d)
     values: Real  # (N, m + c), objectives, then constraints
     ideal: Real  # (m,) least value seen of each objective, of feasible designs once there is one
-    vectors: Real  # (N, m) weight vectors
+    vectors: Real  # (N, m) weight vectors, objective by objective in memory
     normalise: bool
     neighbours: Integer  # (N, T) nearest subproblems of each, itself first
     corners: Integer  # (m,) subproblems of one objective each
     utility: Real  # (N,)
-    weights: Real  # (N, m) weight vectors, normalised over the spans of the objectives
+    weights: Real  # (N, m) weight vectors, likewise, over the spans of the objectives
     known: Real  # (m,) ideal point at which a sweep knows costs, NaN: none
     everyone: Integer  # (N,)
     unchosen: Integer  # (N,) work space
@@ -35,8 +35,9 @@ class Decomposed(NamedTuple):
     ) -> "Decomposed":  # fmt: skip
         """Return the population of which so many subproblems are chosen in an iteration."""
         everyone, known = np.arange(len(designs)), np.full(ideal.size, np.nan)
+        vectors = np.asfortranarray(vectors)
         return cls(
-            designs, values, ideal, vectors, normalise, neighbours, corners, utility, vectors.copy(), known,
+            designs, values, ideal, vectors, normalise, neighbours, corners, utility, vectors.copy("F"), known,
             everyone, everyone.copy(), everyone[:chosen].copy(),
         )  # fmt: skip
 
@@ -54,15 +55,16 @@ def scale_weights(vectors: Real, values: Real, ideal: Real, weights: Real, known
     That is the distance from the ideal point to the worst feasible design (any, if none), 1 where it is zero.
     """
     size, m = weights.shape
-    limit = np.inf  # of the violation
-    for i in range(size):
+    limit, i = np.inf, 0  # of the violation
+    while limit > 0.0 and i < size:
         if values[i, 0] < WORST and violation_of(values[i], m) == 0.0:
             limit = 0.0
+        i += 1
     for j in range(m):
         worst = -np.inf
         for i in range(size):
-            if worst < values[i, j] < WORST and violation_of(values[i], m) <= limit:
-                worst = values[i, j]
+            counts = (values[i, j] < WORST) & (violation_of(values[i], m) <= limit)
+            worst = values[i, j] if counts & (values[i, j] > worst) else worst
         span = worst - ideal[j]
         span = span if span > 0.0 else 1.0
         for i in range(size):

@@ -16,8 +16,10 @@ from ..quantities import Integer, Real
 from .clock import untimed
 from .decomposition import ByTournament, MatingRange, RangeInSweep, choose
 from .evaluation import WORST, SearchProblem
+from .prefetch import prefetch
 from .replacement import ReplaceInSweep, ReplaceWorse
 from .reproduction import OUTSIDE, WRONG_SIZE, ChildByVerbs, ChildInSweep, child_maker
+from .stream import put_back, stream_of
 from .subproblems import Decomposed, scale_weights
 
 
@@ -39,13 +41,15 @@ def sweep_sequential(
     if not sweep.tournament:
         course = course[:1]
         population.begin(rng, toolbox)
-    given = rng, population, sweep.tournament, course, problem.strict, children, born, *sweep.verbs
+    draws = stream_of(rng) if sweep.own and is_jitted(_UNCOUNTED) else rng
+    given = draws, population, sweep.tournament, course, problem.strict, children, born, *sweep.verbs
     if not problem.sweep:
         try:
             problem.sweep = sweep._replace(run=entry(sweep.run, given))
         except NumbaError as error:
             raise ValueError(f"verbs must compile together, got {str(error).splitlines()[0]}") from None
     iterations, made, failures = problem.sweep.run(*given)
+    put_back(draws, rng)
     if made < 0:
         raise ValueError(_FAULTS[made])
     if sweep.compiled:
@@ -60,6 +64,7 @@ class Sweep(NamedTuple):
     tournament: int  # by which the loop chooses subproblems; 0: they are chosen before
     verbs: tuple[Any, ...]
     compiled: bool
+    own: bool = False  # verbs of this package alone, which draw from a `Stream`
 
 
 def swept_by(toolbox: Toolbox, problem: SearchProblem, population: Decomposed) -> Sweep:
@@ -81,15 +86,15 @@ def swept_by(toolbox: Toolbox, problem: SearchProblem, population: Decomposed) -
     mating_range, reproduce, repair, mutate, update, evaluate = found
     make = child_maker(reproduce, repair, mutate, np.array([problem.lower, problem.upper]))
     if isinstance(update, ReplaceWorse):
-        update = ReplaceInSweep.of(update, population.everyone, population.known)
+        everyone, near = population.neighbours.shape
+        ordered = isinstance(mating_range, MatingRange) and near < everyone
+        update = ReplaceInSweep.of(update, population.everyone, population.known, ordered)
     place = linked(EvaluateChild(evaluate))
-    if tuple(map(type, (mating_range, make, update, place))) == _OWN:
-        run, mating_range = _UNCOUNTED, RangeInSweep(mating_range.probability)
-    else:
-        run, mating_range = _COUNTED, CheckedRange(mating_range)
+    own = tuple(map(type, (mating_range, make, update, place))) == _OWN
+    mating_range = RangeInSweep(mating_range.probability) if own else CheckedRange(mating_range)
     choice = compiled_verb(untimed(toolbox.choose_subproblems))
     tournament = choice.tournament if isinstance(choice, ByTournament) else 0
-    return Sweep(run, tournament, (mating_range, make, update, place), True)
+    return Sweep(_UNCOUNTED if own else _COUNTED, tournament, (mating_range, make, update, place), True, own)
 
 
 def sweep_batch(
@@ -154,6 +159,8 @@ def iterate(
             choose(rng, utility, corners, tournament, unchosen, chosen)
         for k in range(chosen.size):
             i, child, value = chosen[k], children[k], born[k]
+            if k + 1 < chosen.size:
+                prefetch(neighbours, chosen[k + 1])
             partners = call(mating_range, (rng, i, neighbours[i], everyone, neighbours))
             fault = NOBODY if partners.size < 2 else call(make, (rng, designs, i, partners, child))
             failed = fault if fault < 0 else call(evaluate, (child, value))
