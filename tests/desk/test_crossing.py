@@ -37,6 +37,18 @@ def test_from_a_corner_to_the_best_one():
     assert best.value == pytest.approx(1 - 0.05 * 2 * 0.36, rel=1e-12)
 
 
+def test_the_first_corner_is_not_returned_to():
+    end, begun = ends_of(0.4)[0], []
+
+    def noted(design):
+        begun.append(tuple(design))
+        return program_of(end.program.atoms.problem, design, "hill", {})
+
+    crossed(end, noted)
+    assert begun
+    assert tuple(end.design) not in begun
+
+
 def test_where_the_other_side_is_worse_the_optimum_stays():
     end, best = ends_of(0.6)
     np.testing.assert_allclose(end.design, LOWER)
