@@ -18,7 +18,7 @@ def test_ports_leave_the_responses_of_a_vehicle_as_they_are(name):
     ports.add(parameters_of(CAR)[name], 0)
     with_ports, names = ports.assembly(), list(CAR.responses)
     s, r, q = 4j * np.pi, len(CAR.roads), len(CAR.struts)
-    found, before = plant_of(with_ports, names)(s)[: len(names)], plant_of(CAR, names)(s)[: len(names)]
+    found, before = (plant_of(one, names).system()(s)[: len(names)] for one in (with_ports, CAR))
     more = found.shape[1] - len(with_ports.struts)
     roads = found[:, :r] + (s * found[:, r:more] if more > r else 0.0)
     np.testing.assert_allclose(roads, before[:, :r], rtol=1e-9, atol=1e-9 * np.abs(before).max())

@@ -6,7 +6,8 @@ import pytest
 
 from garage import DAMPED_QUARTER, FULL, struts_of
 from suspension_ctrl import Plant
-from suspension_ctrl.vehicles.feedback import MeasuredResponse, around, gains_by_order
+from suspension_ctrl.vehicles.feedback import around, gains_by_order
+from suspension_ctrl.vehicles.measured_response import MeasuredResponse
 
 
 def test_a_gain_around_a_plant_is_the_feedback_of_python_control():

@@ -15,6 +15,7 @@ from ..search.driver import minimise as search
 from ..search.nsga2 import Nsga2
 from .bound import LEAST, LQG, LQR, SKYHOOK, WITHIN
 from .candidate_table import PRESENT, Present, design_of, reaching
+from .halton import halton
 from .refinement import least_of
 from .skyhook_problems import takes_sky, with_sky
 
@@ -211,9 +212,7 @@ def _checked_sensors(problem: RideProblem, sensors: Mapping[str, float]) -> Real
 
 def _weights(m: int, points: int) -> Real:
     """Return weights (points, m) of sum 1, ratios to the first evenly from 1/100 to 100 in the logarithm."""
-    from scipy.stats.qmc import Halton
-
-    logarithms = (2 * Halton(m - 1, scramble=False).random(points) - 1) * np.log(_RATIO)
+    logarithms = (2 * halton(points, m - 1) - 1) * np.log(_RATIO)
     weights = np.exp(np.column_stack([np.zeros(points), logarithms]))
     return np.asarray(weights / weights.sum(axis=1, keepdims=True))
 

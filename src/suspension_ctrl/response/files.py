@@ -19,8 +19,7 @@ from ..tables import write_text
 from ..vehicles.files import VehicleFile, coefficient_table, read_coefficients, vehicle_table
 from ..vehicles.handling import RollGeometry
 from ..vehicles.mounted import Payload, Seat
-from ..vehicles.plant_files import plant_table
-from ..vehicles.plants import Plant
+from ..vehicles.plant_files import is_plant, plant_table
 from ..vehicles.unit_slips import UnitSlipWarning, slip_of
 from ..vehicles.vehicle import Vehicle, coefficients_by_name
 from . import weightings
@@ -238,7 +237,7 @@ def _case_documents(cases: Sequence[LoadCase], path: Path) -> Iterator[CaseDocum
             system = path.with_name(f"{path.stem}_vehicle{len(vehicles) + 1}")
             vehicles[vehicle] = (
                 plant_table(vehicle, system)
-                if isinstance(vehicle, Plant)
+                if is_plant(vehicle)
                 else vehicle_table(VehicleFile(vehicle=vehicle, unusual=slip_of(vehicle) is not None))
             )
         yield CaseDocument(

@@ -4,12 +4,11 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from typing import NamedTuple
 
-import control
 import numpy as np
 
 from ..quantities import Complex, Real
 from ..vehicles.assembly import ResponseName
-from ..vehicles.feedback import ORDERS, around, gains_by_order
+from ..vehicles.feedback import ORDERS, System, around, gains_by_order, has_states
 from ..vehicles.vehicle import Vehicle
 
 _TOGETHER = 1000  # frequencies at which equations are solved together
@@ -41,7 +40,7 @@ class Ports(NamedTuple):
         gains = gains_by_order(vehicle.strut_coefficients, values or {}, q)
         if added is not None:
             gains += added
-        plant = around(vehicle.plant(distinct), gains)
+        plant = around(vehicle.bare(distinct), gains)
         rows = [*map(distinct.index, integrals), *range(len(distinct), len(distinct) + q)]
         h = paths(plant, f)[:, rows]
         jerks = [i for i, (name, one) in enumerate(zip(responses, integrals, strict=True)) if name != one]
@@ -55,7 +54,7 @@ class Ports(NamedTuple):
         return self._replace(h=h + h[:, :, r:] @ np.linalg.solve(loop, stiffness @ h[:, m:]))
 
 
-def paths(system: control.LTI, f: Real) -> Complex:
+def paths(system: System, f: Real) -> Complex:
     """Return H(w) (n, outputs, inputs) at ascending f (n,) [Hz]; rates of roads are added to the roads."""
     omega = 2 * np.pi * f
     h = _frequency_response(system, omega)
@@ -65,12 +64,12 @@ def paths(system: control.LTI, f: Real) -> Complex:
     return h
 
 
-def _frequency_response(system: control.LTI, omega: Real) -> Complex:
+def _frequency_response(system: System, omega: Real) -> Complex:
     """Return H(w) (n, outputs, inputs) at ascending w (n,) [rad/s], bit for bit as by python-control.
 
     That solves frequency by frequency, in 20 times the time: a road of 10,000 points has 100,000 of them.
     """
-    if isinstance(system, control.StateSpace) and system.nstates > 1:
+    if has_states(system) and system.nstates > 1:
         states = np.eye(system.nstates)
         parts = np.split(omega, range(_TOGETHER, omega.size, _TOGETHER))
         with suppress(np.linalg.LinAlgError):  # at a pole

@@ -4,9 +4,8 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import control
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -29,6 +28,9 @@ from .scatter import Scatter, Tolerance, scatter_of
 from .scores import Scores
 from .scoring import Scoring, judged_by
 from .weightings import Weighting, checked
+
+if TYPE_CHECKING:
+    import control
 
 
 class _Found(int):
@@ -132,7 +134,7 @@ class RideProblem(Record):
         road: Road | None = None,
         *,
         speed: float | None = None,
-        weighting: Weighting | control.LTI | None = "Wk",
+        weighting: "Weighting | control.LTI | None" = "Wk",
         band: tuple[float, float] | None = None,
         lower: Sequence[float] = (),
         upper: Sequence[float] = (),

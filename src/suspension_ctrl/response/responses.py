@@ -4,7 +4,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-import control
 import numpy as np
 
 from .. import checks
@@ -23,6 +22,7 @@ from .scores import NODES, RESOLVED, Score, Scores
 from .weightings import Weighting, checked
 
 if TYPE_CHECKING:
+    import control
     import pandas as pd
 
 _ROUNDING = 1e-11  # of a sum over wheels, relative
@@ -35,7 +35,7 @@ def ride(
     road: Road,
     speed: float,
     *,
-    weighting: Weighting | control.LTI | None = "Wk",
+    weighting: "Weighting | control.LTI | None" = "Wk",
     band: tuple[float, float] | None = None,
     measures: Sequence[MeasureLike] = ("ACC", "SWS", "DTL"),
     events: Mapping[str, Any] | None = None,
@@ -154,7 +154,7 @@ def _note(one: CaseMeasure, diverging: set[ResponseName], off: Mapping[Term, flo
     return "" if worst < RESOLVED else f"not resolved: {nodes} and {2 * nodes} nodes differ by {worst:.1g}"
 
 
-def frequency_responses(closed: control.LTI, f: Real, delays: Sequence[float] = (0.0,)) -> dict[str, Complex]:
+def frequency_responses(closed: "control.LTI", f: Real, delays: Sequence[float] = (0.0,)) -> dict[str, Complex]:
     """Return H(w) (n,) by response [unit/m] to a road identical on all tracks, with r delays of the wheels [s].
 
     Sums below rounding are zero: the roll of a symmetric vehicle.
@@ -166,7 +166,7 @@ def frequency_responses(closed: control.LTI, f: Real, delays: Sequence[float] = 
     return dict(zip(closed.output_labels, h.T, strict=True))
 
 
-def response_psds(closed: control.LTI, f: Real, road: Real | Complex) -> dict[str, Real]:
+def response_psds(closed: "control.LTI", f: Real, road: Real | Complex) -> dict[str, Real]:
     """Return the spectrum of every response, equation (3): under one wheel ``|H(w)|^2`` times the road's.
 
     Parameters
@@ -201,6 +201,8 @@ def response_psds(closed: control.LTI, f: Real, road: Real | Complex) -> dict[st
     >>> round(192e3 / 317.5, 2)
     604.72
     """
+    import control
+
     checks.of_kind("closed", closed, control.LTI)
     f = checks.reals("f must be", f).reshape(-1)
     if not (isinstance(road, np.ndarray) and road.dtype.kind in "iufc" and road.shape[:1] == f.shape):

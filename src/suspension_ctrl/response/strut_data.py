@@ -3,13 +3,13 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-import control
 import numpy as np
 from scipy.linalg import block_diag
 
 from ..quantities import Bool, Complex, Integer, Real
 from ..vehicles.assembly import GRAVITY, Network, ResponseName
 from ..vehicles.elements import MeasuredStiffness
+from ..vehicles.feedback import has_states
 from ..vehicles.networks import LAW, MEASURED, PARALLEL, SERIES, Program, elements_of
 from ..vehicles.varied import Varied
 from ..vehicles.vehicle import AssembledVehicle, Vehicle
@@ -130,8 +130,8 @@ def _statics(networks: Networks, vehicle: Vehicle, setting: Mapping[str, float],
         got = f"none at {vehicle.struts[int(slack.argmax())] or 'the wheel'}"
         raise ValueError(f"struts must have a spring that carries the vehicle, got {got}")
     lowest = 0.0
-    plant = vehicle.plant(vehicle.responses[:1])
-    if not isinstance(plant, control.StateSpace):
+    plant = vehicle.bare(vehicle.responses[:1])
+    if not has_states(plant):
         lowest = plant.omega[0] / (2 * np.pi)
     gains = np.pad(added[None], ((0, 2), (0, 0), (0, 0)))
     ports = Ports.of(vehicle, np.array([lowest]), vehicle.responses[:1], setting, gains)

@@ -1,6 +1,7 @@
 """Weighted root mean square of a given spectrum."""
 
-import control
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -9,11 +10,14 @@ from ..quantities import Real
 from . import weightings
 from .weightings import Weighting
 
+if TYPE_CHECKING:
+    import control
+
 
 def weighted_rms(
     frequency: ArrayLike,
     psd: ArrayLike,
-    weighting: Weighting | control.LTI | None = "Wk",
+    weighting: "Weighting | control.LTI | None" = "Wk",
     *,
     band: tuple[float, float] | None = None,
 ) -> float:

@@ -4,17 +4,20 @@ The filters are the analogue ones of ISO 8041-1, the table its design-goal facto
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
-from typing import Any, ClassVar
+from functools import cached_property, lru_cache, reduce
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-import control
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import checks, datafiles
 from ..quantities import Complex, Real, Record, frozen_array
 from ..vehicles.feedback import numbers_of, system_of
+
+if TYPE_CHECKING:
+    import control
 
 
 @dataclass(frozen=True)
@@ -55,25 +58,39 @@ class SystemWeighting(Record):
     """Frequencies at which the factor has a kink [Hz]: none."""
 
     @classmethod
-    def of(cls, system: control.LTI) -> "SystemWeighting":
+    def of(cls, system: "control.LTI") -> Self:
         """Take a system; ValueError unless it has one input and one output and is in continuous time."""
         if not (system.ninputs == system.noutputs == 1 and system.isctime()):
             got = f"{system.ninputs} and {system.noutputs}, dt = {system.dt}"
             raise ValueError(f"weighting must have one input and one output in continuous time, got {got}")
-        of_quotient = isinstance(system, control.TransferFunction)
-        numbers = (system.num[0][0], system.den[0][0]) if of_quotient else numbers_of(system)
+        if hasattr(system, "num"):
+            return cls.by_numbers(system.name, [system.num[0][0], system.den[0][0]])
+        return cls.by_numbers(system.name, numbers_of(system))
+
+    @classmethod
+    def by_numbers(cls, name: str, numbers: Iterable[NDArray[Any]]) -> Self:
+        """Take numerator and denominator, highest powers first, or the numbers of another system."""
         frozen = tuple(frozen_array(x, complex if np.iscomplexobj(x) else float) for x in numbers)
-        return cls(name=system.name, numbers=frozen)
+        return cls(name=name, numbers=frozen)
 
     @cached_property
-    def system(self) -> control.LTI:
+    def system(self) -> "control.LTI":
         """The system of the weighting."""
-        return control.tf(*self.numbers) if self.numbers[0].ndim == 1 else system_of(self.numbers)
+        if not self.is_quotient:
+            return system_of(self.numbers)
+        import control
+
+        return control.tf(*self.numbers)
+
+    @property
+    def is_quotient(self) -> bool:
+        """Whether its numbers are a numerator and a denominator."""
+        return self.numbers[0].ndim == 1
 
     @property
     def is_measured(self) -> bool:
         """Whether it is known at lines alone."""
-        return isinstance(self.system, control.FrequencyResponseData)
+        return self.numbers[0].ndim == 3
 
     def factor(self, f: ArrayLike) -> Real:
         """Magnitude of the weighting at the frequencies `f` (n,) [Hz], shape (n,) [-]."""
@@ -81,7 +98,11 @@ class SystemWeighting(Record):
 
     def response(self, f: ArrayLike) -> Complex:
         """Return magnitude and phase of the weighting at the frequencies `f` (n,) [Hz], shape (n,) [-]."""
-        return np.asarray(self.system(2j * np.pi * np.asarray(f, dtype=float)))
+        s = 2j * np.pi * np.asarray(f, dtype=float)
+        if self.is_quotient:
+            numerator, denominator = self.numbers
+            return np.asarray(np.polyval(numerator, s) / np.polyval(denominator, s))
+        return np.asarray(self.system(s))
 
     def __str__(self) -> str:
         return str(self.name)
@@ -95,11 +116,17 @@ BANDS = 10.0 ** (np.arange(-10, 21) / 10)
 
 TABLES = ("Wk-table", "Wb-table")
 
+Quotient = tuple[list[float], list[float]]
+"""Numerator and denominator, highest powers first."""
 
-def checked(weighting: Weighting | control.LTI | None) -> Weighting | None:
+
+def checked(weighting: "Weighting | control.LTI | None") -> Weighting | None:
     """Return a weighting that is a name, a system or none; ValueError for anything else."""
-    if isinstance(weighting, control.LTI):
-        return SystemWeighting.of(weighting)
+    if weighting is not None and not isinstance(weighting, str | SystemWeighting):
+        import control
+
+        if isinstance(weighting, control.LTI):
+            return SystemWeighting.of(weighting)
     if weighting is not None and not isinstance(weighting, SystemWeighting):
         checks.one_of("weighting", weighting, filters() + TABLES)
     return weighting
@@ -110,10 +137,10 @@ def by_name(weighting: Weighting) -> TabulatedWeighting | SystemWeighting:
     if isinstance(weighting, SystemWeighting):
         return weighting
     checks.one_of("weighting", weighting, filters() + TABLES)
-    return TabulatedWeighting(weighting) if weighting in TABLES else SystemWeighting.of(_filter(weighting))
+    return TabulatedWeighting(weighting) if weighting in TABLES else _filter(weighting)
 
 
-def weighting(name: str) -> control.TransferFunction:
+def weighting(name: str) -> "control.TransferFunction":
     """Return a weighting filter of ISO 2631 or ISO 5349 as a transfer function.
 
     Parameters
@@ -144,7 +171,10 @@ def weighting(name: str) -> control.TransferFunction:
     16.0 Hz: 0.77
     """
     checks.one_of("weighting", name, filters())
-    return _filter(name).copy(name=name)
+    import control
+
+    signals: dict[str, Any] = {"inputs": ["acceleration"], "outputs": ["weighted_acceleration"]}
+    return control.tf(*_filter(name).numbers, name=name, **signals)
 
 
 def filters() -> tuple[str, ...]:
@@ -153,11 +183,10 @@ def filters() -> tuple[str, ...]:
 
 
 @lru_cache
-def _filter(name: str) -> control.TransferFunction:
+def _filter(name: str) -> SystemWeighting:
     p = _parameters()[name]
-    filter_ = p["gain"] * _band_limits(p) * _transition(p) * _upward_step(p)
-    filter_.update_names(name=name, inputs=["acceleration"], outputs=["weighted_acceleration"])
-    return filter_
+    factors = [*_band_limits(p), ([p["gain"]], [1.0]), _transition(p), _upward_step(p)]
+    return SystemWeighting.by_numbers(name, [reduce(np.polymul, part) for part in zip(*factors, strict=True)])
 
 
 @lru_cache
@@ -169,28 +198,26 @@ def _parameters() -> dict[str, dict[str, float]]:
     }
 
 
-def _band_limits(p: dict[str, float]) -> control.TransferFunction:
+def _band_limits(p: dict[str, float]) -> tuple[Quotient, Quotient]:
     """Return the band limits: a two-pole Butterworth high pass at f1 and low pass at f2."""
     w1, q = 2 * math.pi * p["f1_hz"], 1 / math.sqrt(2)
-    high_pass = control.tf([1 / w1**2, 0, 0], _quadratic(p["f1_hz"], q))
-    low_pass = control.tf([1], _quadratic(p["f2_hz"], q))
-    return high_pass * low_pass
+    return ([1 / w1**2, 0.0, 0.0], _quadratic(p["f1_hz"], q)), ([1.0], _quadratic(p["f2_hz"], q))
 
 
-def _transition(p: dict[str, float]) -> control.TransferFunction:
+def _transition(p: dict[str, float]) -> Quotient:
     """Return the acceleration-velocity transition: 1 at low frequency, as 1/f above f4 (1/f^2 without f3)."""
     if math.isinf(p["f4_hz"]):
-        return control.tf([1], [1])
-    lead = [1] if math.isinf(p["f3_hz"]) else [1 / (2 * math.pi * p["f3_hz"]), 1]
-    return control.tf(lead, _quadratic(p["f4_hz"], p["q4"]))
+        return [1.0], [1.0]
+    lead = [1.0] if math.isinf(p["f3_hz"]) else [1 / (2 * math.pi * p["f3_hz"]), 1.0]
+    return lead, _quadratic(p["f4_hz"], p["q4"])
 
 
-def _upward_step(p: dict[str, float]) -> control.TransferFunction:
+def _upward_step(p: dict[str, float]) -> Quotient:
     """Return the upward step: from (f5/f6)^2 at low frequency to 1 at high; 1 if both are infinite."""
     if math.isinf(p["f5_hz"]):
-        return control.tf([1], [1])
+        return [1.0], [1.0]
     step = (p["f5_hz"] / p["f6_hz"]) ** 2
-    return step * control.tf(_quadratic(p["f5_hz"], p["q5"]), _quadratic(p["f6_hz"], p["q6"]))
+    return [step * one for one in _quadratic(p["f5_hz"], p["q5"])], _quadratic(p["f6_hz"], p["q6"])
 
 
 def _quadratic(f: float, q: float) -> list[float]:

@@ -16,6 +16,8 @@ from ..quantities import FrozenMapping, Real, Record, frozen_array, unit
 from .struts import Strut
 
 Position = tuple[float, float]  # a point (x, y) of the body [m]
+ONE_WHEEL: FrozenMapping[str, Position] = FrozenMapping({"": (0.0, 0.0)})
+"""Contact of one wheel without a name."""
 ResponseName = str | tuple[str, float, float]
 """One of a vehicle's named responses, or ``("acceleration", x, y)``, vertical, at a point of the body."""
 BodyPoint = tuple[str, float, float]  # body by name, and point (x, y) from its centre of gravity [m]

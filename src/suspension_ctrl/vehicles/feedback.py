@@ -1,51 +1,61 @@
 """Struts as feedback: a plant with gains from deflections and their derivatives to tensions."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from functools import cached_property
-from typing import Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-import control
 import numpy as np
 from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
 from ..quantities import Complex, Real
 from .assembly import Network, StrutCoefficient
+from .state_matrices import StateMatrices
 from .struts import Fraction
 
+if TYPE_CHECKING:
+    import control
+
 ORDERS = 3  # of the derivative of a deflection in a tension: springs 0, dampers 1, inerters and masses 2
-System: TypeAlias = control.StateSpace | control.FrequencyResponseData
+System: TypeAlias = "control.StateSpace | control.FrequencyResponseData"  # or `StateMatrices`
 
 
-class MeasuredResponse(control.FrequencyResponseData):  # type: ignore[misc]  # python-control has no types
-    """Frequency response that is a cubic spline between its lines and unknown beyond them."""
-
-    def eval(self, omega: Any, squeeze: bool | None = None) -> Complex:
-        """Return it at angular frequencies [rad/s]; ValueError beyond the lines."""
-        at = np.atleast_1d(omega).real
-        found, known = (np.array([x.min(), x.max()]) / (2 * np.pi) for x in (at, self.omega))
-        if not known[0] <= found[0] <= found[1] <= known[1]:
-            got = "{:g} to {:g} Hz, got frequencies from {:g} to {:g} Hz".format(*known, *found)
-            raise ValueError(f"band must lie within what was measured, {got}")
-        return control.frd(self._spline(at), at).eval(omega, squeeze=squeeze)
-
-    @cached_property
-    def _spline(self) -> Any:
-        from scipy.interpolate import CubicSpline
-
-        return CubicSpline(self.omega, self.frdata, axis=2)
+def has_states(system: System) -> bool:
+    """Whether a system has A, B, C and D: it is a state space, of python-control or as `StateMatrices`."""
+    return hasattr(system, "A")
 
 
 def numbers_of(system: System) -> tuple[NDArray[Any], ...]:
     """Return A, B, C and D, or frequency response and lines [rad/s]: a system itself cannot be pickled."""
-    if isinstance(system, control.StateSpace):
+    if has_states(system):
         return system.A, system.B, system.C, system.D
     return system.frdata, system.omega
 
 
 def system_of(numbers: Sequence[NDArray[Any]], **names: Any) -> System:
-    """Return the system of these numbers."""
-    return control.ss(*numbers, **names) if len(numbers) == 4 else MeasuredResponse(*numbers, **names)
+    """Return the system of python-control of these numbers."""
+    import control
+
+    return control.ss(*numbers, **names) if len(numbers) == 4 else measured(*numbers, **names)
+
+
+def measured(h: Complex, omega: Real, **names: Any) -> System:
+    """Return the frequency response h (m, p, n) at w (n,) [rad/s]."""
+    from .measured_response import MeasuredResponse
+
+    return MeasuredResponse(h, omega, **names)
+
+
+def _with(system: System, matrices: tuple[Real, Real, Real, Real], **names: Any) -> System:
+    """Return a state space of the kind of `system`, with the names of its signals where no others are given."""
+    names = {
+        "states": system.state_labels, "inputs": system.input_labels, "outputs": system.output_labels,
+        "name": None, **names,
+    }  # fmt: skip
+    return (
+        StateMatrices(*matrices, *names.values())
+        if isinstance(system, StateMatrices)
+        else system_of(matrices, **names)
+    )
 
 
 def gains_by_order(coefficients: Iterable[StrutCoefficient], values: Mapping[str, float], q: int) -> Real:
@@ -84,14 +94,12 @@ class Dynamics(NamedTuple):
 
     def around(self, plant: System) -> System:
         """Return the plant, ports included, with these struts from last outputs to last inputs."""
-        if not isinstance(plant, control.StateSpace):
+        if not has_states(plant):
             return _around_stiffness(plant, self.stiffness(1j * plant.omega))
         return _with_filters(around(plant, self.gains), self.filters, self.gains.shape[1])
 
 
-def _with_filters(
-    plant: control.StateSpace, filters: Sequence[tuple[int, Fraction]], q: int
-) -> control.StateSpace:
+def _with_filters(plant: System, filters: Sequence[tuple[int, Fraction]], q: int) -> System:
     """Return the plant with states of the filters after its own."""
     a, b, c, d = plant.A, plant.B, plant.C, plant.D
     states, first_out, first_in = list(plant.state_labels), len(c) - 2 * q, b.shape[1] - q
@@ -105,7 +113,7 @@ def _with_filters(
         b = np.vstack([b, own_b @ d[deflection : deflection + 1]])
         c = np.hstack([c, d[:, tension : tension + 1] @ own_c])
         states += [f"{plant.input_labels[tension]}_{len(states) + i}" for i in range(k)]
-    return control.ss(a, b, c, d, states=states, inputs=plant.input_labels, outputs=plant.output_labels)
+    return _with(plant, (a, b, c, d), states=states)
 
 
 def _controllable(numerator: Real, denominator: Real) -> tuple[Real, Real, Real]:
@@ -121,13 +129,13 @@ def _controllable(numerator: Real, denominator: Real) -> tuple[Real, Real, Real]
     return np.asarray(balanced), b, np.asarray(c @ scale)
 
 
-def _around_stiffness(plant: control.FrequencyResponseData, stiffness: Complex) -> "MeasuredResponse":
+def _around_stiffness(plant: System, stiffness: Complex) -> System:
     """Return the plant with struts of a dynamic stiffness (n, q, q)."""
     q, h = stiffness.shape[1], np.moveaxis(plant.frdata, 2, 0)
     fed = stiffness @ h[:, -2 * q : -q]
     closed = h + h[:, :, -q:] @ np.linalg.solve(np.eye(q) - fed[:, :, -q:], fed)
     names = {"inputs": plant.input_labels, "outputs": plant.output_labels}
-    return MeasuredResponse(np.moveaxis(closed, 0, 2), plant.omega, **names)
+    return measured(np.moveaxis(closed, 0, 2), plant.omega, **names)
 
 
 def around(plant: System, gains: Real) -> System:
@@ -135,12 +143,10 @@ def around(plant: System, gains: Real) -> System:
 
     `control.StateSpace.lft` refuses gains above some 1e7 and has no second derivatives.
     """
-    if not isinstance(plant, control.StateSpace):
+    if not has_states(plant):
         stiffness = np.tensordot((1j * plant.omega[:, None]) ** np.arange(ORDERS), gains, 1)
         return _around_stiffness(plant, stiffness)
-    names = {"inputs": plant.input_labels, "outputs": plant.output_labels}
-    matrices = fed_back((plant.A, plant.B, plant.C, plant.D), gains)
-    return control.ss(*matrices, states=plant.state_labels, **names)
+    return _with(plant, fed_back((plant.A, plant.B, plant.C, plant.D), gains))
 
 
 def fed_back(plant: tuple[Real, Real, Real, Real], gains: Real) -> tuple[Real, Real, Real, Real]:
@@ -161,9 +167,9 @@ def with_rates(system: System, rates: Mapping[str, str]) -> System:
     labels = system.output_labels
     row = [labels.index(name) for name in rates.values()]
     names = {"inputs": system.input_labels, "outputs": [*labels, *rates]}
-    if not isinstance(system, control.StateSpace):
+    if not has_states(system):
         h = system.frdata
-        return MeasuredResponse(np.concatenate([h, 1j * system.omega * h[row]]), system.omega, **names)
+        return measured(np.concatenate([h, 1j * system.omega * h[row]]), system.omega, **names)
     a, b, c, d = system.A, system.B, system.C, system.D
     for rate, direct in zip(rates, d[row], strict=True):
         if direct.any():
@@ -171,7 +177,7 @@ def with_rates(system: System, rates: Mapping[str, str]) -> System:
             needed = f"the output {rate!r} where an input acts on {rates[rate]}"
             raise ValueError(f"system must have {needed}, got {given}")
     c, d = np.vstack([c, c[row] @ a]), np.vstack([d, c[row] @ b])
-    return control.ss(a, b, c, d, states=system.state_labels, **names)
+    return _with(system, (a, b, c, d), **names)
 
 
 def with_copies(system: System, copies: Mapping[str, str], tensions: Mapping[str, str]) -> System:
@@ -180,13 +186,13 @@ def with_copies(system: System, copies: Mapping[str, str], tensions: Mapping[str
     row, fed = [labels.index(name) for name in copies.values()], np.eye(len(inputs))
     fed = fed[[inputs.index(name) for name in tensions.values()]]
     names = {"inputs": inputs, "outputs": [*labels, *copies, *tensions]}
-    if not isinstance(system, control.StateSpace):
+    if not has_states(system):
         h = system.frdata
         through = np.repeat(fed[:, :, None], system.omega.size, axis=2)
-        return MeasuredResponse(np.concatenate([h, h[row], through]), system.omega, **names)
+        return measured(np.concatenate([h, h[row], through]), system.omega, **names)
     c, d = system.C, system.D
     c = np.vstack([c, c[row], np.zeros((len(fed), c.shape[1]))])
-    return control.ss(system.A, system.B, c, np.vstack([d, d[row], fed]), states=system.state_labels, **names)
+    return _with(system, (system.A, system.B, c, np.vstack([d, d[row], fed])), **names)
 
 
 def selected(system: System, outputs: Sequence[str], inputs: Sequence[str], name: str) -> System:
@@ -194,8 +200,8 @@ def selected(system: System, outputs: Sequence[str], inputs: Sequence[str], name
     row, known = [system.output_labels.index(output) for output in outputs], system.input_labels
     column = [known.index(one) if one in known else len(known) for one in inputs]
     names = {"inputs": list(inputs), "outputs": list(outputs), "name": name}
-    if isinstance(system, control.StateSpace):
+    if has_states(system):
         b, d = (np.pad(matrix, ((0, 0), (0, 1)))[:, column] for matrix in (system.B, system.D))
-        return control.ss(system.A.copy(), b, system.C[row], d[row], states=system.state_labels, **names)
+        return _with(system, (system.A.copy(), b, system.C[row], d[row]), **names)
     h = np.pad(system.frdata, ((0, 0), (0, 1), (0, 0)))[row][:, column]
-    return MeasuredResponse(h, system.omega.copy(), **names)
+    return measured(h, system.omega.copy(), **names)

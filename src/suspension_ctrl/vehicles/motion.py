@@ -1,16 +1,16 @@
-"""Equations of motion of masses and links as a python-control model with a port for every strut."""
+"""Equations of motion of masses and links as a state space with a port for every strut."""
 
 from collections.abc import Sequence
 
-import control
 import numpy as np
 
 from .. import checks
 from ..quantities import Real
 from .assembly import Assembly, ResponseName, joined, label, response_point
+from .state_matrices import StateMatrices
 
 
-def plant_of(assembly: Assembly, responses: Sequence[ResponseName]) -> control.StateSpace:
+def plant_of(assembly: Assembly, responses: Sequence[ResponseName]) -> StateMatrices:
     """Return the vehicle without its struts; `Vehicle.plant` names the inputs and outputs.
 
     With coordinates z, roads x and tensions F of struts, links extend by E z + R x and struts by P z. The
@@ -37,7 +37,7 @@ def plant_of(assembly: Assembly, responses: Sequence[ResponseName]) -> control.S
     rates = [f"{road}_rate" for road in assembly.roads if damped]
     inputs = [*assembly.roads, *rates, *(joined(strut.name, "strut") for strut in assembly.struts)]
     names = [joined(strut.name, end) for end in ("deflection", "deflection_rate") for strut in assembly.struts]
-    return control.ss(*matrices, states=labels, inputs=inputs, outputs=[*rows, *names], name="plant")
+    return StateMatrices(*matrices, labels, inputs, [*rows, *names], "plant")
 
 
 def _motion(assembly: Assembly) -> tuple[Real, Real]:

@@ -7,21 +7,20 @@ the system has.
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
-
-import control
+from typing import TYPE_CHECKING, Any, TypeGuard
 
 from ..documents import Mistakes, Table, keyed
 from ..quantities import unit
 from ..schema.keys import BAD, bad
 from ..schema.reading import fields_named
 from ..schema.writing import content
-from .assembly import Position
-from .feedback import System
-from .matrices import parts_of
-from .plants import ONE_WHEEL, Plant
-from .signals import Names
-from .system_files import load_system, save_system
+from .assembly import ONE_WHEEL, Position
+from .feedback import System, has_states
+from .vehicle import AssembledVehicle, Vehicle
+
+if TYPE_CHECKING:
+    from .plants import Plant
+    from .signals import Names
 
 
 @dataclass(frozen=True)
@@ -68,8 +67,12 @@ class PlantFile:
     included: Mapping[str, Any] = field(default_factory=dict)
 
 
-def read_plant(record: PlantFile, table: Table, mistakes: Mistakes) -> Plant:
+def read_plant(record: PlantFile, table: Table, mistakes: Mistakes) -> "Plant":
     """Return the plant of a file, with all that its model includes; `BAD` after a mistake."""
+    from .matrices import parts_of
+    from .plants import Plant
+    from .system_files import load_system
+
     system: System = BAD
     with mistakes.noted(), keyed(table.name, {"file": "file"}):
         for part in parts_of(Path(record.file)):
@@ -84,15 +87,25 @@ def read_plant(record: PlantFile, table: Table, mistakes: Mistakes) -> Plant:
     return BAD
 
 
-def plant_table(plant: Plant, stem: Path) -> dict[str, Any]:
+def is_plant(vehicle: Vehicle) -> "TypeGuard[Plant]":
+    """Whether a vehicle is a `Plant`; one of masses and links is none without a look at python-control."""
+    if isinstance(vehicle, AssembledVehicle):
+        return False
+    from .plants import Plant
+
+    return isinstance(vehicle, Plant)
+
+
+def plant_table(plant: "Plant", stem: Path) -> dict[str, Any]:
     """Write the system of a plant to a file of this stem; return the table of a vehicle that is the plant."""
-    matrices = isinstance(plant.system, control.StateSpace)
-    file = stem.with_name(f"{stem.name}{'.npz' if matrices else '.csv'}")
+    from .system_files import save_system
+
+    file = stem.with_name(f"{stem.name}{'.npz' if has_states(plant.system) else '.csv'}")
     save_system(file, plant.system)
     record = PlantFile(file=file.name, contacts=plant.contacts, axles=plant.axles)
     return {"kind": "plant", **content(record)}
 
 
-def _names(given: Names) -> Names | None:
+def _names(given: "Names") -> "Names | None":
     """Return names by the model's own, which may have dots, or in their order; None if there are none."""
     return (Table("", given).flat().content if isinstance(given, Mapping) else given) or None

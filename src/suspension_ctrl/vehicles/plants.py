@@ -14,7 +14,16 @@ from .. import checks
 from ..documents import naming
 from ..quantities import FrozenMapping, Record, unit
 from ..tables import read_table
-from .assembly import Position, Response, ResponseName, StrutCoefficient, check_strut_names, joined, label
+from .assembly import (
+    ONE_WHEEL,
+    Position,
+    Response,
+    ResponseName,
+    StrutCoefficient,
+    check_strut_names,
+    joined,
+    label,
+)
 from .elements import Damper, Spring
 from .feedback import System, around, gains_by_order, numbers_of, selected, system_of, with_copies, with_rates
 from .networks import placed
@@ -32,8 +41,6 @@ _KINDS = {
     "suspension_travel_rate": "travel_rate", "strut_force": "strut_force",
 }  # fmt: skip
 _OUTPUT = re.compile(rf"(?:(\w+)_)?({'|'.join(_KINDS)})", re.ASCII)
-ONE_WHEEL = FrozenMapping({"": (0.0, 0.0)})
-"""Contact of one wheel without a name."""
 
 
 def _brief(system: System) -> str:

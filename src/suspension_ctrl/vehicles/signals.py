@@ -12,7 +12,7 @@ import numpy as np
 
 from .. import checks
 from ..quantities import quantity, signal_unit
-from .feedback import MeasuredResponse, System
+from .feedback import System, measured
 from .plant_tables import input_unit
 
 Names = Sequence[str] | Mapping[str, str]
@@ -64,7 +64,7 @@ def renamed(system: System, inputs: Names | None, outputs: Names | None) -> Syst
     for row, column in np.argwhere(np.isnan(h).all(axis=2))[:1]:
         output, cause = system.output_labels[rows[row]], system.input_labels[columns[column]]
         raise ValueError(f"system must have the response of {output} to {cause}, got none")
-    return MeasuredResponse((of[:, None] / by)[:, :, None] * h, system.omega, **names)
+    return measured((of[:, None] / by)[:, :, None] * h, system.omega, **names)
 
 
 def _signals(parameter: str, given: Names | None, labels: Sequence[str]) -> list[Signal]:

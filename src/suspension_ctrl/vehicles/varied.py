@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-import control
 import numpy as np
 
 from ..quantities import FrozenMapping, Real, Record
@@ -14,6 +13,7 @@ from .assembly import Assembly, ResponseName
 from .formulas import Formulas, Sheet
 from .frequencies import derived_of
 from .parameters import LoadMass, Parameter, Place, Ported, Ratio, parameters_of
+from .state_matrices import StateMatrices
 from .vehicle import AssembledVehicle, Struts, Vehicle
 
 _FLOOR = ("displacement", "velocity", "acceleration")
@@ -73,15 +73,15 @@ class Varied(Record, AssembledVehicle):
         }
         return self.vehicle.at({**plain, **own})
 
-    def plant(self, responses: Sequence[ResponseName] | None = None) -> control.StateSpace:
-        """Return the vehicle without its struts, see `Vehicle.plant`."""
+    def bare(self, responses: Sequence[ResponseName] | None = None) -> StateMatrices:
+        """Return `plant` as matrices."""
         places = [one for one in self._parameters.values() if isinstance(one, Place)]
         moved = {f"{one.strut}_{response}": one.name for one in places for response in _OF_PLACE}
         for name in self.responses if responses is None else responses:
             if name in moved:
                 got = f"{moved[str(name)]} among the variables"
                 raise ValueError(f"{name} must be of a seat in a fixed place, got {got}")
-        return super().plant(responses)
+        return super().bare(responses)
 
     @cached_property
     def _parameters(self) -> dict[str, Parameter]:

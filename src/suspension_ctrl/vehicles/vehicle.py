@@ -8,7 +8,6 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-import control
 import numpy as np
 
 from .. import checks
@@ -18,9 +17,11 @@ from .feedback import Dynamics, System, gains_by_order, selected, with_rates
 from .handling import Mechanics
 from .modes import modes_of
 from .motion import plant_of
+from .state_matrices import StateMatrices
 from .static import static_of
 
 if TYPE_CHECKING:
+    import control
     import pandas as pd
 
 Pair = tuple[float, float]  # spring [N/m] and damper [N s/m] of a strut
@@ -89,6 +90,10 @@ class Vehicle(ABC):
             If `responses` is no list, or one of them is unknown or given twice.
         """
 
+    def bare(self, responses: Sequence[ResponseName] | None = None) -> System:
+        """Return `plant` as the library computes with it: `StateMatrices` of masses and links."""
+        return self.plant(responses)
+
     @property
     @abstractmethod
     def responses(self) -> tuple[str, ...]:
@@ -138,7 +143,8 @@ class Vehicle(ABC):
             got = checks.shown((setting, *others))
             raise ValueError(f"setting must be one mapping, or keywords by strut or coefficient, got {got}")
         vehicle, values = self.at(setting, **struts)
-        return _closed(vehicle, values, self.responses if responses is None else responses)
+        closed = _closed(vehicle, values, self.responses if responses is None else responses)
+        return closed.system() if isinstance(closed, StateMatrices) else closed
 
     def at(self, setting: Setting | None = None, /, **struts: Any) -> "tuple[Vehicle, dict[str, float]]":
         """Return the vehicle with the parameters of a setting, and every coefficient by its name, see `closed`."""
@@ -281,8 +287,12 @@ class AssembledVehicle(Vehicle):
         """Matrices for static loads and roll."""
         return Mechanics.of(self.assembly)
 
-    def plant(self, responses: Sequence[ResponseName] | None = None) -> control.StateSpace:
+    def plant(self, responses: Sequence[ResponseName] | None = None) -> "control.StateSpace":
         """Return the vehicle without its struts, see `Vehicle.plant`."""
+        return self.bare(responses).system()
+
+    def bare(self, responses: Sequence[ResponseName] | None = None) -> StateMatrices:
+        """Return `plant` as matrices."""
         return plant_of(self.assembly, self.responses if responses is None else responses)
 
 
@@ -291,7 +301,7 @@ def _closed(vehicle: Vehicle, values: Mapping[str, float], names: Sequence[Respo
     q = len(vehicle.struts)
     integrals = vehicle.without_jerk(names)
     dynamics = Dynamics.of(vehicle.networks, values, gains_by_order(vehicle.strut_coefficients, values, q))
-    closed = dynamics.around(vehicle.plant(list(dict.fromkeys(integrals))))
+    closed = dynamics.around(vehicle.bare(list(dict.fromkeys(integrals))))
     closed = selected(closed, closed.output_labels[: -2 * q], closed.input_labels[:-q], "vehicle")
     rates = {str(name): str(one) for name, one in zip(names, integrals, strict=True) if name != one}
     return selected(with_rates(closed, rates), [*map(label, names)], closed.input_labels, "vehicle")

@@ -7,12 +7,11 @@ roads act on it where the vehicle can follow all roads without deflection.
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-import control
 import numpy as np
 
 from ...quantities import Real
 from ...vehicles.assembly import ResponseName
-from ...vehicles.feedback import Dynamics, System, gains_by_order
+from ...vehicles.feedback import Dynamics, System, gains_by_order, has_states
 from ...vehicles.vehicle import Vehicle
 from .. import weightings
 from ..measures.terms import Term
@@ -61,7 +60,7 @@ class Actuated(NamedTuple):
         if list(vehicle.without_jerk(names)) != names or any(term.moment for term in terms):
             raise ValueError(f"measures must be without jerk and moments, got {', '.join(map(str, terms))}")
         distinct = list(dict.fromkeys([*names, *sensors]))
-        rates, outputs = _relative(_bare(vehicle, values, vehicle.plant(distinct)), vehicle)
+        rates, outputs = _relative(_bare(vehicle, values, vehicle.bare(distinct)), vehicle)
         responses = outputs.of([distinct.index(name) for name in names])
         q = rates.force.shape[1]
         read = outputs.of(np.array([distinct.index(name) for name in sensors], dtype=np.int64))
@@ -118,16 +117,16 @@ def dynamics_of(vehicle: Vehicle, values: Mapping[str, float], ports: Sequence[i
     return Dynamics.of([one for one in networks if any(one.share)], values, gains)
 
 
-def _bare(vehicle: Vehicle, values: Mapping[str, float], plant: System) -> control.StateSpace:
+def _bare(vehicle: Vehicle, values: Mapping[str, float], plant: System) -> System:
     """Return the plant with all struts but those on wheels; ValueError unless it is a state space."""
-    if not isinstance(plant, control.StateSpace):
+    if not has_states(plant):
         raise ValueError(f"vehicle must be a state space for a controller, got {type(plant).__name__}")
     ports = wheel_struts(vehicle)
     others = [i for i in range(len(vehicle.struts)) if i not in ports]
     return dynamics_of(vehicle, values, others).around(plant) if others else plant
 
 
-def _relative(plant: control.StateSpace, vehicle: Vehicle) -> tuple[Rows, Rows]:
+def _relative(plant: System, vehicle: Vehicle) -> tuple[Rows, Rows]:
     """Return the rates of the states relative to the roads, and responses, then deflections of wheel struts."""
     q, r, ports = len(vehicle.struts), len(vehicle.tyres), np.array(wheel_struts(vehicle))
     m = plant.noutputs - 2 * q
@@ -169,4 +168,4 @@ def _filter(term: Term) -> Filter | None:
     weighting = weightings.by_name(term.weighting)
     if not isinstance(weighting, SystemWeighting) or weighting.is_measured:
         raise ValueError(f"weighting must be a filter such as Wk for a controller, got {term.weighting}")
-    return Filter.of_system(weighting.system)
+    return Filter.of_quotient(*weighting.numbers) if weighting.is_quotient else Filter.of_system(weighting.system)

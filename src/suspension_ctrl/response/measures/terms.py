@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
-import control
 import numpy as np
 
 from ... import checks
@@ -15,6 +14,8 @@ from .. import weightings
 from ..weightings import Weighting
 
 if TYPE_CHECKING:
+    import control
+
     from ..trips import Trip
 
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
@@ -50,7 +51,7 @@ class Term(Record):
     """
 
     response: ResponseName
-    weighting: Weighting | control.LTI | None = None
+    weighting: "Weighting | control.LTI | None" = None
     factor: float = 1.0
     moment: int = 0
     relative: bool = False
