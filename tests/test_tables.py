@@ -139,6 +139,13 @@ def test_tables_are_written_as_csv_markdown_and_latex(tmp_path):
     assert r"HV [\%]" in latex
 
 
+def test_latex_is_that_of_pandas(tmp_path):
+    frame = pd.DataFrame({"name": ["a", "b"], "runs": ["1", "20"]})
+    tables.write_table(tmp_path / "table", frame)
+    expected = frame.style.hide(axis="index").to_latex(hrules=True, column_format="ll")
+    assert (tmp_path / "table.tex").read_text() == expected
+
+
 def test_a_table_wider_than_a_page_stands_in_blocks_with_its_keys(tmp_path):
     frame = pd.DataFrame(
         {"algorithm": ["a", "b"]} | {f"a long header {n} [m/s^2]": [1.0 + n, 2.5] for n in range(7)}

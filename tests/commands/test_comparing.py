@@ -2,6 +2,8 @@
 
 import json
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -58,6 +60,23 @@ def test_compare_on_another_vehicle(called, tmp_path):
         front.iloc[:, 6:], problem.evaluate(front.iloc[:, :6].to_numpy()), rtol=1e-12
     )  # by another number of threads
     assert json.loads((out / "environment.json").read_text())["arguments"]["vehicle"] == "jian_2022_full"
+
+
+def test_what_a_comparison_of_masses_and_links_never_asks_for_is_not_imported():
+    """They would take a second and a half: python-control with SciPy's filters and statistics, and matplotlib."""
+    program = (
+        "import sys\n"
+        "from suspension_ctrl.commands import comparing\n"
+        "from suspension_ctrl.desk.attaining import optimal_controllers\n"
+        "from suspension_ctrl.paper import experiment\n"
+        "problem, design = experiment.ride_problem(), experiment.reference_design()\n"
+        "optimal_controllers(problem, dict(zip(problem.variables, design)), 2, {})\n"
+        "print(*sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    found = set(done.stdout.split())
+    assert {"numba", "pandas", "scipy.linalg"} <= found
+    assert not found & {"control", "matplotlib", "scipy.signal", "scipy.stats"}
 
 
 def test_another_speed_with_a_given_reference_front_is_not_beside_the_paper(called, tmp_path):

@@ -8,6 +8,7 @@ from suspension_ctrl import load_vehicle
 from suspension_ctrl.vehicles.feedback import Dynamics, around, selected, with_copies, with_rates
 
 KNOWN = load_vehicle("minaker_half")
+FILTERED = Dynamics(np.zeros((3, 2, 2)), ((1, (np.array([3e3]), np.array([1.0, 0.1]))),))
 
 
 def assert_same(matrices, system):
@@ -31,9 +32,7 @@ def test_a_plant_has_the_matrices_that_the_library_computes_with():
     "change",
     [
         lambda system: around(system, np.array([np.eye(2) * 2e4, np.eye(2) * 1500.0, np.zeros((2, 2))])),
-        lambda system: Dynamics(np.zeros((3, 2, 2)), ((1, (np.array([3e3]), np.array([1.0, 0.1]))),)).around(
-            system
-        ),
+        FILTERED.around,
         lambda system: with_rates(system, {"rate": "front_deflection"}),
         lambda system: with_copies(system, {"copy": "front_deflection"}, {"force": "front_strut"}),
         lambda system: selected(system, ["front_tyre_load"], ["front_road", "nowhere"], "one"),

@@ -84,7 +84,7 @@ def _motion(one: Motion) -> dict[str, Any]:
     return _without_nan({key_of(name, units.get(name, "")): value for name, value in one._asdict().items()})
 
 
-def _system(system: System | None) -> dict[str, Any] | None:
+def _system(system: "System | None") -> dict[str, Any] | None:
     """Return matrices and signals of a state space model."""
     if not isinstance(system, control.StateSpace):
         return None

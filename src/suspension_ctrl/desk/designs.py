@@ -89,7 +89,7 @@ def vehicle_file(problem: RideProblem, design: Present, *, case: int = 1, name: 
     )
 
 
-def closed_at(case: LoadCase, setting: Mapping[str, float], band: tuple[float, float]) -> System | None:
+def closed_at(case: LoadCase, setting: Mapping[str, float], band: tuple[float, float]) -> "System | None":
     """Return the closed vehicle of a load case, with equivalent springs and dampers in place of force laws.
 
     None with an element that is known in the frequency domain alone.

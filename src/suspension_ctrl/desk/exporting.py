@@ -128,7 +128,7 @@ def _differs(case: LoadCase, first: LoadCase) -> bool:
     return case.vehicle != first.vehicle or has_force_laws(case.vehicle.networks)
 
 
-def _written(stem: Path, file: VehicleFile, system: System | None) -> Iterator[Path]:
+def _written(stem: Path, file: VehicleFile, system: "System | None") -> Iterator[Path]:
     """Write vehicle and system, each where a file can hold it, and yield the paths."""
     if can_be_written(file):
         save_vehicle(stem.with_suffix(".toml"), file)

@@ -177,10 +177,7 @@ def write_table(stem: Path, frame: "pd.DataFrame", keys: int = 1) -> None:
         for names, one in markdown
     ]
     contents = {".csv": "".join(csv_parts(frame)), ".md": "\n\n".join(parts) + "\n"}
-    parts = [
-        one.style.hide(axis="index").to_latex(hrules=True, column_format="".join(sides[name][0] for name in names))
-        for names, one in latex
-    ]
+    parts = [_latex(one, "".join(sides[name][0] for name in names)) for names, one in latex]
     contents[".tex"] = "\n\\medskip\n\n".join(parts)
     write_all({stem.with_suffix(ending): text.encode() for ending, text in contents.items()})
 
@@ -192,6 +189,13 @@ def _page(
     widths = {str(name): max(map(len, [str(name), *texts[name]])) for name in texts}
     parts = blocks(list(widths), keys, widths, PAGE, gap=3)
     return [(names, escaping.frame(texts[names], medium)) for names in parts]
+
+
+def _latex(table: "pd.DataFrame", alignment: str) -> str:
+    """Return a table of texts as booktabs, as by pandas' Styler, which takes a sixth of a second to import."""
+    lines = [" & ".join(row) + r" \\" for row in [list(table.columns), *table.to_numpy().tolist()]]
+    rules = [rf"\begin{{tabular}}{{{alignment}}}", r"\toprule", lines[0], r"\midrule"]
+    return "\n".join([*rules, *lines[1:], r"\bottomrule", r"\end{tabular}", ""])
 
 
 def write_figure(stem: Path, figure: "Figure") -> None:
