@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from suspension_ctrl.search.decomposition import weight_vectors
-from suspension_ctrl.search.neighbours import least, neighbourhoods
+from suspension_ctrl.search.neighbours import blocks, least, neighbourhoods, winding
 
 
 @pytest.mark.parametrize(
@@ -27,3 +27,17 @@ def test_least_keys_are_those_of_a_whole_sort(n, count, order):
     if order == "ascending":
         keys[::2].sort(axis=1)
     np.testing.assert_array_equal(least(keys, count), np.sort(keys, axis=1)[:, :count])
+
+
+def test_blocks_are_compact_up_to_the_tip_of_the_triangle():
+    """A block of 32 even points has an area of 32 of theirs: none is farther from its middle than two sides.
+
+    Strips of equal counts leave some at 2.6 sides.
+    """
+    weights = weight_vectors(2000, 3)
+    side = np.sqrt(32 * np.sqrt(3) / 2 / 2000)  # of a square; the triangle has an area of sqrt(3) / 2
+    order = winding(weights)
+    np.testing.assert_array_equal(np.sort(order), np.arange(2000))
+    far = [np.linalg.norm(weights[rows] - weights[rows].mean(axis=0), axis=1).max() for rows in blocks(order)]
+    assert np.median(far) < side
+    assert max(far) < 2 * side

@@ -12,6 +12,7 @@ from .decomposition import weight_vectors
 _ROWS = 32  # of the distance matrix at a time: they stay in the processor's cache
 _NETWORK = 256  # most integers that numpy sorts by a network
 _FLAT = 3  # objectives up to which weights lie in a plane, where blocks of them have few candidates
+_ASPECT = 1.22  # height of the triangle of weights in roots of its area, about; 1.32 if it is regular
 _MARGIN = 6  # of the radius of the candidates of a block over that of a neighbourhood, in distances of weights
 
 
@@ -67,12 +68,12 @@ class Keys(NamedTuple):
 def winding(points: Real) -> Integer:
     """Return an order (N,) of points (N, m) in which those that lie together mostly follow one another.
 
-    It winds through strips along the first coordinate, forwards and backwards by the second.
+    It winds through strips of equal width along the first coordinate, forwards and backwards by the second. Strips
+    of equal counts would be thick at the tip of a triangle of weights, and blocks there thin slices across them.
     """
-    size = len(points)
-    strips = max(1, round(np.sqrt(size / _ROWS)))
-    strip = np.empty(size, dtype=np.int64)
-    strip[np.argsort(points[:, 0])] = np.arange(size) * strips // size
+    along = points[:, 0] - points[:, 0].min()
+    strips = max(1, round(_ASPECT * np.sqrt(len(points) / _ROWS)))
+    strip = np.minimum((along * (strips / along.max())).astype(np.int64), strips - 1)
     return np.lexsort((np.where(strip % 2, -points[:, 1], points[:, 1]), strip))
 
 
