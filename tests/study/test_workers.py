@@ -8,7 +8,7 @@ import subprocess
 import sys
 import threading
 import time
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 
 import dask
@@ -18,7 +18,7 @@ import pandas as pd
 import pytest
 
 from functions import dtlz2, slow, srn
-from suspension_ctrl import Nsga2, Problem, minimise
+from suspension_ctrl import MeasuredRoad, Nsga2, Problem, minimise
 from suspension_ctrl.search.sampling import Sampling
 from suspension_ctrl.study import calls
 from suspension_ctrl.study import workers as clusters
@@ -119,9 +119,8 @@ class Started:
         self.done.append("entered")
         return self
 
-    def run(self, function, argument):
-        assert function(argument) is None
-        self.done.append(argument)
+    def nthreads(self):
+        return {}
 
     def __exit__(self, kind, *_):
         self.done.append(kind)
@@ -129,12 +128,12 @@ class Started:
 
 def test_a_cluster_starts_beside_other_work():
     context = Started()
-    with clusters.begun(context, "problem") as client:
+    with clusters.begun(context) as client:
         assert context.done == []
         context.go.set()
         assert client() is context
-        assert context.done == ["entered", ("problem",)]
-    assert context.done[2:] == [None]
+        assert context.done == ["entered"]
+    assert context.done == ["entered", None]
 
 
 def test_a_cluster_that_is_not_waited_for_is_left():
@@ -143,7 +142,7 @@ def test_a_cluster_that_is_not_waited_for_is_left():
     context.go.set()
     with pytest.raises(KeyError), clusters.begun(context):
         raise KeyError
-    assert context.done == ["entered", (), KeyError]
+    assert context.done == ["entered", KeyError]
 
 
 def test_an_error_of_a_start_is_raised_where_it_is_waited_for():
@@ -154,12 +153,14 @@ def test_an_error_of_a_start_is_raised_where_it_is_waited_for():
     assert context.done == []
 
 
-def test_a_need_that_workers_cannot_import_is_left_to_the_calls():
-    context = Started()
-    context.go.set()
-    context.run = None
-    with clusters.begun(context) as client:
-        assert client() is context
+def test_workers_import_what_will_be_needed(cluster):
+    def imported() -> bool:
+        return "suspension_ctrl.roads.measured" in sys.modules
+
+    assert not any(cluster.run(imported).values())
+    with clusters.begun(nullcontext(cluster), MeasuredRoad) as client:
+        while not all(client().run(imported).values()):
+            time.sleep(0.05)
 
 
 class Here:

@@ -75,12 +75,13 @@ def begun(context: AbstractContextManager[Any], *needed: Any) -> Iterator[Callab
     Its workers import the modules of what will be `needed`. Errors of entering are raised where it is waited for.
     """
     with installed("study"):
-        import distributed  # noqa: F401  # by one thread at a time
+        from distributed import fire_and_forget  # by one thread at a time
 
     def entered() -> Any:
         client = context.__enter__()
         with suppress(Exception):  # which the calls meet again, and name their run
-            client.run(_unpickled, needed)
+            for worker in client.nthreads():
+                fire_and_forget(client.submit(_unpickled, needed, workers=[worker], pure=False))
         return client
 
     with ExitStack() as stack:
