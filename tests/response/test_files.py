@@ -360,7 +360,7 @@ FIRST = '[[cases]]\nvehicle = "minaker_half"\nroad = "C"\nspeed_m_per_s = 15\n'
         (
             'measures = ["ACC", "SWS"]\n[bounds]\nspring_N_per_m = [1e4, 3e4]\n'
             + FIRST.replace("minaker_half", "car.toml") + FIRST,
-            r"setting must be .*",
+            r"bounds and struts must be one of .*",
         ),
     ],
 )  # fmt: skip
