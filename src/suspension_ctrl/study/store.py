@@ -23,9 +23,10 @@ _PARTS = ("final", "runs")  # folders of the tables of a run
 _RECORDS = "records"  # folder of numbers of rows and digests: the last file of a run to be written
 
 FLUSHED_EVERY = 1.0
-"""Time [s] in which one run is flushed to the disk, so that a loss of power costs the runs of this time at most.
+"""Time [s] in which one run is flushed to the disk, so that long runs all are.
 
-Others are in the hands of the system, which flushes them within half a minute; digests tell of those that it lost.
+The system flushes the others, on Linux within half a minute. A loss of power before that may cost these short runs,
+and digests tell which.
 """
 
 
