@@ -25,8 +25,8 @@ _RECORDS = "records"  # folder of numbers of rows and digests: the last file of 
 FLUSHED_EVERY = 1.0
 """Time [s] in which one run is flushed to the disk, so that long runs all are.
 
-The system flushes the others, on Linux within half a minute. A loss of power before that may cost these short runs,
-and digests tell which.
+The system flushes the others, on Linux within half a minute. A loss of power before that may cost these short
+runs, and digests tell which.
 """
 
 
