@@ -52,6 +52,7 @@ SETTINGS: dict[str, Any] = {
     "strut_designs": {struts.QUARTER: 4000, struts.FULL: 400, struts.TRUCK: 400},
     "roofline_designs": {struts.QUARTER: 10_000, struts.FULL: 10_000, struts.TRUCK: 2000},
     "roofline_population": 10_000,
+    "roofline_repeats": 15,
     "derivative_cases": tuple(row.case for row in derivatives.ROWS),
     "populations": (500, 1000, 4000, 16_000),
     "generations": 20,
@@ -84,6 +85,7 @@ QUICK = SETTINGS | {
     "strut_designs": {struts.QUARTER: 200, struts.FULL: 20, struts.TRUCK: 20},
     "roofline_designs": {struts.QUARTER: 200, struts.FULL: 20, struts.TRUCK: 20},
     "roofline_population": 200,
+    "roofline_repeats": 1,
     "derivative_cases": ("quarter car", "full car"),  # others compile for long
     "populations": (100, 200),
     "generations": 2,
@@ -174,7 +176,10 @@ def measure(settings: dict[str, Any], field: Contenders, folder: Path) -> summar
         roofline=kept(
             "roofline",
             roofline.measure(
-                settings["strut_nodes"], settings["roofline_designs"], settings["roofline_population"], repeats
+                settings["strut_nodes"],
+                settings["roofline_designs"],
+                settings["roofline_population"],
+                settings["roofline_repeats"],
             ),
         ),
         **measure_searches(settings, field, problem, kept),

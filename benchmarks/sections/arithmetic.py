@@ -18,6 +18,8 @@ from suspension_ctrl.response.one_strut import OneStrut
 _CHAINS = 10  # independent, more than the cycles from one multiply-add to the next of its chain
 _STREAM = 1 << 23  # numbers of an array of the triad: 64 MB, beyond any cache
 _SECONDS = 0.02
+STEP = _CHAINS * WIDTH
+"""Multiply-adds of all chains in a step."""
 
 
 class Limits(NamedTuple):
@@ -40,7 +42,7 @@ class Work(NamedTuple):
         return max(count / rate for count, rate in zip(self, limits, strict=True))
 
 
-@compiled(error_model="numpy")
+@compiled(nogil=True, error_model="numpy")
 def multiply_adds(repeats: int, x: float) -> float:
     """Return the sum of ten chains of multiply-adds."""
     f, y = spread(x), spread(1.0 - x)
@@ -74,7 +76,7 @@ def triad(a: NDArray[np.float64], b: NDArray[np.float64], c: NDArray[np.float64]
 @cache
 def limits() -> Limits:
     """Return the limits of this machine, the best of several tries each."""
-    each, repeats = _CHAINS * WIDTH, 200_000
+    each, repeats = STEP, 200_000
     arrays = np.ones((3, _STREAM))
     return Limits(
         each * repeats / _least(multiply_adds, repeats, 0.5),

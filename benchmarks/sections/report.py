@@ -214,8 +214,9 @@ def _about_roofline(found: Measurements, settings: dict[str, Any]) -> list[str]:
         f"second, or {number(machine.divisions / 1e9)} divisions, or moves {number(machine.bytes / 1e9)} GB "
         "beyond the cache. The limit is the time of the slowest of these for the operations that follow from the "
         "formulas, as if it hid the others. Least wall-clock times per design of "
-        f"{settings['repeats']} calls of `evaluate` at {settings['strut_nodes']} nodes. A ranking is compared "
-        "with the sorting of its objectives, one by one, by numpy: ours sorts evenly spread values by buckets.",
+        f"{settings['roofline_repeats']} calls of `evaluate` at {settings['strut_nodes']} nodes. A ranking is "
+        "compared with the sorting of its objectives, one by one, by numpy: ours sorts evenly spread values by "
+        "buckets. Multiply-adds alone, on two threads in the same way, tell how much there is of the second.",
         markdown(roofline_table(found)),
         "Operations by node. One strut: a denominator of 4 multiply-adds, 3 products and a division for two, and "
         "1 by each numerator. Two struts of a block, a complex product being 4: stiffnesses 5, the loop 16, its "

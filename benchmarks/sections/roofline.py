@@ -10,14 +10,18 @@ from numpy.typing import NDArray
 
 import suspension_ctrl as sc
 from sections import struts
-from sections.arithmetic import limits, work_of
+from sections.arithmetic import STEP, limits, multiply_adds, work_of
 from sections.timing import take_turns
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.search.selection import ranks_and_crowding
+from suspension_ctrl.threads import in_blocks
 
 LIMIT, LEAST = 60.0, 0.02
 """Seconds: of a call after which there is no other, and up to which calls are repeated within one timing."""
 RANKING = "non-dominated ranking, three objectives"
+ARITHMETIC = "multiply-adds alone, 1.6 ms"
+_CHAINED = 1 << 19
+"""Steps of the chains of multiply-adds in these: as long as 10,000 quarter cars take on a common machine."""
 
 
 class Row(NamedTuple):
@@ -49,12 +53,15 @@ def measure(nodes: int, designs: dict[str, int], population: int, repeats: int) 
     def add(what: str, threads: int, count: int, limit: float, call: Callable[[], Any]) -> None:
         known[f"{what}, {threads}"], entries[f"{what}, {threads}"] = (what, threads, count, limit), lambda _: call
 
+    counts = (1, 2) if (cpu_count() or 1) > 1 else (1,)
+    for threads in counts:
+        add(ARITHMETIC, threads, _CHAINED, STEP / limits().multiply_adds, _arithmetic(threads))
     problems = struts.problems(nodes)
     for row in ROWS:
         problem, count = problems[row.vehicle, row.strut], designs[row.vehicle]
         drawn = np.random.default_rng(1).uniform(problem.lower, problem.upper, (count, len(problem.lower)))
         limit = work_of(problem.scores.kernel(nodes).cases[0], drawn[:100]).seconds(limits())
-        for threads in (1, 2) if (cpu_count() or 1) > 1 else (1,):
+        for threads in counts:
             add(row.what, threads, count, limit, _evaluation(problem, drawn, threads))
     values = paper.ride_problem(nodes=nodes)
     objectives = _objectives(values, population)
@@ -72,6 +79,13 @@ def measure(nodes: int, designs: dict[str, int], population: int, repeats: int) 
 
 def _evaluation(problem: sc.RideProblem, drawn: NDArray[np.float64], threads: int) -> Callable[[], Any]:
     return lambda: problem.evaluate(drawn, threads=threads)
+
+
+def _arithmetic(threads: int) -> Callable[[], Any]:
+    def part_of(part: slice) -> float:
+        return multiply_adds(part.stop - part.start, 0.5)
+
+    return lambda: in_blocks(part_of, _CHAINED, _CHAINED * STEP, threads)
 
 
 def _objectives(problem: sc.RideProblem, population: int) -> NDArray[np.float64]:
@@ -95,10 +109,10 @@ def shares(timings: pd.DataFrame) -> pd.DataFrame:
     each = timings.assign(seconds=timings.seconds / timings.designs)
     least = each.groupby(["what", "threads"], sort=False).seconds.min()
     limit = timings.groupby("what").limit.first()
-    names = [*(row.what for row in ROWS), RANKING]
+    names = [ARITHMETIC, *(row.what for row in ROWS), RANKING]
     one, two = (np.array([least.get((name, threads), np.nan) for name in names]) for threads in (1, 2))
     table = pd.DataFrame({"what": names, "limit": limit[names].to_numpy(), "seconds": one})
-    return table.assign(share=table.limit / one, bar=[*(row.bar for row in ROWS), 0.0], threads=one / two)
+    return table.assign(share=table.limit / one, bar=[0.0, *(row.bar for row in ROWS), 0.0], threads=one / two)
 
 
 def goals(timings: pd.DataFrame) -> list[tuple[str, float, float]]:

@@ -255,23 +255,12 @@ def designs(values: ArrayLike, variables: int) -> NDArray[np.float64]:
 def rows_within(name: str, rows: NDArray[np.float64], lower: ArrayLike, upper: ArrayLike) -> None:
     """Raise ValueError unless all rows (n, d) are within `lower` and `upper` (d,), up to rounding."""
     low, high = (np.asarray(bound, dtype=float) for bound in (lower, upper))
-    slack, (least, largest) = _SLACK * (high - low), _extremes(rows)
+    slack, columns = _SLACK * (high - low), np.ascontiguousarray(rows.T)  # numpy is slow along short rows
+    least, largest = columns.min(axis=1, initial=np.inf), columns.max(axis=1, initial=-np.inf)
     if not ((least >= low - slack) & (largest <= high + slack)).all():  # or NaN
         inside = (rows >= low - slack) & (rows <= high + slack)
         got = rows[inside.all(axis=1).argmin()].tolist()
         raise ValueError(f"{name} must lie within {low.tolist()} and {high.tolist()}, got {got}")
-
-
-def _extremes(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the least and the largest (d,) of rows (n, d), 64 side by side: numpy is slow along short rows."""
-    (n, d), together = rows.shape, 64
-    if n <= 4 * together:
-        return rows.min(axis=0, initial=np.inf), rows.max(axis=0, initial=-np.inf)
-    wide, rest = rows[: n // together * together], rows[n // together * together :]
-    wide = wide.reshape(n // together, together * d)
-    least, largest = wide.min(axis=0, initial=np.inf), wide.max(axis=0, initial=-np.inf)
-    least = np.concatenate([least.reshape(together, d), rest]).min(axis=0)
-    return least, np.concatenate([largest.reshape(together, d), rest]).max(axis=0)
 
 
 def _is_real(value: object) -> bool:

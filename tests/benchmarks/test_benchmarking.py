@@ -195,7 +195,7 @@ def roofline_times(share: float = 0.65) -> pd.DataFrame:
     """A share of the limit on one thread, and twice that on two, at the second of two calls."""
     rows = [
         (name, threads, 10, share * 1e-5, seconds)
-        for name in (*(row.what for row in roofline.ROWS), roofline.RANKING)
+        for name in (roofline.ARITHMETIC, *(row.what for row in roofline.ROWS), roofline.RANKING)
         for threads in (1, 2)
         for seconds in (2e-4, 1e-4 / threads)
     ]
@@ -314,7 +314,7 @@ def test_page_has_all_sections_and_the_absent():
         "moead_generations": 4, "uf1_evaluations": 300_000,
         "car_reference": (1000, 200), "car_share": 0.98, "car_population": 100, "car_repeats": 3,
         "car_generations": 50, "target_share": 0.995, "target_populations": (500,), "target_repeats": 3,
-        "target_limit": 1.0, "strut_nodes": 256,
+        "target_limit": 1.0, "strut_nodes": 256, "roofline_repeats": 3,
         "strut_designs": {struts.QUARTER: 4000, struts.FULL: 400, struts.TRUCK: 400},
     }  # fmt: skip
     machine = {"processor": "A processor", "cores": 2, "python": "3.11", "versions": {"numpy": "2.4"}}

@@ -77,17 +77,6 @@ def test_units_of_the_objectives_do_not_matter(indicator):
     )
 
 
-@pytest.mark.parametrize("m", [2, 3, 4])
-def test_points_are_swept_once_for_front_and_hypervolume(m):
-    """The volume is moocore's, of up to three objectives but for rounding, some 1e-16 for each of 100 points."""
-    rng = np.random.default_rng(m)
-    front, points = ReferenceFront.of(rng.random((50, m))), rng.random((100, m))
-    best, volume = front.swept(points)
-    assert best.tolist() == non_dominated(points).tolist()
-    assert volume == front.hypervolume(points) == front.hypervolume(points[best])
-    assert volume == pytest.approx(moocore.hypervolume(front.scaled(points), ref=1.1), rel=1e-13)
-
-
 def test_relative_hypervolume_of_a_front_is_one():
     front = ReferenceFront.of(sphere(20))
     assert front.relative_hypervolume(sphere(20)) == pytest.approx(1)

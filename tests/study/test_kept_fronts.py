@@ -10,7 +10,7 @@ import pytest
 from platformdirs import user_cache_path
 
 from suspension_ctrl import Problem
-from suspension_ctrl.search import indicators, kinds, spreading, stairs
+from suspension_ctrl.search import indicators, kinds, spreading
 from suspension_ctrl.study import kept_fronts, machine, reference
 from suspension_ctrl.study.campaign import Campaign
 from suspension_ctrl.study.comparison import Comparison
@@ -66,7 +66,7 @@ def test_a_front_of_other_code_or_versions_is_not_taken(tmp_path, monkeypatch):
     fronts, line = KeptFronts(tmp_path / "fronts"), problem_of(Line())
     first = campaign_of(line, tmp_path / "a", fronts.folder).reference({})
     (path,) = fronts.folder.iterdir()
-    modules = (reference, indicators, kinds, spreading, stairs)
+    modules = (reference, indicators, kinds, spreading)
     sources = (Path(module.__file__).read_bytes() for module in modules)
     assert json.loads(path.read_text())["plan"]["code"] == hashlib.sha256(b"".join(sources)).hexdigest()[:32]
     monkeypatch.setattr(machine, "provenance", lambda: {"numpy": "0.0"})

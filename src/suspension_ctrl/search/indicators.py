@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike
 
 from .. import checks
 from ..quantities import Bool, Integer, Real, Record, frozen_array
-from . import stairs
 from .nearest import nearest_others
 from .shortfall import Goals, Shortfall
 from .spreading import farthest_first
@@ -161,22 +160,15 @@ class ReferenceFront(Record):
         columns: Real = (np.ascontiguousarray(values.T) - self.ideal[:, np.newaxis]) / scale[:, np.newaxis]
         return columns.T
 
-    def swept(self, objectives: Real) -> tuple[Bool, float]:
-        """Return the mask (n,) of `non_dominated` of objectives (n, m) without NaN, and their `hypervolume`."""
-        scaled, corner = self.scaled(objectives), self.HYPERVOLUME_REFERENCE
-        if scaled.shape[1] <= stairs.MOST:
-            return stairs.swept(objectives, np.maximum(corner - scaled, 0.0))
-        if scaled.shape[1] <= self.EXACT or len(scaled) == 0:
-            return non_dominated(objectives), float(moocore.hypervolume(scaled, ref=corner))
-        return non_dominated(objectives), float(moocore.hv_approx(scaled, ref=corner, nsamples=2**16))
-
     def hypervolume(self, objectives: ArrayLike) -> float:
         """Return the volume dominated by objectives (n, m) up to 1.1 in scaled objectives [-].
 
         With more than `EXACT` objectives it is moocore's approximation, of a relative error of about 1e-3.
         """
-        values = checks.reals("objectives must be", objectives)
-        return self.swept(values[_whole(values)])[1]
+        scaled, corner = self.scaled(objectives), self.HYPERVOLUME_REFERENCE
+        if scaled.shape[-1] <= self.EXACT or len(scaled) == 0:
+            return float(moocore.hypervolume(scaled, ref=corner))
+        return float(moocore.hv_approx(scaled, ref=corner, nsamples=2**16))
 
     def relative_hypervolume(self, objectives: ArrayLike) -> float:
         """Return the hypervolume of objectives (n, m) over that of this front [-]."""

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 
 from ..quantities import Bool, Integer, Real
-from ..search.indicators import ReferenceFront, evenly_spread
+from ..search.indicators import ReferenceFront, evenly_spread, non_dominated
 from ..search.shortfall import Shortfall
 from ..search.trace import Trace
 
@@ -30,7 +30,7 @@ def judged(traced: Trace, population: int, reference: ReferenceFront) -> Iterato
         found = state.objectives[state.feasible]
         is_archive = np.array_equal(found, archive.objectives)
         cut = archive.cut(population, reference)
-        final = cut if is_archive else _Front.of(found, reference).cut(population, reference)
+        final = cut if is_archive else _Front.of(_cut(_rows(found, non_dominated(found)), population), reference)
         sets = {POPULATION: final, ARCHIVE: archive, CUT_ARCHIVE: cut}
         known = {id(front): front.indicators(reference) for front in sets.values()}
         rows = [{"evaluations": state.evaluations, "set": name, **known[id(sets[name])]} for name in sets]
@@ -38,37 +38,38 @@ def judged(traced: Trace, population: int, reference: ReferenceFront) -> Iterato
 
 
 class _Front(NamedTuple):
-    """Mutually non-dominated objectives, with their hypervolume and shortfall, which few further ones change."""
+    """Mutually non-dominated objectives, and what they lack to a reference front: few further ones change it."""
 
     objectives: Real  # (n, m), column by column in memory
-    hypervolume: float
     shortfall: Shortfall
 
     @classmethod
     def of(cls, objectives: Real, reference: ReferenceFront) -> Self:
-        """Return the front of objectives (n, m)."""
-        best, volume = reference.swept(objectives)
-        front = _rows(objectives, best)
-        return cls(front, volume, reference.shortfall(front))
+        """Return the front of mutually non-dominated objectives (n, m)."""
+        return cls(objectives, reference.shortfall(objectives))
 
     def grown(self, new: Real, reference: ReferenceFront) -> Self:
         """Return the front of these objectives and new ones (k, m); what leaves it is dominated, gap by gap."""
         both = np.concatenate([self.objectives.T, new.T], axis=1).T
-        best, volume = reference.swept(both)
+        best = non_dominated(both)
         shortfall = reference.shortfall(new[best[len(self.objectives) :]], self.shortfall)
-        return type(self)(_rows(both, best), volume, shortfall)
+        return type(self)(_rows(both, best), shortfall)
 
     def cut(self, size: int, reference: ReferenceFront) -> Self:
         """Return a front of at most `size` of the objectives, evenly spread."""
-        if len(self.objectives) <= size:
-            return self
-        return self.of(_rows(self.objectives, evenly_spread(self.objectives, size)), reference)
+        found = _cut(self.objectives, size)
+        return self if found is self.objectives else self.of(found, reference)
 
     def indicators(self, reference: ReferenceFront) -> dict[str, Any]:
         """Return the number of members and `INDICATORS`."""
-        volume, lacks = self.hypervolume / reference.volume, self.shortfall
+        volume, lacks = reference.relative_hypervolume(self.objectives), self.shortfall
         values = volume, lacks.igd_plus, lacks.epsilon, reference.spread(self.objectives)
         return {"members": len(self.objectives), **dict(zip(INDICATORS, values, strict=True))}
+
+
+def _cut(front: Real, size: int) -> Real:
+    """Return at most so many rows of a front (n, m), evenly spread."""
+    return front if len(front) <= size else _rows(front, evenly_spread(front, size))
 
 
 def _rows(objectives: Real, chosen: Bool | Integer) -> Real:

@@ -14,7 +14,7 @@ import numpy as np
 from platformdirs import user_cache_path
 
 from .. import tables
-from ..search import indicators, kinds, spreading, stairs
+from ..search import indicators, kinds, spreading
 from ..search.indicators import ReferenceFront
 from ..search.problem import Minimisable
 from . import machine, plans, reference
@@ -91,6 +91,6 @@ def _plan(problem: Minimisable, tolerance: float) -> dict[str, Any]:
 @lru_cache
 def _code() -> str:
     """Return a digest of the code that makes fronts: the version of the package stays as it is developed."""
-    modules = (reference, indicators, kinds, spreading, stairs)
+    modules = (reference, indicators, kinds, spreading)
     sources = (Path(str(module.__file__)).read_bytes() for module in modules)
     return hashlib.sha256(b"".join(sources)).hexdigest()[:32]
