@@ -173,7 +173,7 @@ class RedrawOutside(NamedTuple):
         return child
 
 
-@uncounted(forceinline=True)
+@uncounted()
 def mutate_design(verb: MutateDesign, rng: np.random.Generator, design: Real) -> None:
     """Mutate a design (d,) in place."""
     # The number of variables up to the next that changes is drawn, geometric: the floor of an exponential number.
@@ -187,7 +187,7 @@ def mutate_design(verb: MutateDesign, rng: np.random.Generator, design: Real) ->
         v += 1
 
 
-@uncounted(forceinline=True)
+@uncounted()
 def differ(
     verb: DifferentialChild, rng: np.random.Generator, designs: Real, i: int, partners: Integer, child: Real
 ) -> None:
@@ -199,7 +199,7 @@ def differ(
         child[v] = designs[i, v] + verb.scale * (designs[one, v] - designs[other, v])
 
 
-@uncounted(forceinline=True)
+@uncounted()
 def redraw_outside(verb: RedrawOutside, rng: np.random.Generator, child: Real, parent: Real) -> None:
     """Repair a child (d,) of a parent (d,) in place."""
     for v in range(child.size):
