@@ -10,8 +10,8 @@ from ..compiled import compiled, uncounted
 from ..quantities import Integer, Real
 from .morton import along_curve
 
-_EACH = 16
-_BLOCK = 32
+_BLOCK = 32  # points of a front side by side, in vectors
+_EACH = 16  # points that come near a block, after which what is out of reach is looked up anew
 
 
 class Shortfall(NamedTuple):
