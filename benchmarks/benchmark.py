@@ -52,7 +52,7 @@ SETTINGS: dict[str, Any] = {
     "strut_designs": {struts.QUARTER: 4000, struts.FULL: 400, struts.TRUCK: 400},
     "roofline_designs": {struts.QUARTER: 10_000, struts.FULL: 10_000, struts.TRUCK: 2000},
     "roofline_population": 10_000,
-    "roofline_repeats": 15,
+    "roofline_repeats": 40,
     "derivative_cases": tuple(row.case for row in derivatives.ROWS),
     "populations": (500, 1000, 4000, 16_000),
     "generations": 20,

@@ -24,7 +24,7 @@ def test_blocks_are_all_rows_in_order(rows, work, threads):
     assert [row for part in parts for row in part] == list(range(rows))
     assert len(parts) <= max(1, min(rows, work // 2**21))
     first, *others = map(len, parts)
-    late = rows * 2**19 / work if threads > 1 and others else 0  # the caller's thread begins with the first
+    late = rows * 2**20 / work if threads > 1 and others else 0  # the caller's thread begins with the first
     assert max(others, default=0) - min(others, default=0) <= 1
     assert all(abs(first - late - other) < 2 for other in others)  # two whole parts of numbers
 

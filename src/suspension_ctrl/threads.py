@@ -17,7 +17,7 @@ from . import checks
 
 T = TypeVar("T")
 
-_BLOCK, _LEAST, _LATE = 1 << 24, 1 << 21, 1 << 19
+_BLOCK, _LEAST, _LATE = 1 << 24, 1 << 21, 1 << 20
 """Numbers that a block passes through, some milliseconds' work; the least that are worth a thread; and those that
 the caller's thread passes through before another one has begun: its first block is so much larger."""
 
