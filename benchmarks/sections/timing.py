@@ -36,10 +36,10 @@ def timed(function: Callable[[], Any], calls: int = 1) -> Timing:
 def take_turns(
     contenders: Mapping[str, Prepare], repeats: int, limit: float, least: float = 0.0
 ) -> list[dict[str, Any]]:
-    """Time each contender `repeats` times after a first call that warms it up.
+    """Time each contender `repeats` times after a first call that warms it up, two with `least`.
 
     The order is turned round from one repeat to the next. Who takes longer than `limit` seconds in the first
-    call has had its turn: that call is its only one. Calls shorter than `least` seconds, a second first one tells,
+    call has had its turn: that call is its only one. Calls shorter than `least` seconds, the second tells,
     are repeated within a timing until they make up that time.
 
     Returns
@@ -54,7 +54,7 @@ def take_turns(
         if first.seconds > limit:
             rows.append(_row(name, 1, first))
         else:
-            warm = first if first.seconds < least or not least else timed(prepare(0))  # loaded, compiled
+            warm = timed(prepare(0)) if least else first  # loaded, compiled, in the cache
             calls[name] = max(1, ceil(least / warm.seconds))
     for repeat in range(1, repeats + 1):
         gc.collect()
