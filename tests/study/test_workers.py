@@ -266,8 +266,15 @@ def test_an_evaluation_spread_over_workers_gives_the_same_run(cluster):
     ],
 )
 def test_rejects_addresses_where_no_scheduler_is(address, message):
+    """A client that fails leaves no loop to the garbage collector, which may come while the next one starts."""
+    before = loops()
     with pytest.raises(ValueError, match=f"^{message}"), clusters.scheduler_at(address, timeout=0.5):
         pass
+    assert loops() == before
+
+
+def loops() -> set[threading.Thread]:
+    return {thread for thread in threading.enumerate() if thread.name == "IO loop"}
 
 
 def test_rejects_bad_numbers_of_jobs():

@@ -59,13 +59,16 @@ def _local_cluster(jobs: int, dashboard: str | None) -> Iterator["Client"]:
         except RuntimeError as error:
             raise ChildProcessError(f"processes must start, got: {error.__cause__ or error}") from error
         except KeyboardInterrupt:
-            started, client = starting.result()  # never half started
-            _kill(started)
-            started.close()
+            _entered(stack, *starting.result())  # never half started
             raise
-        stack.enter_context(started)
-        stack.callback(_kill, started)
-        yield stack.enter_context(client)
+        yield _entered(stack, started, client)
+
+
+def _entered(stack: ExitStack, started: Any, client: "Client") -> "Client":
+    """Return the client of a cluster; the stack closes it, kills the processes and closes the cluster."""
+    stack.enter_context(started)
+    stack.callback(_kill, started)
+    return stack.enter_context(client)
 
 
 @contextmanager
@@ -96,7 +99,7 @@ def _unpickled(_needed: Any) -> None:
 
 def _started(jobs: int, dashboard: str | None) -> tuple[Any, "Client"]:
     """Return a started cluster and its client."""
-    from distributed import Client, LocalCluster  # over a second: only where it is used
+    from distributed import LocalCluster  # over a second: only where it is used
 
     # Dask always starts a server of metrics; without an address it would listen to the network.
     scheduler = {"dashboard": dashboard is not None, "dashboard_address": dashboard or "127.0.0.1:0"}
@@ -104,7 +107,31 @@ def _started(jobs: int, dashboard: str | None) -> tuple[Any, "Client"]:
     settings |= {"scheduler_kwargs": scheduler, "dashboard_address": None, "worker_dashboard_address": None}
     _silence()
     started = LocalCluster(**settings, silence_logs="CRITICAL")
-    return started, Client(started, set_as_default=False)
+    try:
+        return started, _client(started)
+    except BaseException:
+        started.close()
+        raise
+
+
+def _client(server: Any, **settings: Any) -> "Client":
+    """Return a client of a cluster or an address; one that fails to connect is closed.
+
+    Left open, it would be closed by the garbage collector, in any thread, and wait for a lock that each client
+    holds while it starts: a collection during the start of the next client would stop that one.
+    """
+    import distributed
+
+    class Client(distributed.Client):
+        def start(self, **given: Any) -> None:
+            try:
+                super().start(**given)
+            except BaseException:
+                self.close()
+                self._loop_runner.stop()  # which runs on where the client has closed itself
+                raise
+
+    return Client(server, set_as_default=False, **settings)
 
 
 def _silence() -> None:
@@ -169,13 +196,13 @@ def scheduler_at(address: str, timeout: float = 10.0) -> AbstractContextManager[
 @contextmanager
 def _connected(address: str, timeout: float) -> Iterator["Client"]:
     with installed("study"):
-        from distributed import Client
+        import distributed  # noqa: F401
 
     _silence()
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about versions, which are checked below
-            client = Client(address, timeout=timeout, set_as_default=False)
+            client = _client(address, timeout=timeout)
     except (OSError, TypeError, ValueError) as error:  # TypeError: tls:// without certificates
         raise ValueError(f"scheduler must be one that answers, got {address!r}: {error}") from error
     with client:
