@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from suspension_ctrl import (
     Measure,
@@ -79,6 +80,26 @@ def test_prices_are_in_the_first_objective_and_stand_at_those_limits_that_are_ac
     between = table[(table.name == "between") | (table.name == "knee")]
     assert (between[["price of SWS [m/s^2 per m]", "price of DTL [m/s^2 per N]"]].dropna() <= 1e-9).all(axis=None)
     assert len(between)
+
+
+@pytest.mark.parametrize(("below", "held"), [(HELD / 2, "SWS <= 25.12 mm"), (1e-3, "SWS")])
+def test_the_price_is_that_of_a_limit_where_a_candidate_is_on_it(run, below, held):
+    """Of travels a share below the limit, which counts as on it or not; it has more digits than names show."""
+    most = 0.0251234567
+    problem = paper.ride_problem(constraints=[f"SWS <= {most}"])
+
+    def excess(damper: float, spring: float) -> float:
+        return problem.evaluate(np.array([[spring, damper]]))[0, 1] - most * (1 - below)
+
+    designs = np.array([(k, brentq(excess, 1e3, 5e3, (k,), rtol=1e-14)) for k in np.linspace(11e3, 14e3, 6)])
+    values = problem.evaluate(designs)
+    on_curve = replace(run, designs=designs, objectives=values[:, :3], constraints=values[:, 3:])
+    _, table = refined_candidates(problem, on_curve)
+    between = table[~table.name.str.contains("least")]
+    prices = between[["price of SWS [m/s^2 per m]", "price of SWS <= 25.12 mm [m/s^2 per m]"]].fillna(0.0)
+    assert len(between) >= 2
+    assert (prices.pop(f"price of {held} [m/s^2 per m]") < -80.0).all()
+    assert (prices == 0.0).all(axis=None)
 
 
 def test_a_spring_of_a_catalogue_keeps_its_value():
