@@ -1,11 +1,13 @@
 """Compilation: none at import nor in a second process, none needed, and the same arrays without it."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
+import numba
 import numpy as np
 import pytest
 from numba import njit, typeof
@@ -13,7 +15,7 @@ from numba import njit, typeof
 import suspension_ctrl
 from functions import dtlz2, srn
 from suspension_ctrl import MoeadDra, Nsga2, minimise
-from suspension_ctrl.compiled import alike, compilable, entry, once
+from suspension_ctrl.compiled import alike, compilable, compiled, entry, once
 
 
 @compilable()
@@ -33,6 +35,25 @@ def test_an_error_of_a_part_reaches_its_caller():
     assert quarter_of(3.0) == 0.75
     with pytest.raises(ValueError, match="x must be >= 0"):
         quarter_of(-1.0)
+
+
+def total(x):
+    found = 0.0
+    for i in range(x.size):
+        found += x[i]
+    return found
+
+
+def test_loops_that_are_not_unrolled_have_one_body_and_the_same_bits(tmp_path, monkeypatch):
+    """The sum of 100 numbers, in order: one addition in the machine code."""
+    numbers, bodies = np.random.default_rng(0).normal(size=100), {}
+    for unrolled in (True, False):
+        monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path / str(unrolled)))  # stored code is not shown
+        function = compiled(unrolled=unrolled, _nrt=False)(total)
+        assert function(numbers) == total(numbers)
+        code = function.inspect_asm(function.signatures[0])
+        bodies[unrolled] = len(re.findall(r"\bv?addsd\b|\bfadd\b", code))
+    assert bodies[False] == 1 < bodies[True]
 
 
 def test_what_is_alike_is_of_one_type():

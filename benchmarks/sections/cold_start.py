@@ -43,7 +43,7 @@ def processor_seconds(program: str, folder: str) -> tuple[float, float]:
     timed = (
         f"from time import process_time as t; a = t(); import control; b = t(); {program}; print(b - a, t() - b)"
     )
-    environment = os.environ | {"NUMBA_CACHE_DIR": folder}
+    environment = os.environ | {"NUMBA_CACHE_DIR": folder, "PYTHONDONTWRITEBYTECODE": ""}  # as once installed
     done = subprocess.run(
         [sys.executable, "-c", timed], check=True, capture_output=True, text=True, env=environment
     )

@@ -9,6 +9,7 @@ import numpy as np
 from ..compiled import compilable, uncounted
 from ..compiled_verbs import call
 from ..quantities import Bool, Real
+from .lanes import empty
 from .mean_squares import Case, one_by_one
 
 
@@ -51,10 +52,10 @@ class Kernel(NamedTuple):
     @compilable()
     def __call__(self, design: Real) -> Real:
         """Return the scores (s,) of one design (v,), in compiled code."""
-        designs = np.empty((1, design.size))  # `reshape` takes long to compile
+        designs = empty((1, design.size))  # `reshape` takes long to compile
         for v in range(design.size):
             designs[0, v] = design[v]
-        total = np.empty(self.scale.size)
+        total = empty((self.scale.size,))
         for s in range(total.size):
             total[s] = 0.0
         for c in range(len(self.cases)):

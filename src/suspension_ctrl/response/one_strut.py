@@ -30,9 +30,9 @@ class OneStrut(NamedTuple):
     def __call__(self, designs: Real) -> Real:
         """Return the mean squares (p, k) of designs (p, 2), K [N/m] and C [N s/m], each as if alone."""
         last, n = designs.shape[0] - 1, self.denominator.shape[1]
-        result = np.empty((designs.shape[0], self.terms))
+        result = empty((designs.shape[0], self.terms))
         clear(result)
-        gain, power = empty((_TOGETHER, n)), np.empty((_TOGETHER, 5))
+        gain, power = empty((_TOGETHER, n)), empty((_TOGETHER, 5))
         for first in range(0, designs.shape[0], _TOGETHER):
             for p in range(_TOGETHER):
                 each = min(first + p, last)
@@ -79,14 +79,14 @@ class OneDesign(NamedTuple):
     def __call__(self, designs: Real) -> Real:
         """Return the mean squares (p, k) of designs (p, 2)."""
         numerators, terms, exponents = self.strut.numerators, self.strut.term, self.strut.power
-        result = np.empty((designs.shape[0], self.strut.terms))
+        result = empty((designs.shape[0], self.strut.terms))
         clear(result)
-        gain, power, last = empty((1, numerators.shape[1])), np.empty((1, 5)), numerators.shape[0] - 1
+        gain, power, last = empty((1, numerators.shape[1])), empty((1, 5)), numerators.shape[0] - 1
         for first in range(designs.shape[0]):
             fill_gains(self.strut.denominator, designs[first, 0], designs[first, 1], 0, gain, power)
             for q in range(0, last + 1, 8):
                 found = sums_of_eight(numerators, q, last, gain)
-                for j in range(min(8, last + 1 - q)):
+                for j in range(8 if q + 7 < last else last + 1 - q):
                     result[first, terms[q + j]] += found[j] * power[0, exponents[q + j]]
         return result
 
@@ -173,8 +173,13 @@ def sums_of_eight(left: Real, q: int, last: int, right: Real) -> tuple[float, ..
     """
     s = t = u = v = spread(0.0)
     e = f = g = h = spread(0.0)
-    j, k, m = min(q + 1, last), min(q + 2, last), min(q + 3, last)
-    a, b, c, d = min(q + 4, last), min(q + 5, last), min(q + 6, last), min(q + 7, last)
+    j = q + (q < last)
+    k = j + (j < last)
+    m = k + (k < last)
+    a = m + (m < last)
+    b = a + (a < last)
+    c = b + (b < last)
+    d = c + (c < last)
     for i in range(0, left.shape[1], WIDTH):
         x = load(right, (0, i))
         s, t = fused(load(left, (q, i)), x, s), fused(load(left, (j, i)), x, t)

@@ -146,7 +146,7 @@ def keep_costs(child_values: Real, values: Real, weights: Real, ideal: Real, kep
 @uncounted(forceinline=True)
 def find_worse(
     violation: float, partners: Integer, values: Real, weights: Real, costs: Real, gaps: Real, worse: Integer
-) -> int:
+) -> np.int64:
     """Put partners (k,) that a child of this violation and these gaps betters into `worse`; return their count."""
     m = weights.shape[1]
     # Without branches, which a processor would guess wrongly: whoever is compared is written to the end. Indices
@@ -160,7 +160,7 @@ def find_worse(
             a = c if c > a else a
             worse[count] = i
             count += np.uint64(a < costs[i])
-        return int(count)
+        return np.int64(count)  # `int` is a function that numba compiles
     for k in range(partners.size):
         i = np.uint64(partners[k])
         better = violation == 0.0 or violation < violation_of(values[i], m)
@@ -169,7 +169,7 @@ def find_worse(
                 better &= weights[i, j] * gaps[j] < costs[i]
         worse[count] = i
         count += np.uint64(better)
-    return int(count)
+    return np.int64(count)
 
 
 @uncounted(forceinline=True)
@@ -183,7 +183,7 @@ def mark_better(weights: Real, costs: Real, gaps: Real, marks: Bool) -> None:
 
 
 @uncounted(forceinline=True)
-def marked(words: Integer, marks: Bool, found: Integer) -> int:
+def marked(words: Integer, marks: Bool, found: Integer) -> np.int64:
     """Put the indices of marks (8 n,) in words (n,), none of which most have, into `found`; return their count."""
     count = np.uint64(0)
     for w in range(words.size):
@@ -191,7 +191,7 @@ def marked(words: Integer, marks: Bool, found: Integer) -> int:
             for i in range(8 * w, 8 * w + 8):
                 found[count] = i
                 count += np.uint64(marks[i])
-    return int(count)
+    return np.int64(count)
 
 
 @uncounted(forceinline=True)

@@ -48,7 +48,7 @@ class Decomposed(NamedTuple):
         self.chosen[:] = toolbox.choose_subproblems(rng, self.utility, self.corners, self.chosen.size)
 
 
-@uncounted(error_model="numpy")
+@uncounted(error_model="numpy", forceinline=True)
 def scale_weights(vectors: Real, values: Real, ideal: Real, weights: Real, known: Real) -> None:
     """Put vectors (N, m) over the span of each objective into weights (N, m); no costs by these are known.
 

@@ -179,8 +179,8 @@ def iterate(
 _OWN = MatingRange, ChildInSweep, ReplaceInSweep, Linked
 """Verbs that need no counts of references to arrays."""
 
-_OPTIONS: dict[str, Any] = {"_nrt": False}
-_UNCOUNTED, _COUNTED = compiled(**_OPTIONS)(iterate), njit(iterate)
+_OPTIONS: dict[str, Any] = {"_nrt": False, "error_model": "numpy"}
+_UNCOUNTED, _COUNTED = compiled(unrolled=False, **_OPTIONS)(iterate), njit(iterate)
 
 
 class CheckedRange(NamedTuple):

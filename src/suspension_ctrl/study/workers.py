@@ -122,7 +122,9 @@ def _client(server: Any, **settings: Any) -> "Client":
     """
     import distributed
 
-    class Client(distributed.Client):
+    base: Any = distributed.Client  # without annotations
+
+    class Client(base):  # type: ignore[misc]
         def start(self, **given: Any) -> None:
             try:
                 super().start(**given)
@@ -131,7 +133,8 @@ def _client(server: Any, **settings: Any) -> "Client":
                 self._loop_runner.stop()  # which runs on where the client has closed itself
                 raise
 
-    return Client(server, set_as_default=False, **settings)
+    client: distributed.Client = Client(server, set_as_default=False, **settings)
+    return client
 
 
 def _silence() -> None:
