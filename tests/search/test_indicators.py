@@ -130,6 +130,17 @@ def test_many_rows_are_swept_along_any_column(columns):
     assert non_dominated(points).tolist() == (~beaten)[place].tolist()
 
 
+@pytest.mark.parametrize("m", [2, 3, 4])
+def test_the_best_stand_in_the_order_of_an_objective(m):
+    """Those of `non_dominated`, copies too; in an order in which one objective ascends."""
+    points = np.random.default_rng(m).integers(0, 12, (300, m)).astype(float)
+    points[100:120] = points[:20]
+    best = ReferenceFront.of(points).best(points)
+    assert sorted(best) == np.flatnonzero(non_dominated(points)).tolist()
+    assert (np.diff(points[best], axis=0) >= 0).all(axis=0).any()
+    assert ReferenceFront.of(points).best(points[:0]).size == 0
+
+
 def test_reference_front_of_the_ride_problem():
     """About a fifth of Table 1's box is Pareto-optimal: the share falls to that as the grid is refined."""
     problem = paper.ride_problem()

@@ -24,6 +24,8 @@ def test_squares_and_shifts_are_the_least_of_all_points(m):
         squares += np.maximum(beyond[..., k], 0) ** 2
     np.testing.assert_array_equal(found.squares, squares.min(axis=0)[found.order])
     np.testing.assert_array_equal(found.shifts, beyond.max(axis=2).min(axis=0)[found.order])
+    in_order = Goals.of(goals).shortfall(points[np.argsort(points[:, 0])])
+    np.testing.assert_array_equal(in_order.squares, found.squares)
     assert found.epsilon == moocore.epsilon_additive(points, ref=goals)
     # sums of 333 numbers, rounded by some 1e-15
     assert found.igd_plus == pytest.approx(moocore.igd_plus(points, ref=goals), rel=1e-12)

@@ -51,13 +51,13 @@ def _sweep(points: Real, second: int, by_first: Integer, by_second: Integer, siz
     for s in range(starts.size):
         near[:] = starts
         for i in range(starts[s], filled[s]):
-            best = _nearest(placed, second, i, starts[s], filled[s], i, np.inf)
+            best = _nearest(placed, second, i, starts[s], filled[s], i + 1, i - 1, np.inf)
             for step in (1, -1):
                 t = s + step
                 while 0 <= t < starts.size and best > 0.0 and _gap(placed[i, 0], low[t], high[t]) < best:
                     while near[t] < filled[t] and placed[near[t], second] < placed[i, second]:
                         near[t] += 1
-                    best = _nearest(placed, second, i, starts[t], filled[t], near[t], best)
+                    best = _nearest(placed, second, i, starts[t], filled[t], near[t], near[t] - 1, best)
                     t += step
             squares[order[i]] = best
 
@@ -70,20 +70,31 @@ def _gap(x: float, low: float, high: float) -> float:
 
 
 @uncounted()
-def _nearest(points: Real, second: int, i: int, start: int, end: int, near: int, best: float) -> float:
+def _nearest(points: Real, second: int, i: int, start: int, end: int, up: int, down: int, best: float) -> float:
     """Return the least square of the distance of point i to others of a strip, at most `best`; 0 of a later copy.
 
-    The strip is from `start` to `end`, and looked through from `near` on, forwards and backwards.
+    The strip is from `start` to `end`, and looked through from `up` and `down` on in turn, as both come nearer.
     """
     y = points[i, second]
-    for step in (1, -1):
-        j = near if step == 1 else near - 1
-        while start <= j < end and best > 0.0 and (points[j, second] - y) ** 2 < best:
-            if j != i:
-                square = 0.0
-                for k in range(points.shape[1]):
-                    square += (points[j, k] - points[i, k]) ** 2
-                if square < best and (square > 0.0 or j > i):
-                    best = square
-            j += step
-    return best
+    while True:
+        rises = up < end and (points[up, second] - y) ** 2 < best
+        falls = down >= start and (points[down, second] - y) ** 2 < best
+        if rises:
+            best = _nearer(points, i, up, best)
+            up += 1
+        if falls:
+            best = _nearer(points, i, down, best)
+            down -= 1
+        if not (rises or falls):
+            return best
+
+
+@uncounted()
+def _nearer(points: Real, i: int, j: int, best: float) -> float:
+    """Return the square of the distance of point i to point j, at most `best`; 0 if j is a later copy of it."""
+    square = 0.0
+    for k in range(points.shape[1]):
+        square += (points[j, k] - points[i, k]) ** 2
+    if square == 0.0:  # seldom; the minimum below is no branch, which a processor would guess wrong
+        return 0.0 if j > i else best
+    return min(best, square)

@@ -1,14 +1,14 @@
 """How far a set of points falls short of each point of a reference front: what IGD+ and epsilon are made of."""
 
 from dataclasses import dataclass
-from math import inf
+from itertools import count
+from math import gcd, inf
 from typing import NamedTuple
 
 import numpy as np
 
 from ..compiled import compiled, uncounted
 from ..quantities import Integer, Real
-from .morton import along_curve
 
 _BLOCK = 32  # points of a front side by side, in vectors
 _EACH = 16  # points that come near a block, after which what is out of reach is looked up anew
@@ -45,7 +45,7 @@ class Goals:
     @classmethod
     def of(cls, front: Real) -> "Goals":
         """Return the points of a front (r, m)."""
-        order = along_curve(front)
+        order = np.concatenate(_halves(front, np.arange(len(front))))
         order = np.pad(order, (0, -order.size % _BLOCK), mode="edge").reshape(-1, _BLOCK)
         blocks = np.ascontiguousarray(front[order].transpose(0, 2, 1))
         return cls(order, blocks, blocks.max(axis=2))
@@ -54,8 +54,25 @@ class Goals:
         """Return the shortfall of points (n, m), together with those of the shortfall `before`."""
         squares, shifts = np.full((2, *self.order.shape), inf) if before is None else np.stack(before[:2])
         if len(points):
-            _lower(self.blocks, self.worst, np.ascontiguousarray(points.T), squares, shifts)
+            mixed = np.ascontiguousarray(points.T)[:, _mixed(len(points))]
+            _lower(self.blocks, self.worst, mixed, squares, shifts)
         return Shortfall(squares, shifts, self.order)
+
+
+def _mixed(n: int) -> Integer:
+    """Return an order (n,) by steps of a golden section, in which the first of sorted points are everywhere."""
+    step = next(step for step in count(int(n * (5**0.5 - 1) / 2) + 1) if gcd(step, n) == 1)
+    return step * np.arange(n) % n
+
+
+def _halves(front: Real, chosen: Integer) -> list[Integer]:
+    """Return chosen points of a front (r, m), halved across their widest objective down to blocks."""
+    if len(chosen) <= _BLOCK:
+        return [chosen]
+    values = front[chosen]
+    middle = -(-len(chosen) // _BLOCK) // 2 * _BLOCK
+    order = chosen[np.argpartition(values[:, np.ptp(values, axis=0).argmax()], middle)]
+    return [*_halves(front, order[:middle]), *_halves(front, order[middle:])]
 
 
 @compiled()

@@ -11,11 +11,11 @@ from .morton import along_curve
 
 _BLOCK = 64  # points side by side, which are neighbours
 _ROUNDING = 1 + 1e-9  # of a squared distance: far above 1e-15
-_FEW, ONE_SET = 300_000, 3_000_000
+FEW, ONE_SET = 300_000, 3_000_000
 """Distances up to which nothing is compiled, which takes a second once: of sets that come again, and of one."""
 
 
-def farthest_first(points: Real, start: Integer, size: int, few: int = _FEW) -> Integer:
+def farthest_first(points: Real, start: Integer, size: int, few: int = FEW) -> Integer:
     """Return the indices (size,) of finite points (n, m): those of `start`, then repeatedly the farthest point.
 
     Of equally distant ones it is the first; copies of chosen points come last.
