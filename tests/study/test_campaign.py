@@ -1,10 +1,12 @@
 """Campaigns that are killed, or whose disk gives out, go on where they were: real processes, real signals."""
 
+import json
 import os
 import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -231,6 +233,22 @@ def test_a_campaign_in_a_program_resumes_from_its_folder(tmp_path):
             pd.testing.assert_frame_equal(made, again, check_exact=True)
     assert watched[-1] == ("timed runs", 4, 4)
     assert line.designs == before + 2 * SAMPLE  # nothing is warmed up
+
+
+def test_runs_judged_at_other_budgets_are_not_resumed(tmp_path):
+    """As those of a folder from before budgets were few: one line, before anything is timed."""
+    campaign = Campaign(compared(Line()), tmp_path, tolerance=0.02)
+    front = ReferenceFront.of(np.array([[0, 1.0], [1.0, 0]]))
+    campaign.judge(front)
+    campaign.check_judged(judged=True)
+    path = tmp_path / "quality" / "plan.json"
+    plan = json.loads(path.read_text())
+    del plan["budgets"]
+    path.write_text(json.dumps(plan))
+    said = r"^budgets must be None as in '.*plan.json' to resume there, got {'20': \[20, 29, 42, 60\]}$"
+    for resumed in (partial(campaign.check_judged, judged=True), partial(campaign.judge, front)):
+        with pytest.raises(ValueError, match=said):
+            resumed()
 
 
 def test_the_reference_front_of_a_grid_is_made_once_for_a_folder(tmp_path):

@@ -1,6 +1,11 @@
 """The runs that a comparison makes: which, how long, from which seeds; and the studies that judge it."""
 
+import math
+from itertools import pairwise
+
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from suspension_ctrl.paper import experiment as paper
 from suspension_ctrl.study.comparison import Comparison, optimiser
@@ -35,10 +40,22 @@ def test_timed_and_judged_runs_start_from_the_same_seed():
 
 
 def test_budgets_hold_every_state_that_is_compared():
-    assert comparison(["nsga2", "sobol"], iterations=[2]).budgets(20) == list(range(20, 61, 4))
+    assert comparison(["nsga2", "sobol"], iterations=[2]).budgets(20) == [20, 29, 42, 60]
     budgets = comparison(iterations=[7]).budgets(20)
     assert {20 + 7 * 4, 20 + 7 * 20} <= set(budgets)
     assert max(budgets) == 160
+
+
+@given(st.integers(15, 2000), st.lists(st.integers(1, 300), min_size=1, max_size=3))
+def test_budgets_are_few_and_near(population, iterations):
+    """At most a factor of 1.5 apart but for rounding, and no more than that takes but for those compared."""
+    one = comparison(populations=[population], iterations=iterations)
+    budgets = one.budgets(population)
+    named = {run.evaluations for run in one.timed_runs()} | {population}
+    assert named <= set(budgets)
+    assert budgets == sorted(set(budgets))
+    assert all(high <= 1.5 * low + 1.25 for low, high in pairwise(budgets))
+    assert len(budgets) <= len(named) + math.log(budgets[-1] / budgets[0]) / math.log(1.5)
 
 
 def test_raw_moead_takes_the_papers_units():

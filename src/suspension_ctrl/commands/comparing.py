@@ -99,7 +99,7 @@ def _carried_out(request: Request, cluster: AbstractContextManager[Any] | None) 
     campaign, record = request.campaign, request.campaign.folder / RECORD
     judged, resumed = cluster is not None, (campaign.folder / studies.FILE).exists()
     if resumed:
-        campaign.check_seeds(judged=judged)
+        campaign.check_judged(judged=judged)
     else:  # marks the folder as one to resume
         studies.save_resolved(campaign.folder, request.study)
     if not record.exists():  # written by the command that started the timed runs

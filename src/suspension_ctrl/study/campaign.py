@@ -77,10 +77,15 @@ class Campaign:
         """The reference front of this problem and tolerance among `fronts`, None without one."""
         return self.fronts.find(self.comparison.problem, self.tolerance)
 
-    def check_seeds(self, *, judged: bool) -> None:
-        """Raise ValueError if judged runs are to be made of other seeds than those in the folder."""
+    def check_judged(self, *, judged: bool) -> None:
+        """Raise ValueError if judged runs are to have other seeds or budgets than those in the folder."""
         if judged and self.has_judged:
-            plans.agree(self.folder / QUALITY / plans.FILE, {"seeds": self.comparison.seeds}, "to resume there")
+            planned = {"seeds": self.comparison.seeds, "budgets": self._budgets()}
+            plans.agree(self.folder / QUALITY / plans.FILE, planned, "to resume there")
+
+    def _budgets(self) -> dict[int, list[int]]:
+        """Return the budgets at which runs are judged, by population."""
+        return {n: self.comparison.budgets(n) for n in self.comparison.populations}
 
     def reference(
         self,
@@ -112,7 +117,8 @@ class Campaign:
         self, front: ReferenceFront, client: "Client | None" = None
     ) -> tuple[pd.DataFrame, Mapping[str, StoredRun]]:
         """Make the runs over many seeds, on a cluster if given; return their table (`Study.table`) and store."""
-        store = Remembered(self._store(QUALITY, "seeds", reference=reference.summary(front)))
+        plan = {"reference": reference.summary(front), "budgets": self._budgets()}
+        store = Remembered(self._store(QUALITY, "seeds", **plan))
         studies, tables = self.comparison.studies(front), dict[int, pd.DataFrame]()
         for population in sorted(studies, reverse=True):  # the last runs, for which processes wait, are short
             study = studies[population]

@@ -3,7 +3,8 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import product
+from itertools import pairwise, product
+from math import ceil, log
 
 from .. import checks
 from ..quantities import Record
@@ -26,6 +27,9 @@ ALGORITHMS: dict[str, Callable[..., Optimiser]] = {
     "sobol": partial(Sampling, points="sobol"),
 }
 """Optimisers by name. Raw MOEA/D-DRA is equation (14) to the letter, in the paper's units (DTL in kN)."""
+
+STEP = 1.5
+"""Largest ratio of successive budgets; between them quality is taken as linear in the logarithm of evaluations."""
 
 EQUAL_ITERATIONS, EQUAL_EVALUATIONS = "iterations", "evaluations"
 CONFIGURATION = ["population", "iterations"]
@@ -91,11 +95,11 @@ class Comparison(Record):
                 yield name, EQUAL_EVALUATIONS, population + (most - population) // each * each
 
     def budgets(self, population: int) -> list[int]:
-        """Return the evaluations at which runs are judged: every N/5 up to 5 N, every N, and timed budgets."""
+        """Return the evaluations at which runs are judged: the start, those compared, and steps between them."""
         spent = {n for count in self.iterations for _, _, n in self._budgets_of(population, count)}
-        fine = {population + k * (population // 5) for k in range(21)}
-        coarse = set(range(population, max(spent), population))
-        return sorted(budget for budget in fine | coarse | spent if budget <= max(spent))
+        compared = sorted({population} | spent)
+        steps = (step for pair in pairwise(compared) for step in _between(*pair))
+        return sorted({*compared, *steps})
 
     def studies(self, reference: ReferenceFront | None = None) -> dict[int, Study]:
         """Return the study over all seeds of each population, against a reference front if given."""
@@ -109,3 +113,9 @@ class Comparison(Record):
             )
             for n in self.populations
         }
+
+
+def _between(low: int, high: int) -> Iterator[int]:
+    """Yield whole numbers between two budgets, in a geometric series of a ratio of at most `STEP`."""
+    parts = ceil(log(high / low) / log(STEP))
+    yield from (round(low * (high / low) ** (k / parts)) for k in range(1, parts))

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple, Self
 
 import numpy as np
 
-from ..quantities import Bool, Integer, Real
-from ..search.indicators import ReferenceFront, evenly_spread, non_dominated
+from ..quantities import Integer, Real
+from ..search.indicators import ReferenceFront, evenly_spread
 from ..search.shortfall import Shortfall
 from ..search.trace import Trace
 
@@ -22,17 +22,20 @@ def judged(traced: Trace, population: int, reference: ReferenceFront) -> Iterato
 
     So is a set that is another one: the population of a sample is its archive, and a small archive is not cut.
     """
-    archive, begin = _Front.of(np.empty((0, traced.objectives.shape[1])), reference), 0
+    feasible, begin = traced.feasible, 0
+    archive = _Front.of(np.empty((0, traced.objectives.shape[1])), reference)
     for _, budgets in groupby(sorted(traced.states), lambda budget: traced.states[budget].evaluations):
         budget, *others = budgets
         state, new = traced.states[budget], slice(begin, begin := traced.spent[budget])
-        archive = archive.grown(traced.objectives[new][traced.feasible[new]], reference)
+        archive = archive.grown(traced.objectives[new][feasible[new]], reference)
         found = state.objectives[state.feasible]
-        is_archive = np.array_equal(found, archive.objectives)
+        found = _rows(found, reference.best(found))
         cut = archive.cut(population, reference)
-        final = cut if is_archive else _Front.of(_cut(_rows(found, non_dominated(found)), population), reference)
+        is_archive = np.array_equal(found, archive.objectives)
+        final = cut if is_archive else _Front.of(_cut(found, population), reference)
         sets = {POPULATION: final, ARCHIVE: archive, CUT_ARCHIVE: cut}
-        known = {id(front): front.indicators(reference) for front in sets.values()}
+        different = {id(front): front for front in sets.values()}
+        known = {key: front.indicators(reference) for key, front in different.items()}
         rows = [{"evaluations": state.evaluations, "set": name, **known[id(sets[name])]} for name in sets]
         yield from ({"budget": one, **row} for one in (budget, *others) for row in rows)
 
@@ -51,8 +54,8 @@ class _Front(NamedTuple):
     def grown(self, new: Real, reference: ReferenceFront) -> Self:
         """Return the front of these objectives and new ones (k, m); what leaves it is dominated, gap by gap."""
         both = np.concatenate([self.objectives.T, new.T], axis=1).T
-        best = non_dominated(both)
-        shortfall = reference.shortfall(new[best[len(self.objectives) :]], self.shortfall)
+        best, known = reference.best(both), len(self.objectives)
+        shortfall = reference.shortfall(new[best[best >= known] - known], self.shortfall)
         return type(self)(_rows(both, best), shortfall)
 
     def cut(self, size: int, reference: ReferenceFront) -> Self:
@@ -62,16 +65,16 @@ class _Front(NamedTuple):
 
     def indicators(self, reference: ReferenceFront) -> dict[str, Any]:
         """Return the number of members and `INDICATORS`."""
-        volume, lacks = reference.relative_hypervolume(self.objectives), self.shortfall
-        values = volume, lacks.igd_plus, lacks.epsilon, reference.spread(self.objectives)
+        volume, spread = reference.volume_and_spread(self.objectives)
+        values = volume, self.shortfall.igd_plus, self.shortfall.epsilon, spread
         return {"members": len(self.objectives), **dict(zip(INDICATORS, values, strict=True))}
 
 
 def _cut(front: Real, size: int) -> Real:
     """Return at most so many rows of a front (n, m), evenly spread."""
-    return front if len(front) <= size else _rows(front, evenly_spread(front, size))
+    return front if len(front) <= size else _rows(front, evenly_spread(front, size, few=0))
 
 
-def _rows(objectives: Real, chosen: Bool | Integer) -> Real:
+def _rows(objectives: Real, chosen: Integer) -> Real:
     """Return rows of objectives (n, m), column by column in memory."""
     return np.ascontiguousarray(objectives.T)[:, chosen].T
