@@ -12,6 +12,7 @@ from suspension_ctrl.response.any_struts import AnyStruts
 from suspension_ctrl.response.lanes import WIDTH, fused, spread, total
 from suspension_ctrl.response.linearisation import working_points
 from suspension_ctrl.response.many_struts import ManyStruts
+from suspension_ctrl.response.one_fraction import OneFraction
 from suspension_ctrl.response.one_port import OnePort
 from suspension_ctrl.response.one_strut import OneStrut
 
@@ -100,6 +101,8 @@ def work_of(case: Any, designs: NDArray[np.float64]) -> Work:
     """Return the mean operations for a design of a kernel."""
     if isinstance(case, OneStrut):
         return _of_one_strut(case)
+    if isinstance(case, OneFraction):
+        return _of_one_fraction(case)
     if isinstance(case, OnePort):
         return _of_one_port(case, float(working_points(case, designs).iterations.mean()))
     if isinstance(case, AnyStruts):
@@ -112,6 +115,12 @@ def _of_one_strut(case: OneStrut) -> Work:
     """Return 4 multiply-adds by denominator, of which two share a division and 3 products, 1 by numerator."""
     q, n = case.numerators.shape
     return Work(n * (4 + 1.5 + q), n / 2, 8 * (2 + case.terms))
+
+
+def _of_one_fraction(case: OneFraction) -> Work:
+    """Return a multiply-add by row of the denominator and by numerator, and what shares a division as above."""
+    (q, n), rows = case.numerators.shape, int(case.denominator.any(axis=1).sum())
+    return Work(n * (rows + 1.5 + q), n / 2, 8 * (len(case.networks.variable) + case.port.terms))
 
 
 def _of_one_port(case: OnePort, iterations: float) -> Work:

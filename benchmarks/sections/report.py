@@ -219,12 +219,13 @@ def _about_roofline(found: Measurements, settings: dict[str, Any]) -> list[str]:
         "buckets. Multiply-adds alone, on two threads in the same way, tell how much there is of the second.",
         markdown(roofline_table(found)),
         "Operations by node. One strut: a denominator of 4 multiply-adds, 3 products and a division for two, and "
-        "1 by each numerator. Two struts of a block, a complex product being 4: stiffnesses 5, the loop 16, its "
-        "determinant 8, its reciprocal 4 and a division, stiffnesses by it 8; by source deflections and tensions "
-        "24, and by response of a source 10; two blocks make a full car of some 220. Two elements in series: 24 "
-        "and a division, and 2 at each strut of a block; the gain of any strut 13 and a division, and 1 by each "
-        "numerator. Force laws, in each iteration for the working point: of one strut 11.5 and half a division, "
-        "of a block of two 31 and a division, 22 by source and 2 by law.",
+        "1 by each numerator. Of a damper on a mount, a ratio of polynomials, denominators have 6 rows and there "
+        "are 10 numerators for 7. Two struts of a block, a complex product being 4: stiffnesses 5, the loop 16, "
+        "its determinant 8, its reciprocal 4 and a division, stiffnesses by it 8; by source deflections and "
+        "tensions 24, and by response of a source 10; two blocks make a full car of some 220. Two elements in "
+        "series: 24 and a division, and 2 at each strut of a block; the gain of any other strut 13 and a "
+        "division, and 1 by each numerator. Force laws, in each iteration for the working point: of one strut "
+        "11.5 and half a division, of a block of two 31 and a division, 22 by source and 2 by law.",
     ]
 
 

@@ -14,7 +14,7 @@ from ..vehicles.vehicle import Vehicle
 from .linearisation import linear_vehicles, powers_of_laws, working_points
 from .load_case import LoadCase
 from .mapped import unmapped
-from .mean_squares import AnyCase, Case, quadrature_of, varying
+from .mean_squares import Case, has_networks, quadrature_of, varying
 from .measures.terms import Designs, Term
 from .ports import Ports, dynamic_stiffness, paths
 from .quadrature import Rule, middles
@@ -40,12 +40,12 @@ class EvaluatedCase:
             return np.asarray(squares[:, [self.terms.index(term.integral) for term in terms]])
 
         def mean_travels() -> Real:
-            if isinstance(inner, AnyCase):
+            if has_networks(inner):
                 return working_points(inner, linear).position
             return np.zeros((len(designs), len(vehicle.struts)))
 
         def law_powers() -> Real:
-            if isinstance(inner, AnyCase):
+            if has_networks(inner):
                 return powers_of_laws(inner, working_points(inner, linear))
             return np.zeros((len(designs), len(vehicle.struts)))
 
@@ -94,7 +94,7 @@ class EvaluatedCase:
         """Yield frequencies (n,) [Hz] and the spectra of all responses for each of designs (p, w)."""
         vehicle, f = self.case.vehicle, middles(self.band)
         roads = self.case.cross_spectrum(f)
-        if isinstance(inner, AnyCase):
+        if has_networks(inner):
             for one in linear_vehicles(vehicle, list(self.setting), inner, designs, coefficients):
                 yield f, dict(zip(one.responses, _spectra(paths(one.closed(), f), roads), strict=True))
             return

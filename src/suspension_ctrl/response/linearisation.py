@@ -14,9 +14,10 @@ from ..vehicles.networks import has_force_laws
 from ..vehicles.struts import Parallel, Strut
 from ..vehicles.vehicle import AssembledVehicle, Setting, Vehicle, assembled
 from . import any_struts, one_port
+from .any_struts import AnyStruts
 from .bands import band_of
 from .load_case import LoadCase, Road
-from .mean_squares import AnyCase, case_of
+from .mean_squares import AnyCase, case_of, has_networks
 from .measures.terms import Term
 from .network_rows import DEVIATION, FORCE, MEAN, NETWORK, OF_RATE, SLOPE
 from .one_port import OnePort
@@ -136,7 +137,7 @@ def linearised(
     case = LoadCase(vehicle=car, road=road, speed=speed)
     band = band_of(band, [(road, speed)])
     squares = case_of(case, [Term(car.responses[0])], values, list(values), band, _NODES)
-    if isinstance(squares, AnyCase):
+    if has_networks(squares):
         points = working_points(squares, np.array([list(values.values())]))
         return at_working_point(car, values, points, 0, squares)
     still = dict.fromkeys(car.struts, 0.0)
@@ -155,10 +156,10 @@ def linear_at(case: LoadCase, setting: Setting, band: tuple[float, float]) -> tu
 def working_points(case: AnyCase, designs: Real) -> Points:
     """Return the working points of designs (p, v); ValueError that names the first design without one."""
     points = room_for_points(case.networks, len(designs))
-    if isinstance(case, OnePort):
-        one_port.solve(case, designs, points)
-    else:
+    if isinstance(case, AnyStruts):
         any_struts.solve(case, designs, points)
+    else:
+        one_port.solve(case if isinstance(case, OnePort) else case.port, designs, points)
     check_reached(points.iterations >= 0, designs)
     return points
 

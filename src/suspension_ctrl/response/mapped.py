@@ -18,7 +18,7 @@ class Mapped(NamedTuple):
     """Mean squares of a case at the coefficients that formulas give."""
 
     formulas: Formulas
-    case: Any  # OneStrut, OneDesign, ManyStruts, OnePort or AnyStruts
+    case: Any  # OneStrut, OneDesign, ManyStruts, OneFraction, OnePort or AnyStruts
 
     @compiled(error_model="numpy")
     def __call__(self, designs: Real) -> Real:

@@ -5,7 +5,7 @@ A case is a compiled function from designs (p, v) to mean squares (p, k): `OneSt
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
 
 import numpy as np
 
@@ -26,8 +26,11 @@ from .ports import Ports
 from .quadrature import Rule, frequency_nodes, in_lanes
 from .strut_data import any_struts, networks_of
 
-AnyCase = OnePort | AnyStruts
-Case = OneStrut | ManyStruts | AnyCase | Mapped
+if TYPE_CHECKING:
+    from .one_fraction import OneFraction
+
+AnyCase: TypeAlias = "OnePort | OneFraction | AnyStruts"
+Case: TypeAlias = "OneStrut | ManyStruts | AnyCase | Mapped"
 Nodes = int | Placed
 """A number of nodes, or those that are placed for a box."""
 
@@ -54,6 +57,11 @@ def _mapped(vehicle: Vehicle, case: Case) -> Case:
     return Mapped(vehicle.formulas, case) if isinstance(vehicle, Varied) else case
 
 
+def has_networks(case: Case) -> TypeGuard[AnyCase]:
+    """Whether a case has networks beside plain springs and dampers."""
+    return hasattr(case, "networks")
+
+
 def one_by_one(case: Any) -> Any:
     """Return a case for compiled loops that have one design after the other."""
     if isinstance(case, Mapped):
@@ -71,10 +79,26 @@ def kind_of(load_cases: Sequence[LoadCase], variables: Sequence[str]) -> type[Ca
     vehicles = [case.vehicle for case in load_cases]
     one_port = all(len(one.contact_points) == len(one.struts) == 1 for one in vehicles)
     if any(vehicle.networks for vehicle in vehicles):
-        return OnePort if one_port else AnyStruts
+        return _kind_of_port(vehicles) if one_port else AnyStruts
     names = {tuple(one.name for one in vehicle.strut_coefficients) for vehicle in vehicles}
     own = {tuple(varying(vehicle, variables)) for vehicle in vehicles}
     return OneStrut if one_port and names == own == {("spring", "damper")} else ManyStruts
+
+
+def _kind_of_port(vehicles: Sequence[Vehicle]) -> type[Case]:
+    """Return the quickest class for vehicles with a network at one strut."""
+    from .network_fractions import at_port
+    from .one_fraction import OneFraction
+
+    return OneFraction if all(at_port(vehicle).few for vehicle in vehicles) else OnePort
+
+
+def _fraction_of(port: OnePort, vehicle: Vehicle) -> "OneFraction":
+    """Return a port whose strut is a fraction."""
+    from .network_fractions import at_port
+    from .one_fraction import OneFraction
+
+    return OneFraction.of(port, at_port(vehicle))
 
 
 def case_of(
@@ -95,10 +119,11 @@ def case_of(
     responses = [term.response for term in terms]
     if kind is OneStrut:
         return OneStrut.around(Ports.of(vehicle, f, responses), 2 * np.pi * f, densities * load_case.psd(f))
-    if kind is OnePort:
+    if kind is not AnyStruts and load_case.vehicle.networks:
         ports, excitation = Ports.of(vehicle, f, responses), w * load_case.psd(f)
         networks = networks_of(vehicle, setting, variables, f, np.eye(1, dtype=bool))
-        return OnePort.around(networks, ports, f, excitation, densities * load_case.psd(f))
+        port = OnePort.around(networks, ports, f, excitation, densities * load_case.psd(f))
+        return port if kind is OnePort else _fraction_of(port, vehicle)
     f, w, densities = in_lanes(f, w, densities)
     omega, apart = 2 * np.pi * f, pairs(vehicle.struts, vehicle.contact_points)
     if kind is AnyStruts:

@@ -9,7 +9,7 @@ from ..quantities import Complex, Integer, Real
 from .lanes import WIDTH, Lanes, empty, fused, in_lines, load, spread, store, total
 from .ports import Ports
 
-_TOGETHER = 4
+TOGETHER = 4
 """Designs that are summed at once: a sum has the same order whether they are four or one."""
 
 
@@ -32,21 +32,13 @@ class OneStrut(NamedTuple):
         last, n = designs.shape[0] - 1, self.denominator.shape[1]
         result = empty((designs.shape[0], self.terms))
         clear(result)
-        gain, power = empty((_TOGETHER, n)), empty((_TOGETHER, 5))
-        for first in range(0, designs.shape[0], _TOGETHER):
-            for p in range(_TOGETHER):
+        gain, power = empty((TOGETHER, n)), empty((TOGETHER, 5))
+        for first in range(0, designs.shape[0], TOGETHER):
+            for p in range(TOGETHER):
                 each = min(first + p, last)
                 fill_gains(self.denominator, designs[each, 0], designs[each, 1], p, gain, power)
-            count, pairs = min(_TOGETHER, last + 1 - first), self.power.size // 2
-            for q in range(0, 2 * pairs, 2):
-                ones, others = sums_of_two(self.numerators, q, q + 1, gain)
-                for p in range(count):
-                    result[first + p, self.term[q]] += ones[p] * power[p, self.power[q]]
-                    result[first + p, self.term[q + 1]] += others[p] * power[p, self.power[q + 1]]
-            for q in range(2 * pairs, self.power.size):
-                ones = sums(self.numerators, q, gain)
-                for p in range(count):
-                    result[first + p, self.term[q]] += ones[p] * power[p, self.power[q]]
+            count = min(TOGETHER, last + 1 - first)
+            add_sums(self.numerators, self.term, self.power, gain, power, first, count, result)
         return result
 
     @classmethod
@@ -136,6 +128,23 @@ def loops_at(denominator: Real, factors: tuple[Lanes, ...], i: int) -> Lanes:
     for j in range(1, 4):
         found = fused(load(denominator, (j, i)), factors[j + 1], found)
     return found
+
+
+@uncounted(forceinline=True)
+def add_sums(
+    numerators: Real, term: Integer, exponent: Integer, gain: Real, power: Real, p: int, count: int, result: Real
+) -> None:
+    """Add to the mean squares of up to four designs from the p-th (p, k), by gains (4, n) and powers."""
+    pairs = exponent.size // 2
+    for q in range(0, 2 * pairs, 2):
+        ones, others = sums_of_two(numerators, q, q + 1, gain)
+        for j in range(count):
+            result[p + j, term[q]] += ones[j] * power[j, exponent[q]]
+            result[p + j, term[q + 1]] += others[j] * power[j, exponent[q + 1]]
+    for q in range(2 * pairs, exponent.size):
+        ones = sums(numerators, q, gain)
+        for j in range(count):
+            result[p + j, term[q]] += ones[j] * power[j, exponent[q]]
 
 
 @uncounted()

@@ -11,7 +11,7 @@ from ...response.any_struts import AnyStruts
 from ...response.blocks import Variables
 from ...response.curves import frequencies
 from ...response.mapped import Mapped
-from ...response.mean_squares import AnyCase, Case, varying
+from ...response.mean_squares import Case, has_networks, varying
 from ...response.measures.terms import Term
 from ...response.network_rows import Networks
 from ...response.ports import Ports
@@ -80,7 +80,7 @@ def plant_ports(scores: Scores, number: int, case: Case, points: int = POINTS) -
         order=variables.order,
         origin=variables.origin,
         struts=tuple(vehicle.struts),
-        laws=tuple(_law_names(vehicle, inner.networks)) if isinstance(inner, AnyCase) else (),
+        laws=tuple(_law_names(vehicle, inner.networks)) if has_networks(inner) else (),
         networks=networks,
         nominal=nominal,
     )
@@ -98,7 +98,7 @@ def _networks(
     vehicle: Vehicle, setting: Mapping[str, float], names: Sequence[str], case: Case, f: Real
 ) -> tuple[Networks | None, Real]:
     """Return networks at frequencies (n,), whose laws are those of the case, and what stands for them."""
-    if not isinstance(case, AnyCase):
+    if not has_networks(case):
         return None, np.zeros((0, 2))
     networks = networks_of(vehicle, setting, names, f, _partners(case.networks))
     return networks, case.nominal if isinstance(case, AnyStruts) else np.zeros((len(networks.root), 2))

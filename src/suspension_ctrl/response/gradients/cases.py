@@ -9,9 +9,10 @@ from ...quantities import Real
 from ..any_struts import AnyStruts
 from ..mapped import Mapped, slopes_of, unmapped
 from ..mean_squares import Case
+from ..one_fraction import OneFraction
 from ..one_port import OnePort
 from ..one_strut import OneStrut
-from . import any_struts, linear_port, mounted_struts, one_port, one_strut
+from . import any_struts, linear_port, mounted_struts, one_fraction, one_port, one_strut
 from .wanted import Wanted
 
 
@@ -29,6 +30,7 @@ def _of_any(case: AnyStruts, wanted: Wanted, designs: Real) -> tuple[Real, Real]
 
 _BY_CLASS: dict[type, Callable[[Any, Wanted, Real], tuple[Real, Real]]] = {
     OneStrut: one_strut.with_slopes,
+    OneFraction: one_fraction.with_slopes,
     OnePort: _of_port,
     AnyStruts: _of_any,
 }
