@@ -107,6 +107,17 @@ def test_probabilities_are_kept():
     assert crossed == pytest.approx(0.3, abs=5 * np.sqrt(0.3 * 0.7 / 10000))  # pairs 0.6, variables 1/2
 
 
+def test_variables_are_exchanged_between_children_by_even_chance():
+    """Of 2000 pairs: half the variables recombine, and in half of these the first child has the larger value."""
+    parents = np.tile([[0.2, 0.3], [0.6, 0.5]], (2000, 1))
+    children = operators.simulated_binary_crossover(
+        np.random.default_rng(1), parents, np.zeros(2), np.ones(2), 20.0, 1.0
+    )
+    larger = children[::2] > children[1::2]
+    assert larger.mean(axis=0) == pytest.approx([0.25, 0.25], abs=5 * np.sqrt(0.25 * 0.75 / 2000))
+    assert larger.all(axis=1).mean() == pytest.approx(1 / 16, abs=5 * np.sqrt(15 / 256 / 2000))
+
+
 def test_a_last_parent_without_a_mate_is_copied():
     parents = np.random.default_rng(0).random((5, 2))
     children = operators.simulated_binary_crossover(

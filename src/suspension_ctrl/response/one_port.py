@@ -12,10 +12,10 @@ from .network_rows import (
     IN_SERIES,
     NEXT,
     OF_RATE,
-    SLOPE,
     STATES,
     Networks,
     elements,
+    fill,
     fill_direct,
     fill_rows,
     fill_share,
@@ -39,7 +39,6 @@ from .working_point import (
     linearise,
 )
 
-_ROUNDS = 3  # each leaves some percent of the distance to the damping at the setting
 _USUAL = 10.0  # damping by the root of the stiffness: damping ratios of some 0.3 of bodies of some 300 kg
 
 
@@ -56,7 +55,7 @@ class OnePort(NamedTuple):
     term: Integer  # (r,), the term of each numerator
     power: Integer  # (r,), its polynomial in D
     excitation: Real  # (2, n), of deflection and rate of the port without a strut, times the density
-    guess: Real  # (3,), deviations of deflection and rate at a damping [N s/m] near that of the setting
+    guess: Real  # (3,), deviations of deflection and rate at a damping [N s/m] of the strut
     terms: int
 
     @compilable()
@@ -81,37 +80,17 @@ class OnePort(NamedTuple):
         denominator = _square_of_line(np.ones_like(p22), -p22)
         deflection = np.abs(p21) ** 2 * weight
         excitation = np.array([deflection, omega**2 * deflection])
-        known = _known(networks, omega, p22, excitation)
-        return cls(networks, omega, denominator, numerators[term, power], term, power, excitation, known, ports.m)
+        stiffness = networks.nominal[0, 0] + 1j * omega * _USUAL * np.sqrt(networks.nominal[0, 0])
+        loop = 1 - p22 * stiffness
+        deviations = np.sqrt((excitation / np.abs(loop) ** 2).sum(axis=1))
+        guess = np.array([*deviations, _USUAL * np.sqrt(networks.nominal[0, 0])])
+        return cls(networks, omega, denominator, numerators[term, power], term, power, excitation, guess, ports.m)
 
 
 def _square_of_line(a: Complex, b: Complex) -> Real:
     """Coefficients (4, n) of |a + b D|^2 at 1, Re D, Im D and |D|^2."""
     cross = 2 * a.conj() * b
     return np.stack([np.abs(a) ** 2, cross.real, -cross.imag, np.abs(b) ** 2])
-
-
-def _known(networks: Networks, omega: Real, feedback: Complex, excitation: Real) -> Real:
-    """Return deviations of deflection and rate, and their damping (3,): near that of force laws at the setting."""
-    stiffness, damping = networks.nominal[0, 0], _USUAL * np.sqrt(networks.nominal[0, 0])
-    for _ in range(_ROUNDS if len(networks.law) else 1):
-        loop = 1 - feedback * (stiffness + 1j * omega * damping)
-        known = np.array([*np.sqrt((excitation / np.abs(loop) ** 2).sum(axis=1)), damping])
-        damping = _damping(networks._replace(same_damping=False), known)
-        if not 0.0 < damping < np.inf:
-            break
-    return known
-
-
-def _damping(networks: Networks, known: Real) -> float:
-    """Return the damping by dampers and laws of the rate at the setting, at the deviations by those known."""
-    law, values, beside = networks.law, networks.setting, np.empty(1)
-    curve, state = np.empty(networks.laws.number.shape[:3]), np.zeros((len(law), STATES))
-    fill_damping(networks, values, beside)
-    begin(law, networks.laws, values, curve, state)
-    guess(known, networks, curve, values, beside[0], state)
-    linearise(law, networks.laws.most, curve, values, state)
-    return float(beside[0] + (networks.square * state[:, SLOPE])[law[:, OF_RATE] > 0].sum())
 
 
 class Room(NamedTuple):
@@ -159,8 +138,6 @@ def fill_row(
 ) -> None:
     """Fill in the mean squares of one of the designs."""
     fill_values(port.networks.variable, designs, p, room.values)
-    if p == 0 or not port.networks.same_damping:
-        begin(port.networks.law, port.networks.laws, room.values, room.curve, room.state)
     iterations = settle(port, room, statics)
     keep(points, p, room.state, room.position, iterations)
     for term in range(port.terms):
@@ -174,7 +151,8 @@ def settle(port: OnePort, room: Room, statics: bool) -> int:
     networks, law, curve, values, state = port.networks, port.networks.law, room.curve, room.values, room.state
     count, square, plain = networks.laws.most, networks.square, room.rows.shape[0] == 1
     fill_damping(networks, values, room.damping)
-    guess(port.guess, networks, curve, values, room.damping[0], state)
+    begin(law, networks.laws, values, curve, state)
+    guess(port.guess, law, count, square, curve, values, room.damping[0], state)
     change = np.inf if count.size > 0 else 0.0
     for iteration in range(MOST):
         if statics:
@@ -209,12 +187,10 @@ def fill_next(port: OnePort, room: Room) -> None:
     """Fill in the deviations that result for every law, by the closed loop."""
     networks, share, state = port.networks, room.share, room.state
     for i in range(state.shape[0]):
-        of_rate = networks.law[i, OF_RATE]
+        fill(share, networks.square[i])
         if networks.law[i, IN_SERIES]:
             fill_share(networks, port.omega, i, room.direct, room.rows, share)
-            state[i, NEXT] = np.sqrt(weighted(room.gain, port.excitation, of_rate, share))
-        else:
-            state[i, NEXT] = np.sqrt(networks.square[i] * product_of(room.gain[0], port.excitation[of_rate]))
+        state[i, NEXT] = np.sqrt(weighted(room.gain, port.excitation, networks.law[i, OF_RATE], share))
 
 
 @compilable(error_model="numpy", forceinline=True)
@@ -279,17 +255,11 @@ def weighted(gain: Real, excitation: Real, of_rate: int, share: Real) -> float:
     return total
 
 
-@uncounted()
+@compilable(fastmath={"reassoc", "contract", "nsz"})
 def add_terms(numerators: Real, term: Integer, power: Integer, gain: Real, p: int, result: Real) -> None:
     """Add the integrals of the numerators (r, n) to the terms of a design (p, k)."""
     for q in range(power.size):
-        result[p, term[q]] += product_of(numerators[q], gain[power[q]])
-
-
-@compilable(fastmath={"reassoc", "contract", "nsz"})
-def product_of(left: Real, right: Real) -> float:
-    """Return the sum of the products of two rows (n,)."""
-    total = 0.0
-    for i in range(left.size):
-        total += left[i] * right[i]
-    return total
+        total = 0.0
+        for i in range(gain.shape[1]):
+            total += gain[power[q], i] * numerators[q, i]
+        result[p, term[q]] += total

@@ -10,6 +10,7 @@ from ..quantities import Integer, Real
 from ..vehicles.networks import Laws, fill_curve
 from .gaussian import of_lines, of_power
 from .network_rows import (
+    BEFORE,
     CHANGE,
     DEVIATION,
     FORCE,
@@ -21,7 +22,6 @@ from .network_rows import (
     SLOPE,
     STATES,
     STEP,
-    TAKEN,
     Networks,
 )
 
@@ -34,7 +34,6 @@ SOON = 1e-4
 _FIRST_RATE, _FIRST_DEFLECTION = 0.2, 0.01  # m/s and m, standard deviations to begin with
 _LARGEST = 2.0  # change of ln s in an iteration
 _QUICK = 15  # iterations before steps become shorter
-_GUESSES = 2  # steps to the first deviations
 
 
 class Points(NamedTuple):
@@ -110,15 +109,22 @@ def linearise(law: Integer, count: Integer, curve: Real, values: Real, state: Re
         state[i, FORCE], state[i, SLOPE], state[i, CHANGE] = force, slope, change
 
 
-@compilable(error_model="numpy", forceinline=True)
-def guess(known: Real, networks: Networks, curve: Real, values: Real, damping: float, state: Real) -> None:
+@compilable(error_model="numpy")
+def guess(
+    known: Real,
+    law: Integer,
+    count: Integer,
+    square: Real,
+    curve: Real,
+    values: Real,
+    damping: float,
+    state: Real,
+) -> None:
     """Take first deviations by those `known` (3,) at another damping: white road velocity keeps s^2 c."""
-    law, count, square, x = networks.law, networks.laws.most, networks.square, 0.0
-    for step in range(_GUESSES + 1):
+    x = 0.0
+    for _ in range(2):
         for i in range(count.size):
-            state[i, DEVIATION], state[i, MEAN] = known[law[i, OF_RATE]] * sqrt(square[i]) * exp(x), 0.0
-        if networks.same_damping or step == _GUESSES:
-            break
+            state[i, DEVIATION] = known[law[i, OF_RATE]] * sqrt(square[i]) * exp(x)
         linearise(law, count, curve, values, state)
         total, rise = damping, 0.0
         for i in range(count.size):
@@ -148,12 +154,12 @@ def improve(law: Integer, square: Real, damping: Real, state: Real, iteration: i
         state[i, NEXT] = step
     back = product / length if 0 < iteration < _QUICK and length > 0.0 else 0.0
     for i in range(law.shape[0]):
-        step = state[i, NEXT]
-        change = step - back * (state[i, TAKEN] + step - state[i, STEP])
+        x, step = log(state[i, DEVIATION]), state[i, NEXT]
+        change = step - back * (x - state[i, BEFORE] + step - state[i, STEP])
         if not abs(change) < _LARGEST:
             change = max(-_LARGEST, min(step, _LARGEST))
-        state[i, TAKEN], state[i, STEP] = relaxation(iteration) * change, step
-        state[i, DEVIATION] *= exp(state[i, TAKEN])
+        state[i, BEFORE], state[i, STEP] = x, step
+        state[i, DEVIATION] = exp(x + relaxation(iteration) * change)
     return error
 
 

@@ -25,7 +25,7 @@ from ..quantities import Integer, Real, unit
 from .constraints import any_feasible, constrained, ideal_with, violations
 from .evaluation import SearchProblem
 from .kinds import box
-from .operators import ranked_winners, sample_uniform
+from .operators import sample_uniform, winners_of
 from .population import Generational, State
 from .problem import Minimisable
 from .selection import ranks_and_crowding
@@ -112,8 +112,8 @@ class Gamultiobj(Generational):
 
 def ranked_tournament(rng: np.random.Generator, rank: Integer, crowding: Real, size: int) -> Integer:
     """Return `size` winners of tournaments of two out of ranks (n,): lower rank, then larger crowding distance."""
-    a, b = (rng.random((2, size)) * rank.size).astype(np.int64)
-    return ranked_winners(a, b, rank, crowding)
+    pairs = (rng.random((2, size)) * rank.size).astype(np.int64)
+    return winners_of(np.ascontiguousarray(pairs.T), rank, crowding)
 
 
 def intermediate_crossover(rng: np.random.Generator, parents: Real) -> Real:

@@ -4,9 +4,10 @@ from math import log
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..compiled import compilable, compiled, uncounted
-from ..quantities import Bool, Integer, Real
+from ..compiled import compilable, filling, uncounted
+from ..quantities import Integer, Real
 
 
 def sample_uniform(rng: np.random.Generator, size: int, lower: Real, upper: Real) -> Real:
@@ -26,21 +27,25 @@ def crowded_tournament(rng: np.random.Generator, rank: Integer, crowding: Real, 
 
     It is the crowded comparison of Deb et al. 2002; in a pass over the population everyone takes part once.
     """
-    pairs = rank.size // 2
-    passes = [rng.permutation(rank.size)[: 2 * pairs] for _ in range(-(-size // pairs))]
-    a, b = np.concatenate(passes)[: 2 * size].reshape(-1, 2).T
-    return ranked_winners(a, b, rank, crowding)
+    half = rank.size // 2
+    passes = [rng.permutation(rank.size)[: 2 * half] for _ in range(-(-size // half))]
+    return winners_of(np.concatenate(passes)[: 2 * size].reshape(-1, 2), rank, crowding)
 
 
-@compiled()
-def ranked_winners(a: Integer, b: Integer, rank: Integer, crowding: Real) -> Integer:
-    """Return the winners (k,) of tournaments of a (k,) and b (k,): a where they tie."""
-    winners = np.empty(a.size, dtype=np.int64)
-    for k in range(a.size):
-        one, other = a[k], b[k]
-        b_wins = rank[other] < rank[one] or (rank[other] == rank[one] and crowding[other] > crowding[one])
-        winners[k] = other if b_wins else one
+def winners_of(pairs: Integer, rank: Integer, crowding: Real) -> Integer:
+    """Return the winners (k,) of tournaments of pairs (k, 2): the first where they tie."""
+    winners = np.empty(len(pairs), dtype=np.int64)
+    fill_winners(pairs, rank, crowding, winners)
     return winners
+
+
+@filling()
+def fill_winners(pairs: Integer, rank: Integer, crowding: Real, winners: Integer) -> None:
+    """Fill in the winners (k,) of pairs (k, 2), without branches, which would be as good as random."""
+    for k in range(winners.size):
+        one, other = pairs[k, 0], pairs[k, 1]
+        less_crowded = (rank[other] == rank[one]) & (crowding[other] > crowding[one])
+        winners[k] = other if (rank[other] < rank[one]) | less_crowded else one
 
 
 def simulated_binary_crossover(
@@ -51,41 +56,70 @@ def simulated_binary_crossover(
     K. Deb, R. B. Agrawal, Complex Systems 9, 1995, in the bounded form of Deb's NSGA-II code: a pair mates with
     `probability`, then each variable is recombined with probability 1/2.
     """
-    pairs, variables = parents.shape[0] // 2, parents.shape[1]
-    mates = rng.random(pairs) < probability
-    return recombined(parents, mates, rng.random((pairs, variables, 3)), lower, upper, eta)
-
-
-@compiled()
-def recombined(parents: Real, mates: Bool, draws: Real, lower: Real, upper: Real, eta: float) -> Real:
-    """Return children (n, d) by draws (n // 2, d, 3): recombination of a variable, spread, order of the pair."""
-    children = parents.copy()
-    for pair in range(mates.size):
-        if not mates[pair]:
-            continue
-        first = 2 * pair
-        for v in range(parents.shape[1]):
-            one, other = parents[first, v], parents[first + 1, v]
-            low, high = min(one, other), max(one, other)
-            if draws[pair, v, 0] < 0.5 or high - low <= 1e-14 * (upper[v] - lower[v]):
-                continue
-            u = draws[pair, v, 1]
-            down = sbx_spread(u, (low - lower[v]) / (high - low), eta)
-            up = sbx_spread(u, (upper[v] - high) / (high - low), eta)
-            a = max(lower[v], 0.5 * (low + high - down * (high - low)))
-            b = min(upper[v], 0.5 * (low + high + up * (high - low)))
-            swap = draws[pair, v, 2] < 0.5
-            children[first, v] = b if swap else a
-            children[first + 1, v] = a if swap else b
+    children, (n, d) = parents.copy(), parents.shape
+    mates, draws = rng.random(n // 2), rng.random((n // 2, d, 3))
+    places, alphas = np.empty((2, n // 2 * d + 1), dtype=np.int32), np.empty((2, n // 2 * d))
+    recombine(children, mates, probability, draws, lower, upper, eta, places, alphas)
     return children
 
 
-@compilable()
-def sbx_spread(u: float, room: float, eta: float) -> float:
-    """Return the spread factor of SBX for the draw u; `room` is the distance to the bound over the parents'."""
-    alpha = 2.0 - (1.0 + 2.0 * room) ** -(eta + 1.0)
-    inside = u * alpha if u <= 1.0 / alpha else 1.0 / (2.0 - u * alpha)
-    return float(inside ** (1.0 / (eta + 1.0)))
+@filling()
+def recombine(
+    children: Real,
+    mates: Real,
+    probability: float,
+    draws: Real,
+    lower: Real,
+    upper: Real,
+    eta: float,
+    places: NDArray[np.int32],
+    alphas: Real,
+) -> None:
+    """Replace pairs of parents (n, d) that mate, by draws (n // 2,), by children; the last two are room.
+
+    Draws (n // 2, d, 3) are for the recombination of a variable, the spread and the order of the pair. What is
+    recombined is collected first: powers take half as long without branches between them that are as good as
+    random, and without waiting for one another.
+    """
+    count = 0
+    for pair in range(mates.size):
+        for v in range(children.shape[1]):
+            places[0, count], places[1, count] = 2 * pair, v
+            gap = abs(children[2 * pair, v] - children[2 * pair + 1, v])
+            mixes = (mates[pair] < probability) & (draws[pair, v, 0] >= 0.5)
+            count += mixes & (gap > 1e-14 * (upper[v] - lower[v]))
+    for k in range(count):
+        i, v = places[0, k], places[1, k]
+        low, high = in_order(children[i, v], children[i + 1, v])
+        alphas[0, k] = sbx_alpha((low - lower[v]) / (high - low), eta)
+        alphas[1, k] = sbx_alpha((upper[v] - high) / (high - low), eta)
+    for k in range(count):
+        i, v = places[0, k], places[1, k]
+        low, high = in_order(children[i, v], children[i + 1, v])
+        u, swaps = draws[i // 2, v, 1], draws[i // 2, v, 2] < 0.5
+        a = 0.5 * (low + high - sbx_spread(u, alphas[0, k], eta) * (high - low))
+        b = 0.5 * (low + high + sbx_spread(u, alphas[1, k], eta) * (high - low))
+        a, b = a if a > lower[v] else lower[v], b if b < upper[v] else upper[v]
+        children[i, v], children[i + 1, v] = (b, a) if swaps else (a, b)
+
+
+@uncounted(forceinline=True)
+def in_order(one: float, other: float) -> tuple[float, float]:
+    """Return two values in ascending order."""
+    return (one, other) if one < other else (other, one)
+
+
+@uncounted(forceinline=True)
+def sbx_alpha(room: float, eta: float) -> float:
+    """Return alpha of SBX; `room` is the distance to the bound over that of the parents."""
+    return float(2.0 - (1.0 + 2.0 * room) ** -(eta + 1.0))
+
+
+@uncounted(forceinline=True)
+def sbx_spread(u: float, alpha: float, eta: float) -> float:
+    """Return the spread factor of SBX for the draw u."""
+    near = u <= 1.0 / alpha
+    return float(((u * alpha if near else 1.0) / (1.0 if near else 2.0 - u * alpha)) ** (1.0 / (eta + 1.0)))
 
 
 def polynomial_mutation(
@@ -96,31 +130,58 @@ def polynomial_mutation(
     K. Deb, M. Goyal, "A combined genetic adaptive search (GeneAS) for engineering design", 1996, in the bounded
     form of Deb's NSGA-II code.
     """
-    mutates = rng.random(designs.shape) < probability
-    return mutated(designs, mutates, rng.random(designs.shape), lower, upper, eta)
-
-
-@compiled()
-def mutated(designs: Real, mutates: Bool, draws: Real, lower: Real, upper: Real, eta: float) -> Real:
-    """Return mutants (n, d) of designs (n, d) where `mutates` (n, d) is true, by draws (n, d)."""
-    mutants = designs.copy()
-    for i in range(designs.shape[0]):
-        for v in range(designs.shape[1]):
-            if mutates[i, v]:
-                mutants[i, v] = mutated_value(designs[i, v], draws[i, v], lower[v], upper[v], eta)
+    mutants, draws = designs.copy(), rng.random((2, *designs.shape))
+    places, rests = np.empty((2, designs.size + 1), dtype=np.int32), np.empty(designs.size)
+    mutate(mutants, draws, probability, lower, upper, eta, places, rests)
     return mutants
+
+
+@filling()
+def mutate(
+    mutants: Real,
+    draws: Real,
+    probability: float,
+    lower: Real,
+    upper: Real,
+    eta: float,
+    places: NDArray[np.int32],
+    rests: Real,
+) -> None:
+    """Mutate designs (n, d) in place by draws (2, n, d), of the choice and the step; the last two are room.
+
+    What mutates is collected first, as in `recombine`.
+    """
+    count = 0
+    for i in range(mutants.shape[0]):
+        for v in range(mutants.shape[1]):
+            places[0, count], places[1, count] = i, v
+            count += draws[0, i, v] < probability
+    for k in range(count):
+        i, v = places[0, k], places[1, k]
+        rests[k] = mutation_rest(mutants[i, v], draws[1, i, v], lower[v], upper[v], eta)
+    for k in range(count):
+        i, v = places[0, k], places[1, k]
+        mutants[i, v] = mutated_by(mutants[i, v], draws[1, i, v], lower[v], upper[v], eta, rests[k])
 
 
 @uncounted(forceinline=True)
 def mutated_value(value: float, u: float, lower: float, upper: float, eta: float) -> float:
     """Return the polynomial mutation of a value in its bounds for the draw u."""
-    width = upper - lower
-    if u < 0.5:
-        rest = (1.0 - (value - lower) / width) ** (eta + 1.0)
-        step = (2.0 * u + (1.0 - 2.0 * u) * rest) ** (1.0 / (eta + 1.0)) - 1.0
-    else:
-        rest = (1.0 - (upper - value) / width) ** (eta + 1.0)
-        step = 1.0 - (2.0 * (1.0 - u) + (2.0 * u - 1.0) * rest) ** (1.0 / (eta + 1.0))
+    return mutated_by(value, u, lower, upper, eta, mutation_rest(value, u, lower, upper, eta))
+
+
+@uncounted(forceinline=True)
+def mutation_rest(value: float, u: float, lower: float, upper: float, eta: float) -> float:
+    """Return the power in polynomial mutation for the draw u, by its bound on the side of the step."""
+    return float((1.0 - (value - lower if u < 0.5 else upper - value) / (upper - lower)) ** (eta + 1.0))
+
+
+@uncounted(forceinline=True)
+def mutated_by(value: float, u: float, lower: float, upper: float, eta: float, rest: float) -> float:
+    """Return the polynomial mutation of a value for the draw u, by `mutation_rest`."""
+    share, width = u if u < 0.5 else 1.0 - u, upper - lower
+    step = (2.0 * share + (1.0 - 2.0 * share) * rest) ** (1.0 / (eta + 1.0)) - 1.0
+    step = step if u < 0.5 else -step
     mutant = value + step * width  # no min and max: numba compiles these functions for each caller
     return lower if mutant < lower else upper if mutant > upper else mutant
 

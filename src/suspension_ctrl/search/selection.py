@@ -7,11 +7,12 @@ import moocore
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compiled import compilable, compiled
+from ..compiled import filling, uncounted
 from ..quantities import Integer, Real
 
 _MOVES, _BUCKETS = 8, 4
 """Per individual: most moves in sorting by insertion, numpy is faster where there are more; buckets before it."""
+_TINY = np.finfo(float).tiny
 
 
 def select_survivors(objectives: Real, size: int) -> tuple[Integer, NDArray[np.int32], Real]:
@@ -22,49 +23,60 @@ def select_survivors(objectives: Real, size: int) -> tuple[Integer, NDArray[np.i
     Evol. Comput. 6(2), 2002.
     """
     rank, crowding = ranks_and_crowding(objectives, size)
-    last, surplus, distances = last_front(rank, crowding, size)
-    limit = np.partition(distances, surplus - 1)[surplus - 1] if surplus else -np.inf
-    return survivors(rank, crowding, size, last, surplus, limit)
+    index, counts = np.empty(size, dtype=np.int64), np.zeros(rank.size, dtype=np.int64)
+    values, room = np.empty((2, rank.size + 1))
+    fill_survivors(rank, crowding, counts, values, room, index)
+    return index, rank.take(index), crowding.take(index)
 
 
-@compiled()
-def last_front(rank: NDArray[np.int32], crowding: Real, size: int) -> tuple[int, int, Real]:
-    """Return the last front that survives, its number of individuals too many, and its crowding distances (k,)."""
-    counts = np.zeros(rank.size, dtype=np.int64)
+@filling()
+def fill_survivors(
+    rank: NDArray[np.int32], crowding: Real, counts: Integer, values: Real, room: Real, index: Integer
+) -> None:
+    """Fill in the indices (k,), ascending, of the best by fronts and crowding distances (n,).
+
+    Of individuals of the last front at the same distance the first ones stay. `counts` (n,) is zero, `values` and
+    `room` (n + 1,) are any. Conditions are joined without branches, which would be as good as random.
+    """
     for i in range(rank.size):
         counts[rank[i]] += 1
-    last, ranked = 0, counts[0]
-    while ranked < size:
+    last, left = 0, index.size  # of the last front
+    while left > counts[last]:
+        left -= counts[last]
         last += 1
-        ranked += counts[last]
-    distances, place = np.empty(counts[last]), 0
+    place = 0
     for i in range(rank.size):
-        if rank[i] == last:
-            distances[place] = crowding[i]
-            place += 1
-    return last, ranked - size, distances
-
-
-@compiled()
-def survivors(
-    rank: NDArray[np.int32], crowding: Real, size: int, last: int, surplus: int, limit: float
-) -> tuple[Integer, NDArray[np.int32], Real]:
-    """Return indices, fronts and crowding distances (size,) without a surplus of the last front.
-
-    The surplus is those of that front at a distance below the limit, then the last of those at the limit.
-    """
-    index, ranks, distances = np.empty(size, dtype=np.int64), np.empty(size, dtype=np.int32), np.empty(size)
+        values[place] = crowding[i]
+        place += rank[i] == last
+    limit = nth_smallest(values, room, place, place - left)
     for i in range(rank.size):
-        surplus -= rank[i] == last and crowding[i] < limit
-    place = size - 1
-    for i in range(rank.size - 1, -1, -1):
-        tied = rank[i] == last and crowding[i] == limit
-        if tied and surplus > 0:
-            surplus -= 1
-        elif rank[i] < last or (rank[i] == last and crowding[i] >= limit):
-            index[place], ranks[place], distances[place] = i, rank[i], crowding[i]
-            place -= 1
-    return index, ranks, distances
+        left -= (rank[i] == last) & (crowding[i] > limit)  # at the limit in the end
+    place, i = 0, 0
+    while place < index.size and i < rank.size:
+        tied = (rank[i] == last) & (crowding[i] == limit) & (left > 0)
+        index[place] = i
+        place += (rank[i] < last) | ((rank[i] == last) & (crowding[i] > limit)) | tied
+        left -= tied
+        i += 1
+
+
+@uncounted()
+def nth_smallest(values: Real, room: Real, count: int, n: int) -> float:
+    """Return the number n, from 0, of the first `count` values in their order; they and `room` are overwritten."""
+    while True:
+        pivot, below, above = values[count // 2], 0, 0
+        for i in range(count):
+            value = values[i]
+            values[below], room[above] = value, value
+            below += value < pivot
+            above += value > pivot
+        if n < below:
+            count = below
+        elif n < count - above:
+            return pivot
+        else:
+            n -= count - above
+            count, values, room = above, room, values
 
 
 def ranks_and_crowding(objectives: Real, size: int) -> tuple[NDArray[np.int32], Real]:
@@ -74,54 +86,66 @@ def ranks_and_crowding(objectives: Real, size: int) -> tuple[NDArray[np.int32], 
     the gap between both neighbours in a front over the range of the front.
     """
     columns = np.ascontiguousarray(objectives.T)
-    orders = np.array([lexicographic(column[np.newaxis]) for column in columns])
+    orders = by_buckets(columns)
+    for j, order in enumerate(orders):
+        orders[j] = sorted_by(columns[j : j + 1], order)
     if len(columns) == 3:
-        rank = swept_fronts(columns, orders[1], lexicographic(columns, orders[0]), size)
+        rank = swept_fronts(columns, orders[1], sorted_by(columns, orders[0].copy()), size)
     else:
         rank = np.empty(len(objectives), dtype=np.int32)
         rank[orders[0]] = moocore.pareto_rank(columns[::-1, orders[0]].T)  # it sorts by the last objective
     distance, fronts = np.zeros(rank.size), int(rank.max()) + 1
-    ends, places = np.empty((2, fronts)), np.empty((2, fronts), dtype=np.int64)
-    for value, order in zip(columns, orders, strict=True):
-        add_gaps(value, order, rank, len(columns), ends, places, distance)
+    add_gaps(columns, orders, rank, np.empty(fronts), np.empty((2, fronts), dtype=np.int64), distance)
     return rank, distance
 
 
-def lexicographic(keys: Real, near: Integer | None = None) -> Integer:
-    """Return ``np.lexsort(keys[::-1])`` of keys (k, n); an order `near` (n,), or evenly spread keys, save time."""
-    order = by_buckets(keys[0]) if near is None else near.copy()
+def lexicographic(keys: Real) -> Integer:
+    """Return ``np.lexsort(keys[::-1])`` of keys (k, n); evenly spread keys save time."""
+    return sorted_by(keys, by_buckets(keys[:1])[0])
+
+
+def sorted_by(keys: Real, order: Integer) -> Integer:
+    """Return ``np.lexsort(keys[::-1])`` of keys (k, n); a nearly sorted order (n,), lost, saves time."""
     if insert(keys, order):
         return order
     order = np.argsort(keys[0])
     return order if insert(keys, order) else np.lexsort(keys[::-1])
 
 
-def by_buckets(values: Real) -> Integer:
-    """Return an order (n,) of values by 4 n equal intervals; within one they stand as they come."""
-    order, ends = np.arange(values.size), np.zeros(_BUCKETS * values.size + 1, dtype=np.int64)
-    with np.errstate(invalid="ignore", over="ignore"):  # infinite values have no span
-        least, span = values.min(), values.max() - values.min()
-    if ends.size * np.finfo(float).tiny < span < np.inf:  # no overflow, nor NaN
-        fill_buckets(values, least, (ends.size - 2) / span, np.empty(values.size, dtype=np.int64), ends, order)
-    return order
+def by_buckets(columns: Real) -> Integer:
+    """Return orders (m, n) of columns (m, n) by 4 n equal intervals; within one values stand as they come."""
+    orders, bucket = np.empty(columns.shape, dtype=np.int64), np.empty(columns.shape[1], dtype=np.int32)
+    fill_orders(columns, bucket, np.empty(_BUCKETS * bucket.size + 1, dtype=np.int32), orders)
+    return orders
 
 
-@compiled()
-def fill_buckets(values: Real, least: float, scale: float, bucket: Integer, ends: Integer, order: Integer) -> None:
-    """Put indices of values (n,) into `order` (n,) by buckets; `ends` (4 n + 1,) is zero, `bucket` (n,) any."""
+@filling()
+def fill_orders(columns: Real, bucket: NDArray[np.int32], ends: NDArray[np.int32], orders: Integer) -> None:
+    """Fill in orders (m, n) of columns (m, n) by buckets; `bucket` (n,) and `ends` (4 n + 1,) are room."""
     last = ends.size - 2
-    for i in range(values.size):
-        b = np.int64((values[i] - least) * scale)
-        bucket[i] = b if b < last else last
-        ends[bucket[i] + 1] += 1
-    for k in range(1, ends.size):
-        ends[k] += ends[k - 1]
-    for i in range(values.size):
-        order[ends[bucket[i]]] = i
-        ends[bucket[i]] += 1
+    for j in range(columns.shape[0]):
+        least, largest = np.inf, -np.inf
+        for i in range(bucket.size):
+            orders[j, i] = i
+            least = columns[j, i] if columns[j, i] < least else least
+            largest = columns[j, i] if columns[j, i] > largest else largest
+        span = largest - least
+        if not last * _TINY < span < np.inf:  # it overflows, or its reciprocal does
+            continue
+        for k in range(ends.size):
+            ends[k] = 0
+        for i in range(bucket.size):
+            b = np.int64((columns[j, i] - least) * (last / span))
+            bucket[i] = b if 0 <= b < last else last  # NaN too
+            ends[bucket[i] + 1] += 1
+        for k in range(1, ends.size):
+            ends[k] += ends[k - 1]
+        for i in range(bucket.size):
+            orders[j, ends[bucket[i]]] = i
+            ends[bucket[i]] += 1
 
 
-@compiled()
+@filling()
 def insert(keys: Real, order: Integer) -> bool:
     """Sort a nearly sorted order (n,) by keys (k, n), then by index; return False if that takes many moves."""
     moves, largest = 0, -np.inf
@@ -140,7 +164,7 @@ def insert(keys: Real, order: Integer) -> bool:
     return True
 
 
-@compilable()
+@uncounted()
 def follows(keys: Real, a: int, b: int) -> bool:
     """Whether the individual a comes after b by keys (k, n), then by index."""
     for key in keys:
@@ -154,86 +178,114 @@ def swept_fronts(columns: Real, by_second: Integer, order: Integer, size: int) -
 
     The order (n,) is lexicographic, `by_second` (n,) that of the second objective.
     """
-    level, rank = np.empty((2, order.size), dtype=np.int32)
-    tree, (first, second, third) = np.empty(order.size + 1), columns
-    sweep_fronts(first, second, third, by_second, order.copy(), size, tree, level, rank)
+    rank, level, left = np.empty((3, order.size), dtype=np.int32)
+    sweep_fronts(columns, by_second, order, size, left, level, np.empty(left.size), np.empty(left.size + 1), rank)
     return rank
 
 
-@compiled()
+@filling()
 def sweep_fronts(
-    first: Real,
-    second: Real,
-    third: Real,
+    columns: Real,
     by_second: Integer,
-    left: Integer,
+    order: Integer,
     size: int,
-    tree: Real,
+    left: NDArray[np.int32],
     level: NDArray[np.int32],
+    third: Real,
+    tree: Real,
     rank: NDArray[np.int32],
 ) -> None:
     """Fill in the front (n,) of each individual, one number for all beyond the first `size`; the others are room.
 
-    Fronts are taken off `left` (n,) one after another. In its lexicographic order an individual is dominated only
-    by earlier ones: by one whose second objective, which `level` ranks, and third are no larger. A Fenwick tree
-    (n + 1,) over the levels gives the least third objective of these in log n steps. Slices and whole arrays would
-    take twice as long to compile.
+    The second objective gives each individual its level from 1, and 0 to a copy of the individual before.
     """
     for k in range(left.size):
         i, before = by_second[k], by_second[k - 1]
-        level[i] = level[before] if k > 0 and second[i] == second[before] else k + 1
+        rank[i] = rank[before] if k > 0 and columns[1, i] == columns[1, before] else k + 1  # for now its level
+    for k in range(left.size):
+        i, before, copy = order[k], order[k - 1], k > 0
+        for j in range(3):
+            copy = copy and columns[j, i] == columns[j, before]
+        left[k], level[k], third[k] = i, 0 if copy else rank[i], columns[2, i]
     front, rest = 0, left.size
     while left.size - rest < size and rest > 0:
-        for place in range(tree.size):
-            tree[place] = np.nan  # no individual yet: comparisons with it are false
-        kept, last = 0, -1
-        for k in range(rest):
-            i = left[k]
-            dominated, place = False, level[i]
-            while place > 0:  # levels up to its own
-                dominated |= tree[place] <= third[i]
-                place &= place - 1
-            twin = last >= 0 and first[i] == first[last] and second[i] == second[last] and third[i] == third[last]
-            if dominated and not twin:
-                left[kept] = i
-                kept += 1
-                continue
-            rank[i], last, place = front, i, level[i]
-            while place < tree.size:  # sums that hold its level
-                tree[place] = tree[place] if tree[place] <= third[i] else third[i]
-                place += place & -place
-        rest, front = kept, front + 1
+        rest, front = take_front(front, rest, left, level, third, tree, rank), front + 1
     for k in range(rest):
         rank[left[k]] = front
 
 
-@compiled()
-def add_gaps(
-    value: Real,
-    order: Integer,
-    rank: NDArray[np.int32],
-    m: int,
-    ends: Real,
-    places: Integer,
-    distance: Real,
-) -> None:
-    """Add one of m objectives, `value` (n,) rising in `order` (n,), to the crowding distances `distance` (n,).
+@uncounted()
+def take_front(
+    front: int, rest: int, left: Integer, level: Integer, third: Real, tree: Real, rank: NDArray[np.int32]
+) -> int:
+    """Take a front off the first `rest` individuals `left` (n,), with level and third objective; return the rest.
 
-    Work space of r fronts: `ends` (2, r), least and largest value, `places` (2, r), the last two individuals.
+    In their lexicographic order an individual is dominated only by earlier ones: by one whose second and third
+    objective are no larger. A Fenwick tree (n + 1,) over the levels of the second gives the least third objective
+    of these in log n steps.
     """
-    for r in range(ends.shape[1]):
+    for place in range(tree.size):
+        tree[place] = np.nan  # no individual yet: comparisons with it are false
+    kept, dominated = 0, False
+    for k in range(rest):
+        place, value = level[k], third[k]
+        dominated = dominated and place == 0  # a copy is what the one before it is
+        while place > 0:  # levels up to its own
+            dominated |= tree[place] <= value
+            place &= place - 1
+        if dominated:
+            left[kept], level[kept], third[kept] = left[k], level[k], value
+            kept += 1
+            continue
+        rank[left[k]], place = front, level[k]
+        while 0 < place < tree.size:  # sums that hold its level
+            tree[place] = tree[place] if tree[place] <= value else value
+            place += place & -place
+    return kept
+
+
+@filling()
+def add_gaps(
+    columns: Real, orders: Integer, rank: NDArray[np.int32], span: Real, places: Integer, distance: Real
+) -> None:
+    """Add the crowding distances (n,) of objectives (m, n) in fronts (n,); each objective rises in its order (n,).
+
+    Of r fronts `span` (r,) and `places` (2, r), the last two individuals, are room.
+    """
+    m = columns.shape[0]
+    for j in range(m):
+        fill_spans(columns, orders, j, rank, places, span)
+        for r in range(span.size):
+            places[0, r], places[1, r] = -1, -1
+        for k in range(rank.size):
+            i = orders[j, k]
+            r = rank[i]
+            before, last = places[0, r], places[1, r]
+            if last < 0:
+                distance[i] = np.inf
+            elif before >= 0 and span[r] > 0:
+                distance[last] += (columns[j, i] - columns[j, before]) / (m * span[r])
+            places[0, r], places[1, r] = last, i
+        for r in range(span.size):
+            distance[places[1, r]] = np.inf
+
+
+@uncounted()
+def fill_spans(
+    columns: Real, orders: Integer, j: int, rank: NDArray[np.int32], places: Integer, span: Real
+) -> None:
+    """Fill in the range (r,) of objective j in each front; `places` (2, r) is room."""
+    for r in range(span.size):
         places[0, r], places[1, r] = -1, -1
-    for k in range(order.size):  # of a front the last values that are put in are its largest and its least
-        i, j = order[k], order[order.size - 1 - k]
-        ends[1, rank[i]], ends[0, rank[j]] = value[i], value[j]
-    for k in range(order.size):
-        i = order[k]
-        r = rank[i]
-        before, last, span = places[0, r], places[1, r], ends[1, r] - ends[0, r]
-        if last < 0:
-            distance[i] = np.inf
-        elif before >= 0 and span > 0:
-            distance[last] += (value[i] - value[before]) / (m * span)
-        places[0, r], places[1, r] = last, i
-    for r in range(ends.shape[1]):
-        distance[places[1, r]] = np.inf
+    missing, k = 2 * span.size, 0
+    while missing > 0:  # ends are soon met
+        i, last = orders[j, k], orders[j, rank.size - 1 - k]
+        if places[0, rank[i]] < 0:
+            places[0, rank[i]] = i
+            missing -= 1
+        if places[1, rank[last]] < 0:
+            places[1, rank[last]] = last
+            missing -= 1
+        k += 1
+    for r in range(span.size):
+        span[r] = columns[j, places[1, r]] - columns[j, places[0, r]]
