@@ -216,7 +216,13 @@ def sweep_fronts(
 
 @uncounted()
 def take_front(
-    front: int, rest: int, left: Integer, level: Integer, third: Real, tree: Real, rank: NDArray[np.int32]
+    front: int,
+    rest: int,
+    left: NDArray[np.int32],
+    level: NDArray[np.int32],
+    third: Real,
+    tree: Real,
+    rank: NDArray[np.int32],
 ) -> int:
     """Take a front off the first `rest` individuals `left` (n,), with level and third objective; return the rest.
 
