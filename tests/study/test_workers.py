@@ -126,6 +126,15 @@ class Started:
         self.done.append(kind)
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="a process there cannot interrupt itself alone")
+def test_a_start_that_is_interrupted_leaves_no_loop():
+    before = loops()
+    threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt), clusters.local_cluster(1):
+        time.sleep(20)
+    assert loops() == before
+
+
 def test_a_cluster_starts_beside_other_work():
     context = Started()
     with clusters.begun(context) as client:

@@ -7,7 +7,7 @@ import signal
 import sys
 import warnings
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext, suppress
 from multiprocessing.resource_tracker import ensure_running
 from pathlib import Path
@@ -54,21 +54,22 @@ def _local_cluster(jobs: int, dashboard: str | None) -> Iterator["Client"]:
         helper = stack.enter_context(ThreadPoolExecutor(1))
         with _interrupts_blocked():
             starting = helper.submit(_started, jobs, dashboard)
+            stack.callback(_end, starting)
         try:
-            started, client = starting.result()
+            _, client = starting.result()
         except RuntimeError as error:
             raise ChildProcessError(f"processes must start, got: {error.__cause__ or error}") from error
-        except KeyboardInterrupt:
-            _entered(stack, *starting.result())  # never half started
-            raise
-        yield _entered(stack, started, client)
+        yield client
 
 
-def _entered(stack: ExitStack, started: Any, client: "Client") -> "Client":
-    """Return the client of a cluster; the stack closes it, kills the processes and closes the cluster."""
-    stack.enter_context(started)
-    stack.callback(_kill, started)
-    return stack.enter_context(client)
+def _end(starting: "Future[tuple[Any, Client]]") -> None:
+    """Close client and cluster once they have started; kill the processes, which would take seconds to stop."""
+    if starting.exception() is None:
+        started, client = starting.result()
+        with ExitStack() as stack:
+            stack.callback(started.close)
+            stack.callback(_kill, started)
+            stack.callback(client.close)
 
 
 @contextmanager
@@ -145,7 +146,7 @@ def _silence() -> None:
 
 
 def _kill(started: Any) -> None:
-    """Kill the processes of a cluster, which would take seconds to stop."""
+    """Kill the processes of a cluster."""
     import psutil  # of distributed
 
     for nanny in started.workers.values():
