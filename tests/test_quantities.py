@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from suspension_ctrl.quantities import Checked, FrozenMapping, Record, frozen_array, quantity, unit
+from suspension_ctrl.quantities import Checked, FrozenMapping, Record, frozen, frozen_array, kept, quantity, unit
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -162,3 +162,18 @@ def test_a_read_only_array_is_copied_too():
     given.flags.writeable = True
     given[0] = 1.0
     assert kept[0] == 0.0
+
+
+def test_arrays_that_are_read_only_for_good_are_kept_and_others_copied():
+    own = frozen(np.array([[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]]))
+    assert kept(own) is own
+    assert np.shares_memory(kept(own[:, :3]), own)
+    open_ = np.arange(3.0)
+    looked_at = open_[:]
+    looked_at.flags.writeable = False
+    for values in (open_, looked_at, own[:, :2]):  # the owner may change it; numba takes it for another type
+        copy = kept(values)
+        assert not np.shares_memory(copy, values)
+        assert copy.flags.c_contiguous
+        assert not copy.flags.writeable
+        np.testing.assert_array_equal(copy, values)

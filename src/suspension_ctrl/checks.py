@@ -252,12 +252,14 @@ def designs(values: ArrayLike, variables: int) -> NDArray[np.float64]:
     return array
 
 
-def rows_within(name: str, rows: NDArray[np.float64], lower: ArrayLike, upper: ArrayLike) -> None:
+def rows_within(name: str, rows: NDArray[np.float64], lower: Iterable[float], upper: Iterable[float]) -> None:
     """Raise ValueError unless all rows (n, d) are within `lower` and `upper` (d,), up to rounding."""
-    low, high = (np.asarray(bound, dtype=float) for bound in (lower, upper))
-    slack, columns = _SLACK * (high - low), np.ascontiguousarray(rows.T)  # numpy is slow along short rows
+    columns = np.ascontiguousarray(rows.T)  # numpy is slow along short rows
     least, largest = columns.min(axis=1, initial=np.inf), columns.max(axis=1, initial=-np.inf)
-    if not ((least >= low - slack) & (largest <= high + slack)).all():  # or NaN
+    ends = zip(lower, least.tolist(), largest.tolist(), upper, strict=True)  # and slow with few numbers
+    if not all(a - _SLACK * (b - a) <= low and high <= b + _SLACK * (b - a) for a, low, high, b in ends):  # or NaN
+        low, high = (np.asarray(bound, dtype=float) for bound in (lower, upper))
+        slack = _SLACK * (high - low)
         inside = (rows >= low - slack) & (rows <= high + slack)
         got = rows[inside.all(axis=1).argmin()].tolist()
         raise ValueError(f"{name} must lie within {low.tolist()} and {high.tolist()}, got {got}")

@@ -97,6 +97,21 @@ def frozen_array(values: ArrayLike, dtype: type = float) -> NDArray[Any]:
     return array
 
 
+def kept(values: ArrayLike) -> NDArray[Any]:
+    """Return an array that is read-only for good as it is, a read-only copy of other values, as floats."""
+    if isinstance(values, np.ndarray) and not values.flags.writeable and values.flags.c_contiguous:
+        owner = values if values.base is None else values.base
+        if isinstance(owner, np.ndarray) and owner.base is None and not owner.flags.writeable:
+            return values
+    return frozen_array(values)
+
+
+def frozen(array: NDArray[Any]) -> NDArray[Any]:
+    """Make a new array read-only and return it, for `kept`."""
+    array.flags.writeable = False
+    return array
+
+
 class FrozenMapping(Mapping[K, V]):
     """An immutable copy of a mapping, hashable by its items, which can be pickled."""
 

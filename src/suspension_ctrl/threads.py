@@ -54,6 +54,8 @@ def in_blocks(function: Callable[[slice], T], rows: int, work: int, threads: int
     when it is done with one. An exception is that of the first part that has one.
     """
     blocks = max(1, min(rows, work // _LEAST, -(-(work // _BLOCK + 1) // threads) * threads))
+    if blocks == 1:
+        return [function(slice(0, rows))]
     alone = rows * _LATE // work if threads > 1 < blocks else 0
     edges = [0, *(alone + (rows - alone) * i // blocks for i in range(1, blocks + 1))]
     waiting = deque(enumerate(map(slice, edges, edges[1:])))

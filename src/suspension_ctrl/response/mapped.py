@@ -56,7 +56,8 @@ def unmapped(case: Any, designs: Real) -> tuple[Any, Real]:
 def mean_squares_of(case: Any, designs: Real) -> Real:
     """Return the mean squares (p, k) of designs (p, v) in two steps: quicker than both compiled into one."""
     inner, coefficients = unmapped(case, designs)
-    coefficients = np.require(coefficients, requirements=("C", "W"))  # read-only arrays are another type
+    if not coefficients.flags.carray:  # read-only arrays are another type
+        coefficients = coefficients.copy()
     if isinstance(inner, OneStrut) and len(designs) <= _FEW:
         inner = OneDesign(inner)
     return np.asarray(inner(coefficients))

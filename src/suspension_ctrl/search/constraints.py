@@ -49,7 +49,7 @@ def violations(values: Real, m: int) -> Real:
 
 def any_feasible(values: Real, m: int) -> bool:
     """Whether a design meets all constraints, from values (n, m + c)."""
-    return bool((values[:, m:] <= 0.0).all(axis=1).any())
+    return bool((violations(values, m) == 0).any()) if values.shape[1] > m else len(values) > 0
 
 
 def feasible_objectives(values: Real, m: int) -> Real:

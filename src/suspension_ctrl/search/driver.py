@@ -249,7 +249,7 @@ class _Search:
 
 def _rows(before: tuple[float, ...], spent: tuple[float, ...], course: Real) -> Iterator[tuple[float, ...]]:
     """Yield the rows of iterations by their ideal points (k, m), which share equally what was spent in all."""
-    ideals = np.where(course < WORST, course, nan).tolist()
+    ideals = [[one if one < WORST else nan for one in ideal] for ideal in course.tolist()]
     if len(ideals) > 1:
         first, steps = np.array(before), np.arange(1, len(ideals))[:, np.newaxis]
         passed = (first + (spent - first) * steps / len(ideals)).tolist()

@@ -8,7 +8,7 @@ import numpy as np
 from deap.base import Toolbox
 
 from .. import checks
-from ..quantities import unit
+from ..quantities import frozen, unit
 from .constraints import any_feasible, constrained, ideal_with
 from .deap_adapter import select_with_deap
 from .evaluation import SearchProblem
@@ -93,18 +93,22 @@ class Nsga2(Generational):
         """Yield the states of the search in Figure 3 of the paper, see `Optimiser.search`."""
         size, m = self.population, len(problem.objectives)
         state = state or problem.before_the_start()
-        designs, values, ideal, evaluations = state.arrays()
-        rank, crowding = state.memory.get("rank"), state.memory.get("crowding")
+        values, ideal, evaluations = (
+            np.hstack([state.objectives, state.constraints]),
+            state.ideal,
+            state.evaluations,
+        )
         while True:
-            if crowding is None:
+            if not state.memory:
                 children = np.array(toolbox.sample(rng, size), dtype=float)
             else:
-                parents = toolbox.tournament(rng, rank, crowding, size)
-                children = toolbox.mutate(rng, toolbox.mate(rng, designs.take(parents, axis=0)))
+                parents = toolbox.tournament(rng, state.memory["rank"], state.memory["crowding"], size)
+                children = toolbox.mutate(rng, toolbox.mate(rng, state.designs.take(parents, axis=0)))
             new_values = problem.values(toolbox.evaluate, children)
             ideal = ideal_with(ideal, new_values, any_feasible(values, m))
             evaluations += len(children)
-            designs, values = np.concatenate([designs, children]), np.concatenate([values, new_values])
+            designs, values = np.concatenate([state.designs, children]), np.concatenate([values, new_values])
             kept, rank, crowding = toolbox.select(constrained(values, m), size)
-            designs, values = designs.take(kept, axis=0), values.take(kept, axis=0)
-            yield State.of(designs, values, ideal, evaluations, rank=rank, crowding=crowding)
+            designs, values = frozen(designs.take(kept, axis=0)), frozen(values.take(kept, axis=0))
+            state = State.of(designs, values, ideal, evaluations, rank=frozen(rank), crowding=frozen(crowding))
+            yield state

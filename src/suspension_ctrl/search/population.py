@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import checks
-from ..quantities import Bool, Checked, FrozenMapping, Integer, Real, Record, frozen_array
+from ..quantities import Bool, Checked, FrozenMapping, Integer, Real, Record, frozen_array, kept
 from .constraints import violations
 from .indicators import non_dominated
 
@@ -28,7 +28,7 @@ class Population(Record):
 
     def __post_init__(self) -> None:
         self._keep(
-            **{name: frozen_array(getattr(self, name)) for name in ("designs", "objectives", "constraints")}
+            designs=kept(self.designs), objectives=kept(self.objectives), constraints=kept(self.constraints)
         )
         if not self.headers:
             self._keep(headers=numbered_headers(self.designs.shape[1], self.objectives.shape[1]))
@@ -109,12 +109,6 @@ class Generational(Settings):
         return self.population
 
 
-def _kept(values: ArrayLike) -> Real:
-    """Return an array (k,) that a search made read-only as it is, a read-only copy of others."""
-    own = isinstance(values, np.ndarray) and values.base is None and not values.flags.writeable
-    return np.asarray(values) if own else frozen_array(values)
-
-
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class State(Population):
     """The population of a search after an iteration."""
@@ -133,7 +127,7 @@ class State(Population):
         return cls(
             designs=designs, objectives=values[:, : ideal.size], constraints=values[:, ideal.size :],
             ideal=frozen_array(ideal), evaluations=evaluations, course=course,
-            memory=FrozenMapping({name: _kept(value) for name, value in memory.items()}),
+            memory=FrozenMapping({name: kept(value) for name, value in memory.items()}),
         )  # fmt: skip
 
     def arrays(self) -> tuple[Real, Real, Real, int]:
