@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..compiled import compilable, uncounted
-from ..quantities import Bool, Real
-from .lanes import WIDTH, Pair, at, fused, load, put, row_at, spread, store
+from ..quantities import Bool, Integer, Real
+from .lanes import WIDTH, Lanes, Pair, at, fused, load, put, row_at, spread, store
 from .many_struts import ManyStruts, across
 from .network_rows import IN_SERIES, LOSS, NETWORK, OF_RATE
 from .networks_in_lanes import direct_at, fill_nodes, share_at
@@ -19,8 +19,18 @@ if TYPE_CHECKING:
 _ROW = 2 * WIDTH  # numbers of a row of eight complex numbers
 
 
+class Links(NamedTuple):
+    """Rows of networks that act at each of e entries of D, one entry after the other."""
+
+    first: Integer  # (e + 1,), the first link of each entry
+    row: Integer  # (z,), row of the network
+    gain: Real  # (z,)
+
+
 class Room(NamedTuple):
     """Work arrays of some designs (p,), for eight frequencies at a time."""
+
+    links: Links
 
     values: Real  # (p, c), coefficients
     direct: Real  # (p, m, 4), direct elements of every node
@@ -32,6 +42,25 @@ class Room(NamedTuple):
     port: Real  # (2, t, 8), squared deflections of their networks
     loop: Real  # of two designs, see `struts_in_lanes`
     crossed: Bool  # (b,), whether a variable couples struts of a block
+
+
+@compilable()
+def links_of(case: "AnyStruts") -> Links:
+    """Return the rows of networks at the entries of D, without those that have direct elements alone."""
+    networks, gain, v = case.networks, case.struts.gain, case.struts.origin.size
+    t, entries, found = networks.root.size, gain.shape[1], 0
+    links = Links(
+        np.empty(entries + 1, dtype=np.int64), np.empty(entries * t, dtype=np.int64), np.empty(entries * t)
+    )
+    for entry in range(entries):
+        links.first[entry] = found
+        for i in range(t):
+            row = networks.row[networks.root[i]]
+            if row > 0 and gain[v + i, entry] != 0.0:
+                links.row[found], links.gain[found] = row, gain[v + i, entry]
+                found += 1
+    links.first[entries] = found
+    return links
 
 
 @compilable()
@@ -59,7 +88,7 @@ def room_for(case: "AnyStruts", p: int) -> Room:
     for b in range(crossed.size):
         q = struts.sizes[b, 0]
         crossed[b], entry = across(struts, entry, q), entry + q * q
-    return Room(values, direct, elements, seen, sums, plant, nodes, port, loop, crossed)
+    return Room(links_of(case), values, direct, elements, seen, sums, plant, nodes, port, loop, crossed)
 
 
 @uncounted()
@@ -128,15 +157,12 @@ def fill_two(case: "AnyStruts", start: int, p: int, r: int, room: Room) -> None:
 
 
 @uncounted(forceinline=True)
-def stiffness_of_entry(case: "AnyStruts", start: int, entry: int, elements: Real, nodes: Real) -> Pair:
+def stiffness_of_entry(links: Links, w: Lanes, entry: int, elements: Real, nodes: Real) -> Pair:
     """Return the dynamic stiffness at an entry of D of a design, with filled rows of its networks."""
-    networks, v = case.networks, case.struts.origin.size
-    re, im = direct_at(load(case.struts.omega, (start,)), elements, entry)
-    for t in range(networks.root.size):
-        row, gain = networks.row[networks.root[t]], case.struts.gain[v + t, entry]
-        if row > 0 and gain != 0.0:
-            (x, y), factor = row_at(nodes, row), spread(gain)
-            re, im = fused(factor, x, re), fused(factor, y, im)
+    re, im = direct_at(w, elements, entry)
+    for i in range(links.first[entry], links.first[entry + 1]):
+        (x, y), factor = row_at(nodes, links.row[i]), spread(links.gain[i])
+        re, im = fused(factor, x, re), fused(factor, y, im)
     return re, im
 
 
@@ -145,8 +171,9 @@ def add_ports_of_two(
     case: "AnyStruts", start: int, entry: int, sources: int, p: int, plant: Real, j: int, room: Room
 ) -> None:
     """Add the squared deflections of networks in a block of two struts, of the first or second of two designs."""
-    first = stiffness_of_entry(case, start, entry, room.elements[p], room.nodes[j])
-    second = stiffness_of_entry(case, start, entry + 3, room.elements[p], room.nodes[j])
+    w = load(case.struts.omega, (start,))
+    first = stiffness_of_entry(room.links, w, entry, room.elements[p], room.nodes[j])
+    second = stiffness_of_entry(room.links, w, entry + 3, room.elements[p], room.nodes[j])
     squares = squared_deflections(first, second, plant, sources)
     for t in range(case.networks.root.size):
         gain, place = case.struts.gain[case.struts.origin.size + t], (j, t, 0)
@@ -159,10 +186,11 @@ def put_stiffness(
     case: "AnyStruts", start: int, entry: int, q: int, crossed: bool, p: int, r: int, room: Room
 ) -> None:
     """Put D of a block of two designs where their loop is closed."""
+    w = load(case.struts.omega, (start,))
     for j in range(2):
         elements, nodes = room.elements[r if j else p], room.nodes[j if r != p else 0]
         for i in range(0, q * q, 1 if crossed else q + 1):
-            put(stiffness_of_entry(case, start, entry + i, elements, nodes), room.loop, j * rows_for(q) + i)
+            put(stiffness_of_entry(room.links, w, entry + i, elements, nodes), room.loop, j * rows_for(q) + i)
 
 
 @uncounted(forceinline=True)
@@ -201,6 +229,7 @@ def fill_squares(case: "AnyStruts", count: int, room: Room) -> None:
 def add_squares(case: "AnyStruts", start: int, p: int, r: int, room: Room) -> None:
     """Add the squares of all terms of neighbouring designs at eight frequencies from `start`, or of one."""
     struts, row, entry, output = case.struts, 0, 0, 0
+    w = load(struts.omega, (start,))
     fill_two(case, start, p, r, room)
     for b in range(struts.sizes.shape[0]):
         q, s, k = struts.sizes[b]
@@ -208,8 +237,8 @@ def add_squares(case: "AnyStruts", start: int, p: int, r: int, room: Room) -> No
         if q == 2 and not room.crossed[b]:
             for j in range(1 + (r != p)):
                 elements, nodes = room.elements[p + j], room.nodes[j]
-                first = stiffness_of_entry(case, start, entry, elements, nodes)
-                second = stiffness_of_entry(case, start, entry + 3, elements, nodes)
+                first = stiffness_of_entry(room.links, w, entry, elements, nodes)
+                second = stiffness_of_entry(room.links, w, entry + 3, elements, nodes)
                 add_two_struts(first, second, plant, s, response, 1, room.sums[p + j])
         else:
             put_stiffness(case, start, entry, q, room.crossed[b], p, r, room)

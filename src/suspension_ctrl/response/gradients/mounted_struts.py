@@ -14,7 +14,7 @@ from ...vehicles.networks import INERTER, LAW, MEASURED, PARALLEL, RUBBER, SERIE
 from ..any_struts import AnyStruts
 from ..lanes import WIDTH, Lanes, Pair, at, load, product, put, reciprocal, spread, total
 from ..network_rows import COEFFICIENT, DAMPING, DIRECT, INERTANCE, KIND, LOSS, PART, STATES, Networks, fill_direct
-from ..networked_blocks import fill_elements, stiffness_of_entry
+from ..networked_blocks import Links, fill_elements, links_of, stiffness_of_entry
 from ..networks_in_lanes import fill_nodes, stiffness_of, times
 from ..working_point import fill_values
 from . import two_struts
@@ -25,6 +25,7 @@ from .wanted import Wanted, combine, fill_weights, fold
 class Room(NamedTuple):
     """Work arrays of a design."""
 
+    links: Links
     values: Real  # (c,), coefficients
     added: Real  # (v,), values of the variables to those of the origin
     direct: Real  # (m, 4), direct elements of every node
@@ -106,8 +107,8 @@ def room_for(any_struts: AnyStruts, wanted: Wanted) -> Room:
     moments, slopes = np.empty((blocks, most, 6 + 2 * y, WIDTH)), np.empty((v, channels))
     weight, folded = np.empty(wanted.factor.shape), np.empty((wanted.largest.size, channels))
     return Room(
-        values, np.empty(v), direct, elements, nodes, above, leaf[:y], tangent, own, count, heard, number, moments,
-        slopes, weight, folded,
+        links_of(any_struts), values, np.empty(v), direct, elements, nodes, above, leaf[:y], tangent, own, count,
+        heard, number, moments, slopes, weight, folded,
     )  # fmt: skip
 
 
@@ -169,8 +170,8 @@ def fill_moments(any_struts: AnyStruts, room: Room) -> None:
         fill_tangents(any_struts.networks, w, start, room)
         for b in range(room.number.size):
             q, s, k = struts.sizes[b]
-            first = stiffness_of_entry(any_struts, start, 4 * b, room.elements, room.nodes)
-            second = stiffness_of_entry(any_struts, start, 4 * b + 3, room.elements, room.nodes)
+            first = stiffness_of_entry(room.links, w, 4 * b, room.elements, room.nodes)
+            second = stiffness_of_entry(room.links, w, 4 * b + 3, room.elements, room.nodes)
             rows, heard = struts.rows[row : row + (q + k) * (q + s)], room.heard[b, : room.number[b]]
             count = room.owned[b, 0], room.owned[b, 1]
             directions = Directions(damping, inertance, room.tangent, room.own[b], count)
