@@ -15,7 +15,7 @@ from numba import njit, typeof
 import suspension_ctrl
 from functions import dtlz2, srn
 from suspension_ctrl import MoeadDra, Nsga2, minimise
-from suspension_ctrl.compiled import alike, compilable, compiled, entry, once
+from suspension_ctrl.compiled import alike, compilable, compiled, entry, filling, once
 
 
 @compilable()
@@ -35,6 +35,21 @@ def test_an_error_of_a_part_reaches_its_caller():
     assert quarter_of(3.0) == 0.75
     with pytest.raises(ValueError, match="x must be >= 0"):
         quarter_of(-1.0)
+
+
+def reciprocals(x, result):
+    for i in range(x.size):
+        result[i] = 1.0 / x[i]
+
+
+def test_functions_that_fill_arrays_divide_as_numpy_does(tmp_path, monkeypatch):
+    """Without an error by zero; arrays have no counts of references in them."""
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
+    fill, result = filling()(reciprocals), np.empty(2)
+    fill(np.array([0.0, 4.0]), result)
+    np.testing.assert_array_equal(result, [np.inf, 0.25])
+    (code,) = fill.inspect_llvm().values()
+    assert "NRT_incref" not in code
 
 
 def total(x):
