@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ...compiled import compilable, compiled, uncounted
-from ...quantities import Integer, Real
+from ...quantities import Bool, Integer, Real
 from ..lanes import WIDTH, Lanes, empty, fused, load, spread, store, total
-from ..network_fractions import PARTS, row_at
+from ..network_fractions import PARTS, ZERO, put, row_at
 from ..network_rows import DIRECT, Networks, fill_direct
 from ..one_fraction import (
     POWERS,
@@ -28,7 +28,7 @@ from ..one_fraction import (
 from ..one_port import add_beside
 from ..one_strut import clear
 from .network_fractions import change_of_mirrored, fill_changes, whole_change
-from .wanted import Wanted, combine, fill_weights
+from .wanted import Wanted, combine, fill_weights, searched
 
 _TOGETHER = 3
 """Rows of gains that are summed at once with four numerators."""
@@ -38,6 +38,7 @@ class Slopes(NamedTuple):
     """Work arrays of derivatives of a design by v variables."""
 
     change: Real  # (v, m, 4), of direct elements
+    inside: Bool  # (v,), whether a variable changes a part of the network, or elements beside it alone
     changes: Real  # (1 + x, 6), of fractions of parts in series by a variable
     power: Real  # (v, 15), of products of N and S
     gain: Real  # (r, n), of a design, then of its changes, without their sign; r is a multiple of three
@@ -49,10 +50,11 @@ class Slopes(NamedTuple):
 def slopes_for(case: OneFraction, room: Room, variables: int) -> Slopes:
     """Return work arrays, with the changes of direct elements, which are linear in coefficients."""
     networks, one = case.port.networks, np.zeros(room.values.size)
-    change = np.empty((variables, networks.row.size, DIRECT))
+    change, inside = np.empty((variables, networks.row.size, DIRECT)), np.empty(variables, dtype=np.bool_)
     for v in range(variables):
         one[networks.variable[v]] = 1.0
         fill_direct(networks, one, room.state, change[v])
+        inside[v] = changes_part(change[v])
         add_beside(networks, one, change[v])
         one[networks.variable[v]] = 0.0
     gain = empty((variables // _TOGETHER * _TOGETHER + _TOGETHER, case.denominator.shape[1]))
@@ -61,7 +63,17 @@ def slopes_for(case: OneFraction, room: Room, variables: int) -> Slopes:
             gain[r, i] = 0.0
     changes, power = np.empty((room.rows.shape[0] - 1, PARTS)), np.empty((variables, POWERS))
     sums = empty((gain.shape[0], case.term.size, WIDTH))
-    return Slopes(change, changes, power, gain, sums, np.zeros((variables, case.port.terms)))
+    return Slopes(change, inside, changes, power, gain, sums, np.zeros((variables, case.port.terms)))
+
+
+@uncounted()
+def changes_part(change: Real) -> bool:
+    """Whether any direct elements (m, 4) change."""
+    found = False
+    for i in range(change.shape[0]):
+        for j in range(DIRECT):
+            found = found or change[i, j] != 0.0
+    return found
 
 
 @compiled(nogil=True, error_model="numpy")
@@ -74,7 +86,7 @@ def with_slopes(case: OneFraction, wanted: Wanted, designs: Real) -> tuple[Real,
     networks, room = case.port.networks, room_for(case.port.networks)
     slopes, weight = slopes_for(case, room, variables), np.empty(wanted.factor.shape)
     squares, result = np.empty((count, case.port.terms)), np.empty((count, wanted.largest.size, variables))
-    power = np.empty((1, POWERS))
+    power, by_design = np.empty((1, POWERS)), searched(wanted)
     clear(squares)
     for p in range(count):
         fill_fraction(networks, designs, p, room)
@@ -85,7 +97,8 @@ def with_slopes(case: OneFraction, wanted: Wanted, designs: Real) -> tuple[Real,
             fill_change(case.denominator, case.below, v, slopes)
         fill_sums(case, slopes)
         add_slopes(case, power, p, squares, slopes)
-        fill_weights(wanted, squares, p, weight)
+        if p == 0 or by_design:
+            fill_weights(wanted, squares, p, weight)
         combine(weight, slopes.by_variable, p, result)
     return squares, result
 
@@ -94,7 +107,10 @@ def with_slopes(case: OneFraction, wanted: Wanted, designs: Real) -> tuple[Real,
 def fill_power(networks: Networks, room: Room, v: int, scale: float, slopes: Slopes) -> None:
     """Fill in the derivatives of the products of N and S by a variable."""
     change, root = slopes.change[v], networks.root[0]
-    fill_changes(networks, room.direct, room.rows, change, slopes.changes)
+    if slopes.inside[v]:
+        fill_changes(networks, room.direct, room.rows, change, slopes.changes)
+    else:
+        put(ZERO, ZERO, slopes.changes, networks.row[root])
     n, d = row_at(room.rows, room.rows.shape[0] - 1)
     d_n, d_d = whole_change(room.direct, root, room.rows, networks.row[root], change, slopes.changes)
     lower, both = change_of_mirrored(d, d, d_d, d_d), change_of_mirrored(d, n, d_d, d_n)
@@ -135,18 +151,18 @@ def add_lanes(gain: Real, r: int, numerators: Real, rows: tuple[int, int, int, i
     a, b, c, d = rows
     for i in range(0, gain.shape[1], WIDTH):
         x, y, z = load(gain, (r, i)), load(gain, (r + 1, i)), load(gain, (r + 2, i))
-        one, two, three = load(numerators, (a, i)), load(numerators, (b, i)), load(numerators, (c, i))
-        s, t, u = fused(one, x, s), fused(two, x, t), fused(three, x, u)
-        e, f, g = fused(one, y, e), fused(two, y, f), fused(three, y, g)
-        k, m, n = fused(one, z, k), fused(two, z, m), fused(three, z, n)
-        if d > c:
-            four = load(numerators, (d, i))
+        one, two = load(numerators, (a, i)), load(numerators, (b, i))
+        s, e, k = fused(one, x, s), fused(one, y, e), fused(one, z, k)
+        t, f, m = fused(two, x, t), fused(two, y, f), fused(two, z, m)
+        if d > b:
+            three, four = load(numerators, (c, i)), load(numerators, (d, i))
+            u, g, n = fused(three, x, u), fused(three, y, g), fused(three, z, n)
             v, h, o = fused(four, x, v), fused(four, y, h), fused(four, z, o)
-    if d > c:
-        put_three(v, h, o, r, d, sums)
     put_three(s, e, k, r, a, sums)
     put_three(t, f, m, r, b, sums)
-    put_three(u, g, n, r, c, sums)
+    if d > b:
+        put_three(u, g, n, r, c, sums)
+        put_three(v, h, o, r, d, sums)
 
 
 @uncounted(forceinline=True)
