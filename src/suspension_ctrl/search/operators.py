@@ -45,7 +45,7 @@ def fill_winners(pairs: Integer, rank: Integer, crowding: Real, winners: Integer
     for k in range(winners.size):
         one, other = pairs[k, 0], pairs[k, 1]
         less_crowded = (rank[other] == rank[one]) & (crowding[other] > crowding[one])
-        winners[k] = other if (rank[other] < rank[one]) | less_crowded else one
+        winners[k] = pairs[k, np.int64((rank[other] < rank[one]) | less_crowded)]
 
 
 def simulated_binary_crossover(
