@@ -49,6 +49,7 @@ class Networks(NamedTuple):
     compliance: Real  # (q, q), deflections by tensions at 0 Hz around nominal struts [m/N]
     nominal: Real  # (q, q), stiffness of nominal struts [N/m]
     sag: Real  # (q,), deflections by payload on nominal struts [m]
+    same_damping: bool  # whether no variable changes a curve, a damper or a part of a network
 
 
 # Loops in place of reductions and copies of numpy, which take long to compile.

@@ -12,6 +12,7 @@ from .network_rows import (
     IN_SERIES,
     NEXT,
     OF_RATE,
+    SLOPE,
     STATES,
     Networks,
     elements,
@@ -39,6 +40,7 @@ from .working_point import (
     linearise,
 )
 
+_ROUNDS = 3  # each leaves some percent of the distance to the damping at the setting
 _USUAL = 10.0  # damping by the root of the stiffness: damping ratios of some 0.3 of bodies of some 300 kg
 
 
@@ -55,7 +57,7 @@ class OnePort(NamedTuple):
     term: Integer  # (r,), the term of each numerator
     power: Integer  # (r,), its polynomial in D
     excitation: Real  # (2, n), of deflection and rate of the port without a strut, times the density
-    guess: Real  # (3,), deviations of deflection and rate at a damping [N s/m] of the strut
+    guess: Real  # (3,), deviations of deflection and rate at a damping [N s/m] of the strut, about that of the setting
     terms: int
 
     @compilable()
@@ -80,17 +82,37 @@ class OnePort(NamedTuple):
         denominator = _square_of_line(np.ones_like(p22), -p22)
         deflection = np.abs(p21) ** 2 * weight
         excitation = np.array([deflection, omega**2 * deflection])
-        stiffness = networks.nominal[0, 0] + 1j * omega * _USUAL * np.sqrt(networks.nominal[0, 0])
-        loop = 1 - p22 * stiffness
-        deviations = np.sqrt((excitation / np.abs(loop) ** 2).sum(axis=1))
-        guess = np.array([*deviations, _USUAL * np.sqrt(networks.nominal[0, 0])])
-        return cls(networks, omega, denominator, numerators[term, power], term, power, excitation, guess, ports.m)
+        known = _known(networks, omega, p22, excitation)
+        return cls(networks, omega, denominator, numerators[term, power], term, power, excitation, known, ports.m)
 
 
 def _square_of_line(a: Complex, b: Complex) -> Real:
     """Coefficients (4, n) of |a + b D|^2 at 1, Re D, Im D and |D|^2."""
     cross = 2 * a.conj() * b
     return np.stack([np.abs(a) ** 2, cross.real, -cross.imag, np.abs(b) ** 2])
+
+
+def _known(networks: Networks, omega: Real, feedback: Complex, excitation: Real) -> Real:
+    """Return deviations of deflection and rate at a damping (3,): that which force laws have at the setting, or near."""
+    stiffness, damping = networks.nominal[0, 0], _USUAL * np.sqrt(networks.nominal[0, 0])
+    for _ in range(_ROUNDS if len(networks.law) else 1):
+        loop = 1 - feedback * (stiffness + 1j * omega * damping)
+        known = np.array([*np.sqrt((excitation / np.abs(loop) ** 2).sum(axis=1)), damping])
+        damping = _damping(networks._replace(same_damping=False), known)
+        if not 0.0 < damping < np.inf:
+            break
+    return known
+
+
+def _damping(networks: Networks, known: Real) -> float:
+    """Return the damping by dampers and laws of the rate at the setting, at the deviations by those known."""
+    law, values, beside = networks.law, networks.setting, np.empty(1)
+    curve, state = np.empty(networks.laws.number.shape[:3]), np.zeros((len(law), STATES))
+    fill_damping(networks, values, beside)
+    begin(law, networks.laws, values, curve, state)
+    guess(known, networks, curve, values, beside[0], state)
+    linearise(law, networks.laws.most, curve, values, state)
+    return float(beside[0] + (networks.square * state[:, SLOPE])[law[:, OF_RATE] > 0].sum())
 
 
 class Room(NamedTuple):
@@ -138,6 +160,8 @@ def fill_row(
 ) -> None:
     """Fill in the mean squares of one of the designs."""
     fill_values(port.networks.variable, designs, p, room.values)
+    if p == 0 or not port.networks.same_damping:
+        begin(port.networks.law, port.networks.laws, room.values, room.curve, room.state)
     iterations = settle(port, room, statics)
     keep(points, p, room.state, room.position, iterations)
     for term in range(port.terms):
@@ -151,8 +175,7 @@ def settle(port: OnePort, room: Room, statics: bool) -> int:
     networks, law, curve, values, state = port.networks, port.networks.law, room.curve, room.values, room.state
     count, square, plain = networks.laws.most, networks.square, room.rows.shape[0] == 1
     fill_damping(networks, values, room.damping)
-    begin(law, networks.laws, values, curve, state)
-    guess(port.guess, law, count, square, curve, values, room.damping[0], state)
+    guess(port.guess, networks, curve, values, room.damping[0], state)
     change = np.inf if count.size > 0 else 0.0
     for iteration in range(MOST):
         if statics:

@@ -10,14 +10,14 @@ from ..quantities import Bool, Complex, Integer, Real
 from ..vehicles.assembly import GRAVITY, Network, ResponseName
 from ..vehicles.elements import MeasuredStiffness
 from ..vehicles.feedback import has_states
-from ..vehicles.networks import LAW, MEASURED, PARALLEL, SERIES, Program, elements_of
+from ..vehicles.networks import DAMPER, LAW, MEASURED, PARALLEL, SERIES, Program, elements_of
 from ..vehicles.varied import Varied
 from ..vehicles.vehicle import AssembledVehicle, Vehicle
 from .any_struts import AnyStruts
 from .blocks import Pairs, Variables, in_blocks
 from .load_case import LoadCase
 from .mean_position import STIFFNESS, fill_static
-from .network_rows import DIRECT, STATES, Networks, elements, fill_direct, fill_rows, stiffness_at
+from .network_rows import COEFFICIENT, DIRECT, LAW_OF, STATES, Networks, elements, fill_direct, fill_rows, stiffness_at
 from .ports import Ports
 from .working_point import begin, linearise
 
@@ -116,8 +116,18 @@ def networks_of(
         compliance=np.zeros((q, q)),
         nominal=np.zeros((q, q)),
         sag=np.zeros(q),
+        same_damping=True,
     )
+    found = found._replace(same_damping=_same_damping(found))
     return _statics(found, vehicle, setting, values)
+
+
+def _same_damping(networks: Networks) -> bool:
+    """Return whether no variable changes a curve, a damper or a part of a network."""
+    variable, laws = networks.variable, networks.laws
+    parts = np.concatenate([networks.node[:, COEFFICIENT:LAW_OF].ravel(), laws.by.ravel(), laws.power.ravel()])
+    beside = (networks.order == DAMPER) & networks.gain.any(axis=(1, 2))
+    return not (np.isin(variable, parts) | beside[variable]).any()
 
 
 def _statics(networks: Networks, vehicle: Vehicle, setting: Mapping[str, float], values: Real) -> Networks:

@@ -34,6 +34,7 @@ SOON = 1e-4
 _FIRST_RATE, _FIRST_DEFLECTION = 0.2, 0.01  # m/s and m, standard deviations to begin with
 _LARGEST = 2.0  # change of ln s in an iteration
 _QUICK = 15  # iterations before steps become shorter
+_GUESSES = 2  # steps to the first deviations
 
 
 class Points(NamedTuple):
@@ -109,22 +110,15 @@ def linearise(law: Integer, count: Integer, curve: Real, values: Real, state: Re
         state[i, FORCE], state[i, SLOPE], state[i, CHANGE] = force, slope, change
 
 
-@compilable(error_model="numpy")
-def guess(
-    known: Real,
-    law: Integer,
-    count: Integer,
-    square: Real,
-    curve: Real,
-    values: Real,
-    damping: float,
-    state: Real,
-) -> None:
+@compilable(error_model="numpy", forceinline=True)
+def guess(known: Real, networks: Networks, curve: Real, values: Real, damping: float, state: Real) -> None:
     """Take first deviations by those `known` (3,) at another damping: white road velocity keeps s^2 c."""
-    x = 0.0
-    for _ in range(2):
+    law, count, square, x = networks.law, networks.laws.most, networks.square, 0.0
+    for step in range(_GUESSES + 1):
         for i in range(count.size):
-            state[i, DEVIATION] = known[law[i, OF_RATE]] * sqrt(square[i]) * exp(x)
+            state[i, DEVIATION], state[i, MEAN] = known[law[i, OF_RATE]] * sqrt(square[i]) * exp(x), 0.0
+        if networks.same_damping or step == _GUESSES:
+            break
         linearise(law, count, curve, values, state)
         total, rise = damping, 0.0
         for i in range(count.size):

@@ -77,7 +77,8 @@ def settle(networks: Networks, designs: Real, p: int, states: Real, settled: Set
     """
     values, curve, state = settled.values, settled.curve, settled.state
     fill_values(networks.variable, designs, p, values)
-    begin(networks.law, networks.laws, values, curve, state)
+    if p == 0 or not networks.same_damping:
+        begin(networks.law, networks.laws, values, curve, state)
     for law in range(state.shape[0]):
         state[law, DEVIATION], state[law, MEAN] = states[p, law, DEVIATION], states[p, law, MEAN]
     if moves(networks):
