@@ -113,6 +113,23 @@ def test_a_design_alone_and_among_others_is_the_same():
     np.testing.assert_array_equal(together, np.concatenate([problem.evaluate(one[None]) for one in designs]))
 
 
+def test_designs_alike_in_damping_begin_alike():
+    """A stop, whose mean deflection is not that of the design before; and the deviations at the setting itself."""
+    car = on(sc.parallel(TABLE, sc.BumpStop(gap=0.02, stiffness=8e4)))
+    case = sc.LoadCase(vehicle=car, road=ROAD, speed=20.0)
+    squares = case_of(case, [Term("tyre_load")], car.coefficients({"spring": 22e3}), ["spring"], (0.1, 20.0), 256)
+    assert squares.networks.same_damping
+    designs = np.array([[12e3], [30e3], [22e3]])
+    alone = np.concatenate([squares(design[None]) for design in designs])
+    np.testing.assert_array_equal(squares(designs), alone)
+    law = sc.linearised(on(TABLE), {"spring": 22e3}, ROAD, 20.0, band=(0.1, 20.0)).laws["damper"]
+    only = case_of(
+        sc.LoadCase(vehicle=on(TABLE), road=ROAD, speed=20.0), [Term("tyre_load")],
+        on(TABLE).coefficients({"spring": 22e3}), ["spring"], (0.1, 20.0), 512,
+    )  # fmt: skip
+    np.testing.assert_allclose(only.guess[1:], [law.deviation, law.equivalent], rtol=1e-3)
+
+
 def test_best_tyre_load_with_an_inerter():
     """J3 at k = 120 kN/m of a car of 250 kg, 35 kg, 150 kN/m (Smith and Wang 2004, table worked out apart)."""
     frame = {"body_mass": 250.0, "wheel_mass": 35.0, "tyre_stiffness": 150e3}

@@ -36,6 +36,19 @@ def test_laws_and_networks():
     assert networks.variable.tolist() == [list(values).index("rear.spring")]
 
 
+def test_variables_that_change_a_curve_a_damper_or_a_part_change_the_damping():
+    law = sc.TableDamper(velocity=[-1.0, 0.0, 1.0], force=[-900.0, 0.0, 1500.0])
+    mounted = sc.series(sc.Damper("low", 500.0), sc.Spring("mount", 2e5))
+    power = sc.PowerDamper("power", force=100.0, exponent=2.0)
+    strut = sc.parallel(sc.Spring(), sc.Damper("base", 200.0), sc.Inerter(value=5.0), law, mounted, power)
+    car = sc.QuarterCar(body_mass=300.0, wheel_mass=30.0, tyre_stiffness=2e5, strut=strut)
+    values = car.coefficients({"spring": 2e4})
+    alone = {name: networks_of(car, values, [name], np.array([1.0]), np.eye(1) > 0) for name in values}
+    assert {name for name, one in alone.items() if one.same_damping} == {"spring", "inerter"}
+    both = networks_of(car, values, ["spring", "base"], np.array([1.0]), np.eye(1) > 0)
+    assert not both.same_damping
+
+
 def test_a_curve_of_several_axles_leaves_left_and_right_apart():
     """Of a semitrailer: two loops of six struts in place of one of twelve; agreement to rounding."""
     file = sc.load_vehicle("kraz_semitrailer")

@@ -20,9 +20,9 @@ STIFFNESS, DAMPING, INERTANCE, LOSS = range(DIRECT)
 OF_RATE, IN_SERIES, NETWORK, POWER = range(4)
 """Columns of a law; the exponent of a power follows its factor."""
 STATES = 8
-DEVIATION, MEAN, FORCE, SLOPE, CHANGE, BEFORE, STEP, NEXT = range(STATES)
+DEVIATION, MEAN, FORCE, SLOPE, CHANGE, TAKEN, STEP, NEXT = range(STATES)
 """Columns of a law's state: standard deviation s and mean of its own deflection or rate; mean force, slope and its
-change with ln s; ln s and its step in the last iteration; the deviation that results."""
+change with ln s; the change of ln s and its step in the last iteration; the deviation that results."""
 
 
 class Networks(NamedTuple):

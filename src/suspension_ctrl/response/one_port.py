@@ -16,7 +16,6 @@ from .network_rows import (
     STATES,
     Networks,
     elements,
-    fill,
     fill_direct,
     fill_rows,
     fill_share,
@@ -57,7 +56,7 @@ class OnePort(NamedTuple):
     term: Integer  # (r,), the term of each numerator
     power: Integer  # (r,), its polynomial in D
     excitation: Real  # (2, n), of deflection and rate of the port without a strut, times the density
-    guess: Real  # (3,), deviations of deflection and rate at a damping [N s/m] of the strut, about that of the setting
+    guess: Real  # (3,), deviations of deflection and rate at a damping [N s/m] near that of the setting
     terms: int
 
     @compilable()
@@ -93,7 +92,7 @@ def _square_of_line(a: Complex, b: Complex) -> Real:
 
 
 def _known(networks: Networks, omega: Real, feedback: Complex, excitation: Real) -> Real:
-    """Return deviations of deflection and rate at a damping (3,): that which force laws have at the setting, or near."""
+    """Return deviations of deflection and rate, and their damping (3,): near that of force laws at the setting."""
     stiffness, damping = networks.nominal[0, 0], _USUAL * np.sqrt(networks.nominal[0, 0])
     for _ in range(_ROUNDS if len(networks.law) else 1):
         loop = 1 - feedback * (stiffness + 1j * omega * damping)
@@ -210,10 +209,12 @@ def fill_next(port: OnePort, room: Room) -> None:
     """Fill in the deviations that result for every law, by the closed loop."""
     networks, share, state = port.networks, room.share, room.state
     for i in range(state.shape[0]):
-        fill(share, networks.square[i])
+        of_rate = networks.law[i, OF_RATE]
         if networks.law[i, IN_SERIES]:
             fill_share(networks, port.omega, i, room.direct, room.rows, share)
-        state[i, NEXT] = np.sqrt(weighted(room.gain, port.excitation, networks.law[i, OF_RATE], share))
+            state[i, NEXT] = np.sqrt(weighted(room.gain, port.excitation, of_rate, share))
+        else:
+            state[i, NEXT] = np.sqrt(networks.square[i] * product_of(room.gain[0], port.excitation[of_rate]))
 
 
 @compilable(error_model="numpy", forceinline=True)
@@ -278,11 +279,17 @@ def weighted(gain: Real, excitation: Real, of_rate: int, share: Real) -> float:
     return total
 
 
-@compilable(fastmath={"reassoc", "contract", "nsz"})
+@uncounted()
 def add_terms(numerators: Real, term: Integer, power: Integer, gain: Real, p: int, result: Real) -> None:
     """Add the integrals of the numerators (r, n) to the terms of a design (p, k)."""
     for q in range(power.size):
-        total = 0.0
-        for i in range(gain.shape[1]):
-            total += gain[power[q], i] * numerators[q, i]
-        result[p, term[q]] += total
+        result[p, term[q]] += product_of(numerators[q], gain[power[q]])
+
+
+@compilable(fastmath={"reassoc", "contract", "nsz"})
+def product_of(left: Real, right: Real) -> float:
+    """Return the sum of the products of two rows (n,)."""
+    total = 0.0
+    for i in range(left.size):
+        total += left[i] * right[i]
+    return total

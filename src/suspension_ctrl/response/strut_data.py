@@ -17,7 +17,17 @@ from .any_struts import AnyStruts
 from .blocks import Pairs, Variables, in_blocks
 from .load_case import LoadCase
 from .mean_position import STIFFNESS, fill_static
-from .network_rows import COEFFICIENT, DIRECT, LAW_OF, STATES, Networks, elements, fill_direct, fill_rows, stiffness_at
+from .network_rows import (
+    COEFFICIENT,
+    DIRECT,
+    LAW_OF,
+    STATES,
+    Networks,
+    elements,
+    fill_direct,
+    fill_rows,
+    stiffness_at,
+)
 from .ports import Ports
 from .working_point import begin, linearise
 

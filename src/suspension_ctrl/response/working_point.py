@@ -10,7 +10,6 @@ from ..quantities import Integer, Real
 from ..vehicles.networks import Laws, fill_curve
 from .gaussian import of_lines, of_power
 from .network_rows import (
-    BEFORE,
     CHANGE,
     DEVIATION,
     FORCE,
@@ -22,6 +21,7 @@ from .network_rows import (
     SLOPE,
     STATES,
     STEP,
+    TAKEN,
     Networks,
 )
 
@@ -148,12 +148,12 @@ def improve(law: Integer, square: Real, damping: Real, state: Real, iteration: i
         state[i, NEXT] = step
     back = product / length if 0 < iteration < _QUICK and length > 0.0 else 0.0
     for i in range(law.shape[0]):
-        x, step = log(state[i, DEVIATION]), state[i, NEXT]
-        change = step - back * (x - state[i, BEFORE] + step - state[i, STEP])
+        step = state[i, NEXT]
+        change = step - back * (state[i, TAKEN] + step - state[i, STEP])
         if not abs(change) < _LARGEST:
             change = max(-_LARGEST, min(step, _LARGEST))
-        state[i, BEFORE], state[i, STEP] = x, step
-        state[i, DEVIATION] = exp(x + relaxation(iteration) * change)
+        state[i, TAKEN], state[i, STEP] = relaxation(iteration) * change, step
+        state[i, DEVIATION] *= exp(state[i, TAKEN])
     return error
 
 
