@@ -71,6 +71,26 @@ def test_loops_that_are_not_unrolled_have_one_body_and_the_same_bits(tmp_path, m
     assert bodies[False] == 1 < bodies[True]
 
 
+def squared(x, y):
+    for i in range(x.size):
+        y[i] = x[i] * x[i]
+
+
+def test_loops_that_are_not_interleaved_are_shorter_and_give_the_same_bits(tmp_path, monkeypatch):
+    """The squares of 101 numbers: fewer multiplications in the machine code."""
+    numbers, length = np.random.default_rng(0).normal(size=101), {}
+    for interleaved in (True, False):
+        monkeypatch.setattr(
+            numba.config, "CACHE_DIR", str(tmp_path / str(interleaved))
+        )  # stored code is not shown
+        function, squares = compiled(interleaved=interleaved, _nrt=False)(squared), np.empty(101)
+        function(numbers, squares)
+        np.testing.assert_array_equal(squares, numbers**2)
+        code = function.inspect_asm(function.signatures[0])
+        length[interleaved] = len(re.findall(r"\bv?mulpd\b|\bfmul\b", code))
+    assert 0 < length[False] < length[True]
+
+
 def test_what_is_alike_is_of_one_type():
     """Arrays by kind of number, dimensions, order, and whether they may be written and lie aligned."""
     table, bytes_ = np.zeros((4, 3)), np.zeros(25, dtype=np.uint8)

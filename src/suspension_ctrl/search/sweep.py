@@ -180,7 +180,7 @@ _OWN = MatingRange, ChildInSweep, ReplaceInSweep, Linked
 """Verbs that need no counts of references to arrays."""
 
 _OPTIONS: dict[str, Any] = {"_nrt": False, "error_model": "numpy"}
-_UNCOUNTED, _COUNTED = compiled(unrolled=False, **_OPTIONS)(iterate), njit(iterate)
+_UNCOUNTED, _COUNTED = compiled(interleaved=False, **_OPTIONS)(iterate), njit(iterate)
 
 
 class CheckedRange(NamedTuple):
