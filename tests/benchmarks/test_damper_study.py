@@ -27,14 +27,16 @@ def test_straight_dampers_take_the_limits_and_springs_of_the_study():
     )
 
 
-def test_straight_dampers_are_searched_with_the_travel_of_the_curves():
+def test_straight_dampers_are_searched_with_the_travel_of_the_curves(capsys):
     study = sc.load_problem(damper_study.STUDY)
     curves = damper_study.Found("curves", study, SPRINGS | {"front.damper.knee": 0.2}, {}, 1.0)
-    free, held = damper_study.beside(curves, 0.0122, population=40)
+    free, held = damper_study.beside(curves, 0.0122, population=40, seeds=(1, 2))
+    said = capsys.readouterr().out.splitlines()
     assert list(held.design) == ["front.damper", "rear.damper"]
-    for one in (free, held):
+    for one, line in zip((free, held), said, strict=True):
         values = one.problem.evaluate([list(one.design.values())])[0]
         assert (values[2:] <= 0).all()
         assert values[0] == one.objectives["ACC"]
         assert str(one.problem.constraints[0]).startswith("SWS <= 0.01208")
         assert one.seconds > 0
+        assert f"{one.objectives['ACC']:.4g}" == min(line.split()[-2:])

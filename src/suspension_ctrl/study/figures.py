@@ -34,7 +34,7 @@ STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (1, 1)), (0, (3, 1, 1, 1)), (0,
 def anytime(ax: "Axes", quality: pd.DataFrame, over: str = "evaluations") -> None:
     """Draw median and quartiles of the hypervolume over "evaluations" or "seconds", from `lenses.with_seconds`.
 
-    Of fewer than `FEW` runs: median, least and greatest value.
+    Dots mark the judged states. Of fewer than `FEW` runs: median, least and greatest value.
     """
     from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
@@ -43,7 +43,8 @@ def anytime(ax: "Axes", quality: pd.DataFrame, over: str = "evaluations") -> Non
     by_algorithm = quality.groupby("algorithm", sort=False)
     for colour, style, (algorithm, part) in zip(COLOURS, STYLES, by_algorithm, strict=False):
         low, middle, high = (part.groupby(over)[value].quantile(q) for q in (between[0], 0.5, between[1]))
-        ax.plot(middle.index, middle, color=colour, ls=style, lw=1.4, label=escaping.figure(str(algorithm)))
+        label = escaping.figure(str(algorithm))
+        ax.plot(middle.index, middle, color=colour, ls=style, lw=1.4, marker=".", ms=4, label=label)
         ax.fill_between(middle.index, low, high, color=colour, alpha=0.2, lw=0)
     ax.set(xscale="log", xlabel=LABELS[over])
     ax.set_ylabel(LABELS[value], fontsize=9)
