@@ -4,7 +4,7 @@ import numpy as np
 
 from ..compiled import compiled, uncounted
 from ..quantities import Integer, Real
-from .selection import lexicographic
+from .sorting import lexicographic
 
 _POINTS = 1.0  # in a strip, over the root of all
 
