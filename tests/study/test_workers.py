@@ -128,10 +128,14 @@ class Started:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a process there cannot interrupt itself alone")
 def test_a_start_that_is_interrupted_leaves_no_loop():
-    before = loops()
+    """In whatever process: a shell starts those in the background without interrupts."""
+    before, handler = loops(), signal.signal(signal.SIGINT, signal.default_int_handler)
     threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
-    with pytest.raises(KeyboardInterrupt), clusters.local_cluster(1):
-        time.sleep(20)
+    try:
+        with pytest.raises(KeyboardInterrupt), clusters.local_cluster(1):
+            time.sleep(20)
+    finally:
+        signal.signal(signal.SIGINT, handler)
     assert loops() == before
 
 

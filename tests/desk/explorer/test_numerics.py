@@ -38,6 +38,7 @@ from suspension_ctrl.desk.explorer.functions import functions_of
 from suspension_ctrl.desk.explorer.packing import packed
 from suspension_ctrl.desk.explorer.plant_matrices import plant_matrices
 from suspension_ctrl.desk.explorer.plant_ports import plant_ports
+from suspension_ctrl.desk.explorer.record import on_page
 from suspension_ctrl.response.curves import frequencies, setting_of
 from suspension_ctrl.response.linearisation import linear_at, working_points
 from suspension_ctrl.response.mapped import unmapped
@@ -170,7 +171,7 @@ def answers(problems, designs, tmp_path_factory):
         both = zip(problem.scores.cases, problem.scores.settings, strict=True)
         matrices = [plant_matrices(case.vehicle, own, problem.scores.variables) for case, own in both]
         records[name] = {
-            "kernel": packed(kernel), "ports": packed(ports), "matrices": packed(matrices),
+            "kernel": packed(on_page(kernel)), "ports": packed(ports), "matrices": packed(matrices),
             "functions": packed(functions_of(problem)), "designs": designs[name].tolist(),
         }  # fmt: skip
     laws = {name: curves_asked(problems[name]) for name in LAWS}

@@ -13,6 +13,7 @@ from ... import escaping
 from ...quantities import Complex, Integer, Real, column_headers
 from ...response.certificates import Certificate
 from ...response.kernel import Kernel
+from ...response.mapped import Mapped
 from ...response.problem import RideProblem
 from ...search.problem import headers_of
 from ...tables.headers import readable, shown_range, shown_unit, shown_value
@@ -100,12 +101,23 @@ def record_of(
             "others": [_other(layer, headers) for layer in layers],
             "present": _present(problem, study.present),
             "certified": _certified(problem, certificates),
-            "kernel": kernel,
+            "kernel": on_page(kernel),
             "functions": functions,
             **_cases(problem, kernel),
             "study": _text_of(study),
         }
     )
+
+
+def on_page(kernel: Kernel) -> Kernel:
+    """Return a kernel as pages compute it: a fraction as any other port."""
+
+    def port_of(case: Any) -> Any:
+        if isinstance(case, Mapped):
+            return case._replace(case=port_of(case.case))
+        return getattr(case, "port", case)
+
+    return kernel._replace(cases=tuple(map(port_of, kernel.cases)))
 
 
 def _cases(problem: RideProblem, kernel: Kernel) -> dict[str, Any]:
