@@ -269,3 +269,17 @@ def test_a_vehicle_with_force_laws_has_modes_linearised_on_a_road():
     expected = QUARTER.modes({"spring": 22e3, "damper": 1500.0})
     assert found["name"].equals(expected["name"])
     np.testing.assert_allclose(found.iloc[:, 1:], expected.iloc[:, 1:], rtol=1e-6)
+
+
+@pytest.mark.parametrize("damper", [2e3, 8e3, 20e3, 1e6])
+def test_a_mode_meets_the_real_pole_of_a_damper_on_a_mount(damper):
+    """They leave the real axis together, though it is of no mode; a damper of 1 MN s/m holds the mount fast."""
+    body = {"body_mass": 400.0, "wheel_mass": 45.0, "tyre_stiffness": 220e3}
+    mounted = QuarterCar(**body, strut=parallel(Spring(), series(Damper(), Spring("mount", 350e3))))
+    values = {"spring": 10e3, "damper": damper}
+    found, poles = mounted.modes(values), mounted.closed((10e3, damper)).poles()
+    for f in found[DAMPED]:
+        assert np.abs(np.abs(poles.imag) - 2 * np.pi * f).min() < 1e-6 * np.abs(poles).max()
+    if damper == 1e6:
+        expected = QuarterCar(**body).modes({"spring": 360e3, "damper": 0.0})
+        np.testing.assert_allclose(found[DAMPED], expected[DAMPED], rtol=1e-3)

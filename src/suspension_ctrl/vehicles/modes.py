@@ -118,8 +118,13 @@ def _damped(assembly: Assembly, values: Mapping[str, float]) -> Iterator[Real]:
 def _repaired(pairs: Complex, vectors: Complex) -> tuple[Complex, Complex]:
     """Return pairs (m, 2) of conjugates or of real poles, and the shape (s, m) of the first of each.
 
-    Real poles of two modes may have met and left the real axis together.
+    Real poles of two modes may have met and left the real axis together. A real one and that of elements in
+    series, which belongs to no mode, may have too: then the mode has both of what they became.
     """
+    pairs, vectors = pairs.copy(), vectors.copy()
+    poles = pairs.ravel()
+    for one in np.flatnonzero((poles.imag != 0) & ~np.isin(poles.conj(), poles)):
+        poles[one ^ 1], vectors[:, one ^ 1] = poles[one].conj(), vectors[:, one].conj()
     index = np.arange(pairs.size).reshape(-1, 2)
     broken = np.abs(pairs[:, 0].conj() - pairs[:, 1]) > 0
     broken &= (pairs.imag != 0).any(axis=1)
