@@ -106,7 +106,7 @@ def studies() -> dict[str, RideProblem]:
             {"damper.force": (500.0, 2000.0), "damper.exponent": (0.6, 1.6)},
         ),
         "stops": quarter(stops, {"damper": (800.0, 3e3)}),
-        "mount": quarter(mount, {"damper": (800.0, 3e3)}),
+        "mount": quarter(mount, {"damper": (8e3, 20e3)}),
         "network": quarter(parallel(mount, Inerter("inerter", 20.0)), {"damper": (800.0, 3e3)}),
         "rubber": quarter(rubber, {"damper.scale": (0.5, 2.0), "mount.loss": (10e3, 50e3)}),
         "payload": RideProblem(

@@ -98,10 +98,15 @@ function likeness(one, other) {
 
 /**
  * Return pairs of conjugates or of real poles: those of two modes may have met on the real axis and left it together.
- * @param {Complex[]} poles of two for each mode
+ * @param {Complex[]} given of two for each mode
  * @returns {[Complex, Complex][]}
  */
-function repaired(poles) {
+function repaired(given) {
+  const poles = given.map((pole) => /** @type {Complex} */ ([...pole]));
+  poles.forEach(([re, im], i) => { // a real pole has met that of elements in series, which is of no mode
+    const alone = im !== 0 && !poles.some((other) => other[0] === re && other[1] === -im);
+    if (alone) poles[i ^ 1] = [re, -im];
+  });
   const pairs = Array.from({ length: poles.length / 2 }, (_, i) => [2 * i, 2 * i + 1]);
   const broken = pairs.filter(([i, j]) => (poles[i][1] !== 0 || poles[j][1] !== 0) &&
     (poles[i][0] !== poles[j][0] || poles[i][1] !== -poles[j][1]));
