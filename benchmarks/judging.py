@@ -23,21 +23,27 @@ ALGORITHMS = ("nsga2", "moead-dra", "nsga2-gamultiobj", "random", "sobol")
 
 
 def measured(comparison: Comparison, repeats: int = 3) -> pd.DataFrame:
-    """Return a row per population and algorithm: the least processor times [ms] of repeats, states, size."""
+    """Return a row per population and algorithm: the least processor times [ms] of repeats, states, size.
+
+    They are those of the search, of judging, and of judging the states that are compared alone.
+    """
     rows = []
     for population, study in comparison.studies().items():
         traces = {name: searched(study, name)[0] for name in study.algorithms}
         front = best_known([seen.objectives[seen.feasible] for seen in traces.values()])
         for name in study.algorithms:
             timed_judging(traces[name], population, front)
-            searches, judgings, found = [], [], pd.DataFrame()
+            searches, judgings, alone, found = [], [], [], pd.DataFrame()
             for _ in range(repeats):
                 seen, seconds = searched(study, name)
                 searches.append(1e3 * seconds)
                 found, seconds = timed_judging(seen, population, front)
                 judgings.append(1e3 * seconds)
+                few = {one: state for one, state in seen.states.items() if one in comparison.compared(population)}
+                alone.append(1e3 * timed_judging(replace(seen, states=few), population, front)[1])
             size = found[found.set == ARCHIVE].members.max()
             row = {"N": population, "algorithm": name, "search": min(searches), "judging": min(judgings)}
+            row["compared"] = min(alone)
             rows.append(row | {"states": found.evaluations.nunique(), "archive": size})
     return pd.DataFrame(rows)
 
@@ -65,8 +71,9 @@ def main() -> None:
     with limited(1):
         table = measured(search.comparison(study.problem))
     print(table.round(1).to_string(index=False))
-    total = table[["search", "judging"]].sum()
-    print(f"searches {total.search:.0f} ms, judging {total.judging:.0f} ms: {total.judging / total.search:.2f}")
+    total = table[["search", "judging", "compared"]].sum()
+    shares = f"{total.judging / total.search:.2f}, of states compared alone {total.compared / total.search:.2f}"
+    print(f"searches {total.search:.0f} ms, judging {total.judging:.0f} ms: {shares}")
 
 
 if __name__ == "__main__":

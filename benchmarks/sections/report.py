@@ -226,11 +226,11 @@ def _about_roofline(found: Measurements, settings: dict[str, Any]) -> list[str]:
         "series: 24 and a division, and 2 at each strut of a block; the gain of any other strut 13 and a "
         "division, and 1 by each numerator. Force laws, in each iteration for the working point: of one strut "
         "11.5 and half a division, of a block of two 31 and a division, 22 by source and 2 by law.",
-        "Rows with force laws stay below half. By a profile of one strut with a table of 13 rows, 1.1 µs, its "
-        "three linearisations take 0.5 µs, which the count leaves out: normal probabilities and densities at "
-        "each knot, one after the other. Gains and numerators take 0.34 µs. There were five linearisations "
-        "before the search for a working point began at the deviations of the setting; curves that no "
-        "variable changes are filled in once for all designs.",
+        "Rows with force laws stay below half. By a profile of one strut with a table of 13 rows, half of its "
+        "time is three linearisations of the curve, which the count leaves out: normal probabilities and "
+        "densities at each knot, one after the other; a third is gains and numerators. There were five "
+        "linearisations before the search for a working point began at the deviations of the setting; curves "
+        "that no variable changes are filled in once for all designs.",
     ]
 
 

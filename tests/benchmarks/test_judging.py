@@ -12,6 +12,6 @@ def test_searches_and_judging_are_told_by_algorithm():
     )
     table = judging.measured(comparison, repeats=1).set_index("algorithm")
     assert table.N.tolist() == [40, 40]
-    assert (table[["search", "judging"]] > 0).all().all()
+    assert (table[["search", "judging", "compared"]] > 0).all().all()
     assert table.states.tolist() == [2, 2]
     assert table.archive.between(2, 80).all()

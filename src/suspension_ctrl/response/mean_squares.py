@@ -1,7 +1,7 @@
 """Mean squares of a load case's responses over designs: one interface, in Python and in compiled code.
 
 A case is a compiled function from designs (p, v) to mean squares (p, k): `OneStrut` for one spring and one damper,
-`ManyStruts` for all others.
+`OneFraction` and `OnePort` for one strut with a network, `ManyStruts` and `AnyStruts` for others without and with.
 """
 
 from collections.abc import Callable, Mapping, Sequence

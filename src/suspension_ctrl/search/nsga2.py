@@ -93,11 +93,8 @@ class Nsga2(Generational):
         """Yield the states of the search in Figure 3 of the paper, see `Optimiser.search`."""
         size, m = self.population, len(problem.objectives)
         state = state or problem.before_the_start()
-        values, ideal, evaluations = (
-            np.hstack([state.objectives, state.constraints]),
-            state.ideal,
-            state.evaluations,
-        )
+        values = np.hstack([state.objectives, state.constraints])
+        ideal, evaluations = state.ideal, state.evaluations
         while True:
             if not state.memory:
                 children = np.array(toolbox.sample(rng, size), dtype=float)

@@ -94,10 +94,14 @@ class Comparison(Record):
             if population + count * each < most:
                 yield name, EQUAL_EVALUATIONS, population + (most - population) // each * each
 
-    def budgets(self, population: int) -> list[int]:
-        """Return the evaluations at which runs are judged: the start, those compared, and steps between them."""
+    def compared(self, population: int) -> list[int]:
+        """Return the evaluations at which algorithms are compared, and those of the start."""
         spent = {n for count in self.iterations for _, _, n in self._budgets_of(population, count)}
-        compared = sorted({population} | spent)
+        return sorted({population} | spent)
+
+    def budgets(self, population: int) -> list[int]:
+        """Return the evaluations at which runs are judged: those compared, and steps between them."""
+        compared = self.compared(population)
         steps = (step for pair in pairwise(compared) for step in _between(*pair))
         return sorted({*compared, *steps})
 

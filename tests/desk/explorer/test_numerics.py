@@ -51,8 +51,8 @@ HERE = Path(__file__).parent
 NORMALS = np.linspace(-10, 10, 401)
 GAMMAS = np.linspace(0.05, 3.0, 60)
 NAMES = (
-    "quarter", "parameters", "half", "full", "seat", "table", "power", "stops", "mount", "network", "rubber",
-    "payload", "damper curves", "functions", "static loads", "functions of stops",
+    "quarter", "parameters", "half", "full", "seat", "table", "power", "stops", "mount", "hard mount", "network",
+    "rubber", "payload", "damper curves", "functions", "static loads", "functions of stops",
 )  # fmt: skip
 LAWS = ("table", "power", "stops", "damper curves")
 RANDOM = np.random.default_rng(5)
@@ -106,7 +106,8 @@ def studies() -> dict[str, RideProblem]:
             {"damper.force": (500.0, 2000.0), "damper.exponent": (0.6, 1.6)},
         ),
         "stops": quarter(stops, {"damper": (800.0, 3e3)}),
-        "mount": quarter(mount, {"damper": (8e3, 20e3)}),
+        "mount": quarter(mount, {"damper": (800.0, 3e3)}),
+        "hard mount": quarter(mount, {"spring": (9e3, 11e3), "damper": (8e3, 20e3)}),
         "network": quarter(parallel(mount, Inerter("inerter", 20.0)), {"damper": (800.0, 3e3)}),
         "rubber": quarter(rubber, {"damper.scale": (0.5, 2.0), "mount.loss": (10e3, 50e3)}),
         "payload": RideProblem(
